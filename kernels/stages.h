@@ -53,6 +53,7 @@ namespace lanelight {
   X(Interfaces)                                \
   X(Footprints)                                \
   X(Mix)                                       \
+  X(Regularize)                                \
   X(Bumps)                                     \
   X(NormalMaps)                                \
   X(Texture)                                   \

@@ -76,10 +76,10 @@ struct GridEmission {
     const MediumEmission& emission = grid.emission;
     V3 factor = Splat3(1, 1, 1);
     if (emission.channels == 4) {
-      InterpolateSpectra<1>(grid.size, emission.values.data(), place, p, &factor);
+      InterpolateSpectra<1>(emission.size, emission.values.data(), place, p, &factor);
     } else if (!emission.values.empty()) {
       VF v[3];
-      Interpolate(grid.size, emission.values.data(), emission.channels, p, v);
+      Interpolate(emission.size, emission.values.data(), emission.channels, p, v);
       factor = emission.channels == 1 ? V3{v[0], v[0], v[0]} : V3{v[0], v[1], v[2]};
     }
     if (!emission.heated()) return factor;

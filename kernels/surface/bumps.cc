@@ -83,8 +83,9 @@ HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI textu
   const V3 tv = Gather3(path.tv_x, path.tv_y, path.tv_z, slots);
   const auto height = [&](VF at_u, VF at_v) HWY_ATTR {
     const V3 at = MulAdd(tg, hn::Sub(at_u, u), MulAdd(tv, hn::Sub(at_v, v), p));
-    return EvalFloats(table, texture, FilteredPoint{at_u, at_v, at, n, spread},
-                      hn::Zero(DF()));
+    FilteredPoint point = {at_u, at_v, at, n, spread, {}, {}};
+    point.SetSteps(tg, tv);
+    return EvalFloats(table, texture, point, hn::Zero(DF()));
   };
   const VF here = height(u, v), scale = Splat(static_cast<float>(wave.scene->scale));
   const VF rise_u = hn::Sub(height(next_u, v), here);

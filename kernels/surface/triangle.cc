@@ -11,7 +11,7 @@ LANELIGHT_BEGIN_KERNELS
 
 // A vector of hits: vertices in the space of the triangle, barycentric weights.
 struct TriangleLanes {
-  VI prim, material;
+  VI prim, material, flags;
   V3 v0, v1, v2;
   VF b0, b1, b2;
 };
@@ -28,6 +28,7 @@ HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, const Slots& slots) {
   tri.v1 = {w[3], w[4], w[5]};
   tri.v2 = {w[6], w[7], w[8]};
   tri.material = hn::BitCast(DI(), w[offsetof(TriangleRecord, material) / 4]);
+  tri.flags = hn::BitCast(DI(), w[offsetof(TriangleRecord, flags) / 4]);
   tri.b1 = Gather(path.b1, slots);
   tri.b2 = Gather(path.b2, slots);
   tri.b0 = hn::Sub(hn::Sub(Splat(1.0f), tri.b1), tri.b2);
@@ -113,6 +114,36 @@ HWY_INLINE V3 Bitangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
   return IfThenElse(IsUsable(bitangent), bitangent, FrameFromNormal(face).t);
 }
 
+// v mirrored on the plane across `normal`.
+HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
+  const VF share = hn::Div(Dot(v, normal), Dot(normal, normal));
+  return MulAdd(normal, hn::Mul(Splat(-2.0f), share), v);
+}
+
+// The tangents of bilinear patches with normals, turned as their face's normal is to the
+// shading normal. As in pbrt-v4 two mirrors do that, by way of an axis that is far from
+// both normals (Moeller and Hughes 1999, "Efficiently Building a Matrix to Rotate One
+// Vector to Another").
+HWY_NOINLINE void TurnTangents(const Geometry& geometry, const TriangleLanes& tri,
+                               V3 face, V3& tangent, V3& bitangent) {
+  const DI di;
+  const VI flag = hn::Set(di, static_cast<int32_t>(kTurnedTangents));
+  const MF turned = hn::RebindMask(DF(), hn::Eq(hn::And(tri.flags, flag), flag));
+  if (hn::AllFalse(DF(), turned) || geometry.normals.empty()) return;
+  const V3 ns = Normalize(VertexNormal(geometry, tri, face));
+  const auto far = [](VF a, VF b) HWY_ATTR {
+    return hn::Lt(hn::Max(hn::Abs(a), hn::Abs(b)), Splat(0.72f));
+  };
+  const MF x = far(face.x, ns.x), y = hn::AndNot(x, far(face.y, ns.y));
+  const VF one = Splat(1.0f);
+  const V3 axis = {hn::IfThenElseZero(x, one), hn::IfThenElseZero(y, one),
+                   hn::IfThenZeroElse(hn::Or(x, y), one)};
+  const V3 first = axis - face, second = axis - ns;
+  for (V3* v : {&tangent, &bitangent}) {
+    *v = IfThenElse(turned, Mirrored(Mirrored(*v, first), second), *v);
+  }
+}
+
 // Largest |coordinate| of the edges.
 HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
   return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
@@ -121,6 +152,11 @@ HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
 // Edges from the first vertex, and the unit normal of the face.
 struct FaceLanes {
   V3 e1, e2, normal;
+};
+
+struct UvFaceLanes {
+  const UvLanes& uv;
+  const FaceLanes& face;
 };
 
 // Where the point of a hit lies in the scene, and what maps its triangle there.
@@ -196,12 +232,17 @@ HWY_INLINE void StoreUvs(const PathColumns& path, const StoreSlots& slots,
 }
 
 template <bool kInstances>
-HWY_INLINE void StoreTangents(const PathColumns& path, const StoreSlots& slots,
-                              const UvLanes& uv, const FaceLanes& face,
+HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
+                              const TriangleLanes& tri, const UvFaceLanes& flat,
                               const PlaceLanes& at) {
-  V3 tangent = Tangent(uv, face.e1, face.e2, face.normal);
+  const PathColumns& path = wave.path;
+  const auto& [uv, face] = flat;
+  V3 tangent = Tangent(uv, face.e1, face.e2, face.normal), bitangent = tangent;
+  if (path.tv_x != nullptr) bitangent = Bitangent(uv, face.e1, face.e2, face.normal);
+  if (wave.scene->geometry.turned_tangents) {
+    TurnTangents(wave.scene->geometry, tri, face.normal, tangent, bitangent);
+  }
   if (path.tv_x != nullptr) {
-    V3 bitangent = Bitangent(uv, face.e1, face.e2, face.normal);
     if constexpr (kInstances) bitangent = at.maps.scene_from_object.Vector(bitangent);
     Scatter3(bitangent, path.tv_x, path.tv_y, path.tv_z, slots);
   }
@@ -226,7 +267,7 @@ HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
   if (!wanted || geometry.uvs.empty()) return;
   const UvLanes uv = LoadUvs(geometry, tri.prim);
   if (path.uv_u != nullptr) StoreUvs(path, slots, tri, uv);
-  if (path.tg_x != nullptr) StoreTangents<kInstances>(path, slots, uv, face, at);
+  if (path.tg_x != nullptr) StoreTangents<kInstances>(wave, slots, tri, {uv, face}, at);
 }
 
 template <bool kInstances, bool kMoving, bool kDetails>

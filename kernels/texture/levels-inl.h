@@ -29,16 +29,24 @@ LANELIGHT_INLINE Footprint LoadFootprint(const PathColumns& path, const Slots& s
           Gather(path.spread_2, slots), Gather(path.spread_3, slots)};
 }
 
-/// A point for all textures, images of which are filtered; p and n as in PlacedPoint.
+/// A point for all textures, which are filtered; p and n as in PlacedPoint. The steps
+/// from one pixel to the next along the surface are read by mappings of places.
 struct FilteredPoint {
   static constexpr bool kHasPlace = true, kHasFootprint = true;
   VF u, v;
   V3 p, n;
   Footprint spread;
+  V3 step_x, step_y;
 
+  LANELIGHT_INLINE void SetSteps(V3 tg, V3 tv) {
+    step_x = MulAdd(tg, spread.dudx, Mul(tv, spread.dvdx));
+    step_y = MulAdd(tg, spread.dudy, Mul(tv, spread.dvdy));
+  }
   LANELIGHT_INLINE FilteredPoint Only(MF mine) const {
     return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v),
-            IfThenElseZero(mine, p), n, spread.Only(mine)};
+            IfThenElseZero(mine, p),     n,
+            spread.Only(mine),           IfThenElseZero(mine, step_x),
+            IfThenElseZero(mine, step_y)};
   }
 };
 
@@ -77,13 +85,9 @@ LANELIGHT_INLINE V3 EvalTrilinear(const TextureTable& table, const TextureNode& 
   return Lerp(color, EvalLevel(table, node, next, s, t), weight);
 }
 
-/// Steps in texels of the image, `x` and `y` those of a pixel.
-struct TexelSteps {
-  VF s_x, t_x, s_y, t_y;
-};
-
+// `d`: steps in texels of the image.
 LANELIGHT_INLINE V3 EvalAlongLine(const TextureTable& table, const TextureNode& node,
-                                  const TexelSteps& d, VF s, VF t) {
+                                  const MapSteps& d, VF s, VF t) {
   const DF df;
   const TextureImage& image = table.images[node.image];
   const VF one = Splat(1.0f), two = Splat(2.0f);
@@ -119,12 +123,12 @@ LANELIGHT_INLINE V3 EvalAlongLine(const TextureTable& table, const TextureNode& 
 
 /// The image of a node that has levels, at (s, t), over a footprint.
 inline HWY_NOINLINE V3 EvalFiltered(const TextureTable& table, const TextureNode& node,
-                                    VF s, VF t, const Footprint& f) {
+                                    VF s, VF t, const MapSteps& f) {
   const TextureImage& image = table.images[node.image];
-  const VF w = Splat(node.su * static_cast<float>(image.width));
-  const VF h = Splat(node.sv * static_cast<float>(image.height));
-  const TexelSteps d = {hn::Mul(f.dudx, w), hn::Mul(f.dvdx, h), hn::Mul(f.dudy, w),
-                        hn::Mul(f.dvdy, h)};
+  const VF w = Splat(static_cast<float>(image.width));
+  const VF h = Splat(static_cast<float>(image.height));
+  const MapSteps d = {hn::Mul(f.s_x, w), hn::Mul(f.t_x, h), hn::Mul(f.s_y, w),
+                      hn::Mul(f.t_y, h)};
   if (node.filter == ImageFilter::kEwa) {
     return FinishTexel(node, EvalAlongLine(table, node, d, s, t));
   }

@@ -74,6 +74,43 @@ LANELIGHT_INLINE TexturePair MapPoint(const TextureNode& node, const Point& at) 
           hn::MulAdd(at.v, Splat(node.sv), Splat(node.dv))};
 }
 
+/// What a step to the next pixel is in the coordinates of a lookup.
+struct MapSteps {
+  VF s_x, t_x, s_y, t_y;
+};
+
+/// Of a point with a footprint, by the node's mapping.
+template <class Point>
+LANELIGHT_INLINE MapSteps StepsOf(const TextureNode& node, const Point& at) {
+  if (node.mapping == MappingKind::kUv) {
+    const VF su = Splat(node.su), sv = Splat(node.sv);
+    return {hn::Mul(at.spread.dudx, su), hn::Mul(at.spread.dvdx, sv),
+            hn::Mul(at.spread.dudy, su), hn::Mul(at.spread.dvdy, sv)};
+  }
+  const auto turned = [&](V3 v) HWY_ATTR {
+    const auto row = [&](int r) HWY_ATTR {
+      const float* m = node.place[r];
+      return Dot(v, Splat3(m[0], m[1], m[2]));
+    };
+    return V3{row(0), row(1), row(2)};
+  };
+  const V3 x = turned(at.step_x), y = turned(at.step_y);
+  if (node.mapping == MappingKind::kPlanar) return {x.x, x.y, y.x, y.y};
+  const V3 q = PlaceOf(node, at.p);
+  const VF tiny = Splat(1e-20f), per_turn = Splat(0.159154943f);
+  const VF across2 = hn::Max(hn::MulAdd(q.x, q.x, hn::Mul(q.y, q.y)), tiny);
+  const VF turn = hn::Div(per_turn, across2);
+  const V3 around = {hn::Neg(hn::Mul(q.y, turn)), hn::Mul(q.x, turn), hn::Zero(DF())};
+  if (node.mapping == MappingKind::kCylindrical) {
+    return {Dot(around, x), x.z, Dot(around, y), y.z};
+  }
+  const VF across = hn::Sqrt(across2);
+  const VF scale =
+      hn::Div(Splat(0.318309886f), hn::Mul(across, hn::MulAdd(q.z, q.z, across2)));
+  const V3 down = Mul(V3{hn::Mul(q.x, q.z), hn::Mul(q.y, q.z), hn::Neg(across2)}, scale);
+  return {Dot(down, x), Dot(around, x), Dot(down, y), Dot(around, y)};
+}
+
 LANELIGHT_END_KERNELS
 
 #endif

@@ -23,6 +23,43 @@ LANELIGHT_INLINE MF EvenCell(V3 q) {
   return hn::Eq(hn::IfThenZeroElse(odd, Splat(1.0f)), OddCell(q.z));
 }
 
+/// Mean of a square wave over a triangle filter that reaches `reach` to either side of x.
+/// The wave is 1 where floor(x) is even, else -1.
+LANELIGHT_INLINE VF FilteredWave(VF x, VF reach) {
+  const VF half = Splat(0.5f), one = Splat(1.0f), two = Splat(2.0f);
+  const VF sign = hn::NegMulAdd(two, OddCell(x), one);
+  // Up to a reach of 1/2 the filter covers one edge at most, that nearest to x.
+  const VF in_cell = hn::Sub(x, hn::Floor(x));
+  const VF edge = hn::Min(in_cell, hn::Sub(one, in_cell));
+  const MF clear = hn::Ge(edge, reach);
+  const VF safe = hn::IfThenElse(clear, one, reach);
+  const VF beyond = hn::IfThenZeroElse(clear, hn::Sub(one, hn::Div(edge, safe)));
+  const VF narrow = hn::Mul(sign, hn::NegMulAdd(beyond, beyond, one));
+  const MF wide = hn::Gt(reach, half);
+  if (hn::AllFalse(DF(), wide)) return narrow;
+  // Else the second difference of the second integral of the wave, which has its period.
+  const auto integral = [&](VF at) HWY_ATTR {
+    const VF turns = hn::Mul(at, half);
+    const VF y = hn::Sub(hn::Sub(turns, hn::Floor(turns)), half);
+    return hn::Mul(y, hn::NegMulAdd(two, hn::Abs(y), one));
+  };
+  const VF difference =
+      hn::NegMulAdd(two, integral(x),
+                    hn::Add(integral(hn::Add(x, reach)), integral(hn::Sub(x, reach))));
+  return hn::IfThenElse(wide, hn::Div(difference, hn::Mul(reach, reach)), narrow);
+}
+
+/// How much of the second colour a checkerboard has about (s, t) over a footprint, with
+/// pbrt-v4's filter: a triangle that reaches 1.5 times the longer step to either side.
+LANELIGHT_INLINE VF SecondOfChecks(const TexturePair& st, const MapSteps& d) {
+  const auto reach = [](VF x, VF y) HWY_ATTR {
+    return hn::Mul(Splat(1.5f), hn::Max(hn::Abs(x), hn::Abs(y)));
+  };
+  const VF product = hn::Mul(FilteredWave(st.s, reach(d.s_x, d.s_y)),
+                             FilteredWave(st.t, reach(d.t_x, d.t_y)));
+  return hn::NegMulAdd(Splat(0.5f), product, Splat(0.5f));
+}
+
 /// Lanes inside of a dot: in half of the unit cells around integers there is one of
 /// radius 0.35, shifted as far as the cell has room, all by the noise of the cell.
 inline HWY_NOINLINE MF InsideDot(VF s, VF t) {

@@ -60,13 +60,22 @@ LANELIGHT_INLINE V3 Upsampled(const CompiledScene& scene, VI kind, VI material, 
     return hn::RebindMask(df, hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k))));
   };
   const MF metal = is(PathColor::kMetalExtinction), unbounded = is(PathColor::kUnbounded);
-  if (hn::AllFalse(df, hn::Or(metal, unbounded))) {
+  const MF scaled = is(PathColor::kScaledReflectance);
+  if (hn::AllFalse(df, hn::Or(scaled, hn::Or(metal, unbounded)))) {
     return UpsampledReflectances(table, color, at);
   }
   const VF index =
       hn::IfThenElse(metal, Lookup(scene.materials.color0_r, material), Splat(1.0f));
   const V3 reflectance = IfThenElse(metal, HeadOn(color, index), color);
-  const V3 value = UpsampledReflectances(table, reflectance, at);
+  V3 value = UpsampledReflectances(table, reflectance, at);
+  if (!hn::AllFalse(df, scaled)) {
+    const VF scale = Lookup(scene.materials.color_scale, material), one = Splat(1.0f);
+    const V3 product = Mul(value, scale);
+    value = IfThenElse(
+        scaled,
+        {hn::Min(product.x, one), hn::Min(product.y, one), hn::Min(product.z, one)},
+        value);
+  }
   return IfThenElse(unbounded, UpsampledColors(table, color, at),
                     IfThenElse(metal, Mul(MetalExtinction(value), index), value));
 }

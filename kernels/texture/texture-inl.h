@@ -37,12 +37,9 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& 
     x = hn::Mul(flip ? hn::Sub(one, f) : f, n);  // [0, n]
   } else {
     if (flip) s = hn::Sub(one, s);
-    if (node.wrap == WrapMode::kOctahedralSphere) {
-      x = hn::Mul(hn::Min(hn::Max(s, Splat(0.0f)), one), n);
-    } else {
-      // Far outside all is the same; this keeps the conversion to integers in range.
-      x = hn::Min(hn::Max(hn::Mul(s, n), Splat(-2.0f)), hn::Add(n, Splat(2.0f)));
-    }
+    // Far outside all is the same; this keeps the conversion to integers in range.
+    const VF far = node.wrap == WrapMode::kOctahedralSphere ? n : Splat(2.0f);
+    x = hn::Min(hn::Max(hn::Mul(s, n), hn::Neg(far)), hn::Add(n, far));
   }
   if (node.bilinear) x = hn::Sub(x, Splat(0.5f));
   const VF low = hn::Floor(x);
@@ -52,8 +49,9 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& 
 }
 
 /// Texel index of column i, row j of w x h after wrapping; clears `inside` where the wrap
-/// mode makes the texel black. The octahedral map continues across an edge of the square
-/// with the texels of the same edge, mirrored about its middle.
+/// mode makes the texel black. The octahedral map is folded once across each edge of the
+/// square: it continues there with its own texels, turned about the middle of the edge.
+/// As in pbrt-v4, texel -1 is texel 1, while n is n - 1.
 LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& inside) {
   const DI di;
   const DF df;
@@ -70,11 +68,15 @@ LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& insi
     inside = hn::And(inside, hn::RebindMask(df, hn::And(in_columns, in_rows)));
   } else if (wrap == WrapMode::kOctahedralSphere) {
     const VI last_i = hn::Sub(w, one), last_j = hn::Sub(h, one);
-    const auto out_i = hn::Or(hn::Lt(i, zero), hn::Gt(i, last_i));
-    j = hn::IfThenElse(out_i, hn::Sub(last_j, j), j);
-    i = ClampIndex(i, w);
-    const auto out_j = hn::Or(hn::Lt(j, zero), hn::Gt(j, last_j));
-    i = hn::IfThenElse(out_j, hn::Sub(last_i, i), i);
+    const auto fold = [&](VI& along, VI last, VI& across, VI last_across) HWY_ATTR {
+      const auto above = hn::Gt(along, last);
+      const auto outside = hn::Or(hn::Lt(along, zero), above);
+      const VI from_last = hn::Sub(hn::Add(last, hn::Add(last, one)), along);
+      along = hn::IfThenElse(above, from_last, hn::Abs(along));
+      across = hn::IfThenElse(outside, hn::Sub(last_across, across), across);
+    };
+    fold(i, last_i, j, last_j);
+    fold(j, last_j, i, last_i);
   }
   i = ClampIndex(i, w);
   j = ClampIndex(j, h);
@@ -136,6 +138,14 @@ LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node
   return FinishTexel(node, color);
 }
 
+/// Alpha of a roughness, or of its root, as Integrator::regularize has it.
+LANELIGHT_INLINE VF RegularAlpha(VF roughness, bool remap) {
+  const VF given = hn::Max(roughness, Splat(0.0f));
+  const VF alpha = remap ? hn::Sqrt(given) : given;
+  const VF rougher = hn::Clamp(hn::Add(alpha, alpha), Splat(0.1f), Splat(0.3f));
+  return hn::IfThenElse(hn::Lt(alpha, Splat(0.3f)), rougher, alpha);
+}
+
 /// Between four corners, v00, v01, v10 and v11 of (s, t).
 LANELIGHT_INLINE V3 BetweenCorners(const V3 corner[4], VF s, VF t) {
   return Lerp(Lerp(corner[0], corner[1], t), Lerp(corner[2], corner[3], t), s);
@@ -168,6 +178,13 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
         value[i] = Lerp(operand(0), operand(1), operand(2).x);
         break;
       case TextureKind::kCheckerboard: {
+        if constexpr (Point::kHasFootprint) {
+          if (node.filter >= ImageFilter::kTrilinear) {
+            const VF second = SecondOfChecks(st, StepsOf(node, at));
+            value[i] = Lerp(operand(0), operand(1), second);
+            break;
+          }
+        }
         MF even = EvenCell(st.s, st.t);
         if constexpr (Point::kHasPlace) {
           if (node.solid) even = EvenCell(PlaceOf(node, at.p));
@@ -178,10 +195,7 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
       case TextureKind::kImage:
         if constexpr (Point::kHasFootprint) {
           if (node.filter >= ImageFilter::kTrilinear) {
-            // Of other mappings the footprint is not known.
-            const bool by_uv = node.mapping == MappingKind::kUv;
-            const auto spread = by_uv ? at.spread : at.spread.Only(hn::FirstN(DF(), 0));
-            value[i] = EvalFiltered(table, node, st.s, st.t, spread);
+            value[i] = EvalFiltered(table, node, st.s, st.t, StepsOf(node, at));
             break;
           }
         }
@@ -202,6 +216,11 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
       case TextureKind::kCoatedBase:
         value[i] = CoatedBaseColor(table.fits.data() + node.fit, operand(0));
         break;
+      case TextureKind::kRegularAlpha: {
+        const VF alpha = RegularAlpha(operand(0).x, node.constant[2][0] != 0);
+        value[i] = {alpha, alpha, alpha};
+        break;
+      }
       case TextureKind::kDirectionMix:
         if constexpr (Point::kHasPlace) {
           const float* d = node.place[0];

@@ -64,15 +64,24 @@ LANELIGHT_INLINE Slots SlotsAt(const Queue& queue, uint32_t i) {
   return Slots(hn::BitCast(DI(), hn::LoadU(DU(), queue.items + i)));
 }
 
+// `places`: what is looked up depends on them.
 template <class Point>
-LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots) {
+LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
+                                 bool places) {
   const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
   if constexpr (Point::kHasPlace) {
     Point at;
     at.u = u, at.v = v;
     at.p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     at.n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-    if constexpr (Point::kHasFootprint) at.spread = LoadFootprint(path, slots);
+    if constexpr (Point::kHasFootprint) {
+      at.spread = LoadFootprint(path, slots);
+      at.step_x = at.step_y = Splat3(0, 0, 0);
+      if (places) {
+        at.SetSteps(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
+                    Gather3(path.tv_x, path.tv_y, path.tv_z, slots));
+      }
+    }
     return at;
   } else {
     return Point{u, v};
@@ -85,6 +94,7 @@ template <class Point, class Parameter>
 HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   const DI di;
   const PathColumns& path = wave.path;
+  const TextureTable& table = wave.scene->textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
   HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
@@ -103,10 +113,11 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
     }
     while (!hits.empty()) {
       const int32_t texture = hits.Take(taken);
+      const bool places = table.programs[texture].uses_place;
       for (uint32_t i = 0; i < taken.size; i += lanes) {
         const StoreSlots slots = SlotsAt(taken, i);
         const V3 value =
-            EvalTexture(wave.scene->textures, texture, LoadPoint<Point>(path, slots));
+            EvalTexture(table, texture, LoadPoint<Point>(path, slots, places));
         parameter.StoreTextured(slots, Gather(path.material, slots), value);
       }
     }
@@ -231,7 +242,7 @@ Stage TextureStage() {
           .input = QueueId::kSurface,
           .needs = {Feature::kTextures},
           .reads = FieldSet{Field::material} | fields::kUv | fields::kPoint |
-                   fields::kNormal | fields::kSpread,
+                   fields::kNormal | fields::kSpread | fields::kTangents,
           .writes = fields::kParameters,
           .resolve = [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));

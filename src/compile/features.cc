@@ -80,9 +80,8 @@ void AddLights(const CompiledScene& scene, FeatureSet& features) {
 
 bool FiltersTextures(const TextureTable& textures) {
   return std::any_of(
-      textures.nodes.begin(), textures.nodes.end(), [](const TextureNode& node) {
-        return node.kind == TextureKind::kImage && node.filter >= ImageFilter::kTrilinear;
-      });
+      textures.nodes.begin(), textures.nodes.end(),
+      [](const TextureNode& node) { return node.filter >= ImageFilter::kTrilinear; });
 }
 
 Feature FeatureOf(CameraKind camera) {
@@ -185,6 +184,7 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
   }
   if (!g.normals.empty()) features.Add(Feature::kVertexNormals);
   if (scene.integrator.force_diffuse) ForceDiffuse(scene.materials, features);
+  if (!scene.materials.regular.empty()) features.Add(Feature::kRegularizes);
   AddMedia(scene.media, features);
   if (scene.integrator.transport == Transport::kSpectral) AddSpectra(scene, features);
   // Cut-outs and weights of mixes are looked up unfiltered.

@@ -98,6 +98,9 @@ void CompileMeshes(const std::vector<Job>& jobs,
   });
   out.has_vertex_normals = has_normals.load();
   if (!out.has_vertex_normals) g.normals = {};
+  g.turned_tangents = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
+    return job.placed->mesh->turns_tangents;
+  });
 }
 
 void SetFaceAreas(const Job& job, const Geometry& g) {

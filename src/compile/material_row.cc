@@ -26,6 +26,7 @@ void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
   const ColorBound bound = metal ? ColorBound::kUnbounded : ColorBound::kReflectance;
   const auto by_path = [&] {
     spectra.NeedSigmoids();
+    if (row.color_scale != 1) return PathColor::kScaledReflectance;
     if (!metal) return PathColor::kReflectance;
     return row.by_reflectance ? PathColor::kMetalExtinction : PathColor::kUnbounded;
   };
@@ -36,6 +37,7 @@ void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
   add(row.color0, bound, table.color0_spectrum);
   add(row.color1, bound, table.color1_spectrum);
   add(row.coat_albedo, ColorBound::kReflectance, table.coat_albedo_spectrum);
+  table.color_scale.push_back(static_cast<float>(row.color_scale));
   table.eta_spectrum.push_back(
       row.dispersion == nullptr ? -1 : spectra.OfIndex(*row.dispersion));
 }

@@ -22,6 +22,7 @@ inline constexpr double kMinAlpha = 1e-4;
 struct MaterialRow {
   ShadeKind kind = ShadeKind::kDiffuse;
   ColorValue color0, color1;
+  double color_scale = 1;       // of diffusetransmission, as in MaterialTable
   bool by_reflectance = false;  // a metal: color1 comes of its reflectance
   FloatValue alpha_x, alpha_y, alpha2_x, alpha2_y;
   double eta = 1;

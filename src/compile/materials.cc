@@ -30,6 +30,7 @@ class Builder {
   std::int32_t Compile(const Material& m, const std::vector<Index>& sides);
   std::int32_t Push(MaterialRow row);
   void Force(MaterialTable& table);
+  void Regularize(MaterialTable& table);
   void CorrectBases(MaterialTable& table);
 
   const SceneDescription& d_;
@@ -117,11 +118,40 @@ void Builder::Force(MaterialTable& table) {
   table.forced = static_cast<std::uint32_t>(Push(std::move(row)));
 }
 
+// Behind the rows of the scene those that stand for them where paths are to meet rougher
+// surfaces.
+void Builder::Regularize(MaterialTable& table) {
+  const std::size_t count = rows_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    table.regular.push_back(static_cast<std::int32_t>(i));
+  }
+  for (std::size_t i = 0; i < d_.materials.size(); ++i) {
+    const Material& m = d_.materials[i];
+    const bool microfacets = m.kind == MaterialKind::kConductor ||
+                             m.kind == MaterialKind::kDielectric ||
+                             m.kind == MaterialKind::kCoatedDiffuse ||
+                             m.kind == MaterialKind::kCoatedConductor;
+    if (index_[i] < 0 || !microfacets) continue;
+    MaterialRow row = build_.RegularRowOf(m);
+    row.name = m.name;
+    row.relief = rows_[static_cast<std::size_t>(index_[i])].relief;
+    table.regular[static_cast<std::size_t>(index_[i])] = Push(std::move(row));
+  }
+  if (rows_.size() == count) return table.regular.clear();
+  for (std::size_t i = count; i < rows_.size(); ++i) {
+    table.regular.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
 CompiledMaterials Builder::Finish() {
   CompiledMaterials out;
   out.index = index_;
   out.spectra = spectra_;
-  if (d_.integrator.force_diffuse) Force(out.table);
+  if (d_.integrator.force_diffuse) {
+    Force(out.table);  // what scatters evenly has no roughness
+  } else if (d_.integrator.regularize) {
+    Regularize(out.table);
+  }
   for (const MaterialRow& row : rows_) AddMaterialRow(row, out);
   AddMeasured(rows_, out.table.measured,
               spectra_ == nullptr ? Transport::kRgb : Transport::kSpectral);

@@ -47,6 +47,8 @@ MediumEmission CompileMediumEmission(const Medium& medium, Transport transport) 
   if (medium.emission == Rgb{}) return emission;
   const bool colors = medium.kind == MediumKind::kRgbGrid;
   const auto& e = medium.emission_grid;
+  const bool single = !colors && e.size() == 1;
+  for (int a = 0; a < 3; ++a) emission.size[a] = single ? 1 : medium.grid_size[a];
   if (colors && transport == Transport::kSpectral) {
     emission.channels = 4;
     for (std::size_t v = 0; v < e.size(); v += 3) {

@@ -46,6 +46,11 @@ OwnSpectrum Changed(const OwnSpectrum& spectrum, const Change& change) {
       [spectrum, change](double nm) { return change((*spectrum)(nm)); });
 }
 
+// What Integrator::regularize makes of alpha.
+double RegularAlpha(double alpha) {
+  return alpha < 0.3 ? std::clamp(2 * alpha, 0.1, 0.3) : alpha;
+}
+
 // Of a metal of index 1 whose reflectance head-on is r.
 double Extinction(double r) {
   const double below = std::clamp(r, 0.0, kMaxMetalReflectance);
@@ -64,6 +69,25 @@ ColorValue RowBuilder::Reflectance(const ColorValue& v) const {
   ColorValue color = Color(v);
   if (!IsTextured(color)) color.constant = Clamped(color.constant, 1);
   return color;
+}
+
+// Scaled and then clamped, at each wavelength where paths carry those (as pbrt-v4).
+// Textures are scaled there too, by MaterialRow::color_scale.
+ColorValue RowBuilder::ScaledReflectance(const ColorValue& v, double scale) {
+  const bool spectral = d_.integrator.transport == Transport::kSpectral;
+  const ColorValue color = Color(v);
+  if (scale == 1) return Reflectance(v);
+  if (IsTextured(color)) {
+    return spectral ? color : Derived(TextureKind::kScale, color, scale);
+  }
+  ColorValue scaled = {Clamped(color.constant * scale, 1), kNone};
+  if (!spectral) return scaled;
+  const OwnSpectrum own =
+      color.spectrum != nullptr
+          ? color.spectrum
+          : std::make_shared<const Spectrum>(UpsampledReflectance(color.constant));
+  scaled.spectrum = Changed(own, [=](double r) { return std::min(r * scale, 1.0); });
+  return scaled;
 }
 
 // Whether the medium in a coat does more than absorb.
@@ -140,16 +164,29 @@ ColorValue RowBuilder::Scaled(const ColorValue& value, double scale) {
   return scale == 1 ? value : Derived(TextureKind::kScale, value, scale);
 }
 
-FloatValue RowBuilder::Alpha(const FloatValue& v, bool remap) const {
+FloatValue RowBuilder::Alpha(const FloatValue& v, bool remap) {
   FloatValue alpha = constants_.Fold(v);
-  if (!IsTextured(alpha)) alpha.constant = AlphaOfRoughness(alpha.constant, remap);
+  if (!IsTextured(alpha)) {
+    alpha.constant = AlphaOfRoughness(alpha.constant, remap);
+    if (regular_) alpha.constant = RegularAlpha(alpha.constant);
+  } else if (regular_) {
+    const ColorValue roughness = {{}, alpha.texture};
+    alpha.texture = Derived(TextureKind::kRegularAlpha, roughness, remap ? 1 : 0).texture;
+  }
   return alpha;
+}
+
+MaterialRow RowBuilder::RegularRowOf(const Material& m) {
+  regular_ = true;
+  MaterialRow row = RowOf(m);
+  regular_ = false;
+  return row;
 }
 
 void RowBuilder::Interface(const Material& m, MaterialRow& row) {
   row.alpha_x = Alpha(m.uroughness, m.remap_roughness);
   row.alpha_y = Alpha(m.vroughness, m.remap_roughness);
-  row.remap = m.remap_roughness;
+  row.remap = m.remap_roughness && !regular_;
   row.eta = m.interface_eta;
 }
 
@@ -190,9 +227,16 @@ void RowBuilder::Hair(const Material& m, MaterialRow& row) {
   const double n = row.alpha_y.constant;
   const double k =
       5.969 + n * (-0.215 + n * (2.532 + n * (-10.73 + n * (5.574 + n * 0.245))));
-  for (int c = 0; c < 3; ++c) {
-    row.color0.constant[c] = std::exp(-k * std::sqrt(std::max(m.sigma_a[c], 0.0)));
-  }
+  const auto reflected = [k](double absorption) {
+    return std::exp(-k * std::sqrt(std::max(absorption, 0.0)));
+  };
+  for (int c = 0; c < 3; ++c) row.color0.constant[c] = reflected(m.sigma_a[c]);
+  if (d_.integrator.transport != Transport::kSpectral) return;
+  const OwnSpectrum own =
+      m.sigma_a_spectrum != nullptr
+          ? m.sigma_a_spectrum
+          : std::make_shared<const Spectrum>(UpsampledColor(m.sigma_a));
+  row.color0.spectrum = Changed(own, reflected);
 }
 
 MaterialRow RowBuilder::RowOf(const Material& m) {
@@ -242,8 +286,9 @@ MaterialRow RowBuilder::RowOf(const Material& m) {
       break;
     }
     case MaterialKind::kDiffuseTransmission:
-      row.color0 = Reflectance(m.reflectance);
-      row.color1 = Reflectance(m.transmittance);
+      row.color0 = ScaledReflectance(m.reflectance, m.scale);
+      row.color1 = ScaledReflectance(m.transmittance, m.scale);
+      row.color_scale = m.scale;
       row.kind = ShadeKind::kDiffuseTransmission;
       break;
     case MaterialKind::kMeasured:

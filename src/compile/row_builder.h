@@ -20,6 +20,8 @@ class RowBuilder {
   /// A material that is no mix; without name and relief. Throws InputError for an index
   /// of refraction that is not positive.
   MaterialRow RowOf(const Material& m);
+  /// The same, rougher, as Integrator::regularize has it.
+  MaterialRow RegularRowOf(const Material& m);
   /// A texture made of another one; its index goes on where those of the file end.
   ColorValue Derived(TextureKind kind, const ColorValue& from, double amount);
 
@@ -35,8 +37,9 @@ class RowBuilder {
   void Hair(const Material& m, MaterialRow& row);
   void CoatOf(const Material& m, MaterialRow& row);
   ColorValue Color(const ColorValue& v) const { return constants_.Fold(v); }
-  FloatValue Alpha(const FloatValue& v, bool remap) const;
+  FloatValue Alpha(const FloatValue& v, bool remap);
   ColorValue Reflectance(const ColorValue& v) const;
+  ColorValue ScaledReflectance(const ColorValue& v, double scale);
   bool Scatters(const Material& coat) const;
   ColorValue Scaled(const ColorValue& value, double scale);
 
@@ -45,6 +48,7 @@ class RowBuilder {
   const TextureConstants constants_;
   std::vector<Texture> derived_;
   std::map<Coat, std::int32_t> coats_;
+  bool regular_ = false;  // rows are those of RegularRowOf
 };
 
 /// InputError at the material, by its name.

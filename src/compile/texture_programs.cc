@@ -71,6 +71,7 @@ class ProgramBuilder {
       case TextureKind::kDots:
       case TextureKind::kMetalExtinction:
       case TextureKind::kCoatedBase:
+      case TextureKind::kRegularAlpha:
         return true;
       default:
         return false;
@@ -99,6 +100,7 @@ class ProgramBuilder {
     if (t.kind == TextureKind::kCoatedBase) {
       node.fit = CoatFitOffset(t.amount.constant, t.octaves);
     }
+    if (t.kind == TextureKind::kCheckerboard && t.dimension == 2) node.filter = t.filter;
     if (t.kind == TextureKind::kImage) {
       node.image = images_.ImageIndex(t);
       node.wrap = t.wrap;

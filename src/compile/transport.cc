@@ -53,6 +53,7 @@ bool HasSpectrum(const Material& m) {
   const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
                                       &m.coat_albedo};
   return m.dispersion != nullptr || m.measured != nullptr ||
+         m.sigma_a_spectrum != nullptr ||
          std::any_of(std::begin(colors), std::end(colors),
                      [](const ColorValue* c) { return c->spectrum != nullptr; });
 }

@@ -64,9 +64,12 @@ struct MaterialTable {
   // the same for all wavelengths.
   AlignedVector<std::int32_t> color0_spectrum, color1_spectrum, coat_albedo_spectrum;
   AlignedVector<std::int32_t> eta_spectrum;
+  AlignedVector<float> color_scale;         // of colours that are a kScaledReflectance
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
   MeasuredTable measured;
+  // With kRegularizes: what materials become behind a bounce that is not specular.
+  AlignedVector<std::int32_t> regular;
   // With kForcedDiffuse: the material that surfaces then have, and the kinds that they
   // had, a bit each.
   std::uint32_t forced = 0, forced_kinds = 0;

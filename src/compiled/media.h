@@ -84,7 +84,8 @@ inline constexpr float kLeastKelvin = 100;
 
 /// What the emission of a medium is multiplied with at a point; each part may be empty.
 struct MediumEmission {
-  AlignedVector<float> values;  // at the voxels of the medium
+  AlignedVector<float> values;  // at voxels
+  std::int32_t size[3] = {};    // how many: those of the medium, or one
   std::int32_t channels = 1;    // of `values`: 1, or of colours 3; with kSpectral a
                                 // VoxelSpectrum, 4
   AlignedVector<float> temperatures;

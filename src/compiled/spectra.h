@@ -19,6 +19,7 @@ enum class PathColor : std::int32_t {
   kUnbounded = -2,        // an index of refraction, say
   kMetalExtinction = -3,  // k of a metal that is given by its reflectance, whose index is
                           // color0 of the material
+  kScaledReflectance = -4,  // times color_scale of the material, 1 at most
 };
 
 struct SpectrumTable {

@@ -48,9 +48,10 @@ struct TextureNode {
   std::int32_t image = -1;             // kImage: index into TextureTable::images
   WrapMode wrap = WrapMode::kRepeat;
   bool bilinear = true;
-  ImageFilter filter = ImageFilter::kBilinear;  // kTrilinear, kEwa: the image has levels
-  float max_anisotropy = 8;                     // kEwa
-  bool invert = false;                          // max(0, 1 - scale * texel)
+  // kImage: with kTrilinear and kEwa it has levels. kCheckerboard: these filter it.
+  ImageFilter filter = ImageFilter::kBilinear;
+  float max_anisotropy = 8;  // kEwa
+  bool invert = false;       // max(0, 1 - scale * texel)
   float scale = 1;
 };
 

@@ -30,13 +30,16 @@ struct TriangleRecord {
   float p[3][3];
   std::uint32_t material;
   std::int32_t light;   // index into LightTable::lights, -1 = not emitting
-  std::uint32_t flags;  // kAlphaTested: bit 0, kMeshNormals: bit 1
+  std::uint32_t flags;  // kAlphaTested, kMeshNormals, kTurnedTangents
 };
 static_assert(sizeof(TriangleRecord) == 48);
 inline constexpr std::uint32_t kAlphaTested = 1;
 /// The file gives normals of the mesh: bumps then have other axes (kernels/surface/
 /// bumps.cc).
 inline constexpr std::uint32_t kMeshNormals = 2;
+
+/// Its mesh has TriangleMesh::turns_tangents.
+inline constexpr std::uint32_t kTurnedTangents = 4;
 
 /// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
 struct SphereRecord {
@@ -128,9 +131,10 @@ struct Geometry {
   PrimitiveRanges ranges;
   AlignedVector<TriangleRecord> triangles;
   AlignedVector<float>
-      normals;               // 9 per triangle (3 vertices); empty without kVertexNormals.
-                             // Unit; triangles without normals hold their face normal.
-  AlignedVector<float> uvs;  // 6 per triangle; empty where nobody asks for them
+      normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
+                // Unit; triangles without normals hold their face normal.
+  bool turned_tangents = false;  // some triangles are kTurnedTangents
+  AlignedVector<float> uvs;      // 6 per triangle; empty where nobody asks for them
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/parse/quad.h"
 
@@ -26,6 +27,27 @@ std::array<double, 2> MixUv(const BilinearPatch& patch, double u, double v) {
   return out;
 }
 
+// How far the corners are from a parallelogram. On a square of the grid a patch is off
+// its two triangles by a quarter of the twist that is left there, 1 / steps^2 of the
+// whole.
+double Twist(const std::array<Vec3d, 4>& corners) {
+  return Length(corners[0] - corners[1] - corners[2] + corners[3]);
+}
+
+// Squares along each side that keep interpolated normals within kNormalTolerance. Where
+// they change evenly, those of two triangles are those of the patch, unless their lengths
+// differ: triangles have unit normals.
+double NormalSteps(const std::array<Vec3d, 4>& normals) {
+  double longest = 0, shortest = std::numeric_limits<double>::infinity();
+  for (const Vec3d& n : normals) {
+    longest = std::max(longest, Length(n));
+    shortest = std::min(shortest, Length(n));
+  }
+  const double off = (Twist(normals) + longest - shortest) / longest;
+  if (!std::isfinite(off)) return 1;
+  return std::sqrt(off / (4 * kNormalTolerance));
+}
+
 void AddVertex(const BilinearPatch& patch, double u, double v, bool with_normal,
                TriangleMesh* mesh) {
   mesh->positions.push_back(patch.Point(u, v));
@@ -44,7 +66,7 @@ void AddFlat(const BilinearPatch& patch, const QuadSplit& split, TriangleMesh* m
   }
 }
 
-void AddCurved(const BilinearPatch& patch, TriangleMesh* mesh) {
+void AddGrid(const BilinearPatch& patch, TriangleMesh* mesh) {
   const auto base = static_cast<std::uint32_t>(mesh->positions.size());
   const auto steps = static_cast<std::uint32_t>(PatchSteps(patch));
   mesh->normals.resize(base);  // flat patches before this one
@@ -72,14 +94,13 @@ Vec3d BilinearPatch::Normal(double u, double v) const {
   return Normalize(Cross(Normalize(along_u), Normalize(along_v)));
 }
 
-// On a square of the grid the patch is off its two triangles by a quarter of the twist
-// that is left there, 1 / steps^2 of the whole.
 int PatchSteps(const BilinearPatch& patch) {
   double size = 0;
   for (const Vec3d& corner : patch.p) size = std::max(size, Length(corner - patch.p[0]));
-  const double twist = Length(patch.p[0] - patch.p[1] - patch.p[2] + patch.p[3]);
-  if (!(size > 0) || !std::isfinite(twist / size)) return 1;
-  const double steps = std::sqrt(twist / size / (4 * kPatchTolerance));
+  const double twist = Twist(patch.p) / size;
+  if (!(size > 0) || !std::isfinite(twist)) return 1;
+  double steps = std::sqrt(twist / (4 * kPatchTolerance));
+  if (patch.n) steps = std::max(steps, NormalSteps(*patch.n));
   return std::max(1, static_cast<int>(std::ceil(steps)));
 }
 
@@ -89,11 +110,13 @@ void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh) {
     ring[i] = patch.p[static_cast<std::size_t>(kRing[i])];
   }
   const QuadSplit split = SplitQuad(ring);
-  if (split.is_flat && split.is_simple) {
+  const bool even = !patch.n || PatchSteps(patch) == 1;
+  if (split.is_flat && split.is_simple && even) {
     AddFlat(patch, split, mesh);
   } else {
-    AddCurved(patch, mesh);
+    AddGrid(patch, mesh);
   }
+  mesh->turns_tangents |= patch.n.has_value();
   if (!mesh->normals.empty()) mesh->normals.resize(mesh->positions.size());
   mesh->continues.push_back(false);
   mesh->continues.resize(mesh->indices.size() / 3, true);

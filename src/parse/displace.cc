@@ -68,7 +68,7 @@ class Refiner {
     if (faces <= kMostDisplaced) return;
     throw InputError(
         fmt::format("displacement makes more than {} triangles of this mesh; a larger "
-                    "\"displacement.edgelength\" makes fewer",
+                    "\"edgelength\" makes fewer",
                     kMostDisplaced));
   }
 

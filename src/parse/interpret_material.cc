@@ -108,29 +108,13 @@ void ReadCoatedConductor(ParseState& state, ParamSet& params, Material* material
                 &material->conductor_vroughness);
 }
 
-// A colour times a constant; a textured one gets a scale texture of its own.
-ColorValue Scaled(ParseState& state, const ParamSet& params, ColorValue value,
-                  double scale) {
-  if (value.texture == kNone) return {value.constant * scale, kNone};
-  if (scale == 1) return value;
-  Texture texture;
-  texture.kind = TextureKind::kScale;
-  texture.where = params.where();
-  texture.tex1 = value;
-  texture.amount = {scale, kNone};
-  state.scene.textures.push_back(texture);
-  return {value.constant, static_cast<Index>(state.scene.textures.size()) - 1};
-}
-
 void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* material) {
   const Rgb quarter = {0.25, 0.25, 0.25};
-  const double scale = params.Float("scale", 1, {0, 1e6});
-  const ColorValue r =
+  material->scale = params.Float("scale", 1, {0, 1e6});
+  material->reflectance =
       TexturedColor(state, params, "reflectance", quarter, SpectrumUse::kAlbedo);
-  const ColorValue t =
+  material->transmittance =
       TexturedColor(state, params, "transmittance", quarter, SpectrumUse::kAlbedo);
-  material->reflectance = Scaled(state, params, r, scale);
-  material->transmittance = Scaled(state, params, t, scale);
 }
 
 // Absorption of one unit of each pigment (d'Eon et al. 2011, as published for linear
@@ -151,6 +135,8 @@ void ReadHairColor(ParseState& state, ParamSet& params, Material* material) {
   if (params.Find("sigma_a", {}) != nullptr) {
     material->sigma_a =
         PlainColor(state, params, "sigma_a", {0, 0, 0}, SpectrumUse::kUnbounded);
+    material->sigma_a_spectrum =
+        SpectrumOf(state, params, *params.Find("sigma_a", {}), true);
     return ignore({"reflectance", "color", pigments[0], pigments[1]}, "sigma_a");
   }
   material->has_reflectance = params.Find(color, {}) != nullptr;

@@ -11,27 +11,39 @@
 namespace lanelight {
 namespace {
 
-// By a preset, or each by itself; what is not given is that of whole milk, as in pbrt.
-void ReadCoefficients(ParseState& state, ParamSet& params, Medium* medium) {
+// Null if there is none of that name: pbrt-v4 then goes on with a warning.
+const Coefficients* FindPreset(ParseState& state, ParamSet& params) {
   const Param* preset = params.Find("preset", {ParamType::kString});
-  const std::string name = params.String("preset", "Wholemilk");
-  const SourceLocation& where = preset == nullptr ? params.where() : preset->where;
-  const Coefficients& milk = CoefficientsOf(name, where, "preset of a medium:");
+  if (preset == nullptr) return nullptr;
+  const std::string name = params.String("preset", "");
+  const Coefficients* found = FindCoefficients(name);
+  if (found != nullptr) return found;
+  const std::string near = NearestName(name, NamesOfCoefficients());
+  state.AddNote(preset->where,
+                fmt::format("unknown preset {} of a medium{}: its \"sigma_a\" and "
+                            "\"sigma_s\" count, each 1 by default",
+                            Quoted(name),
+                            near.empty() ? "" : " (did you mean " + Quoted(near) + "?)"),
+                true);
+  return nullptr;
+}
+
+// From a preset, or else each by itself.
+void ReadCoefficients(ParseState& state, ParamSet& params, Medium* medium) {
+  const double scale = params.Float("scale", 1, kNotNegative);
+  const Coefficients* preset = FindPreset(state, params);
+  if (preset == nullptr) return ReadSigmas(state, params, scale, medium);
   for (const char* sigma : {"sigma_a", "sigma_s"}) {
-    if (preset == nullptr || params.Find(sigma, {}) == nullptr) continue;
-    params.Fail(*preset, fmt::format("\"preset\" and \"{}\" exclude each other", sigma));
+    if (params.Find(sigma, {}) == nullptr) continue;
+    params.Fail(*params.Find("preset", {}),
+                fmt::format("\"preset\" and \"{}\" exclude each other", sigma));
   }
-  medium->sigma_a =
-      PlainColor(state, params, "sigma_a", milk.sigma_a, SpectrumUse::kUnbounded);
-  medium->sigma_s =
-      PlainColor(state, params, "sigma_s", milk.sigma_s, SpectrumUse::kUnbounded);
+  medium->sigma_a = preset->sigma_a * scale;
+  medium->sigma_s = preset->sigma_s * scale;
 }
 
 void ReadHomogeneous(ParseState& state, ParamSet& params, Medium* medium) {
   ReadCoefficients(state, params, medium);
-  const double scale = params.Float("scale", 1, kNotNegative);
-  medium->sigma_a *= scale;
-  medium->sigma_s *= scale;
   ReadEmission(state, params, params.Float("Lescale", 1, kNotNegative), medium);
 }
 

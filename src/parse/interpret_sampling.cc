@@ -15,19 +15,19 @@ constexpr int kMostSamples = std::numeric_limits<int>::max();
 using Ignored = std::vector<std::pair<const char*, std::vector<const char*>>>;
 
 const Ignored kIntegrators = {
-    {"path", {"regularize"}},
-    {"volpath", {"regularize"}},
+    {"path", {}},
+    {"volpath", {}},
     {"simplepath", {"samplebsdf", "samplelights"}},
     {"simplevolpath", {}},
     {"ambientocclusion", {"cossample", "maxdistance"}},
-    {"bdpt", {"lightsampler", "regularize", "visualizestrategies", "visualizeweights"}},
+    {"bdpt", {"lightsampler", "visualizestrategies", "visualizeweights"}},
     {"function", {"function", "skipbad", "imagefilename"}},
     {"lightpath", {}},
     {"mlt",
      {"bootstrapsamples", "chains", "largestepprobability", "mutationsperpixel",
-      "regularize", "sigma"}},
+      "sigma"}},
     {"randomwalk", {}},
-    {"sppm", {"iterations", "photonsperiteration", "radius", "regularize", "seed"}}};
+    {"sppm", {"iterations", "photonsperiteration", "radius", "seed"}}};
 
 const Ignored kAccelerators = {
     {"bvh", {"maxnodeprims", "splitmethod"}},
@@ -95,11 +95,12 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
           "transport", {{"rgb", Transport::kRgb}, {"spectral", Transport::kSpectral}});
     }
   }
+  const bool regularizes = type == "bdpt" || type == "mlt" || type == "sppm";
+  if (ours || regularizes) {
+    state.scene.integrator.regularize = params.Bool("regularize", false);
+  }
   for (const char* name : ignored) {
-    // Paths that are made rougher lose their caustics; others only find them otherwise.
-    const bool visible = name == std::string_view("regularize");
-    const char* why = "the path integrator here does not have it";
-    visible ? params.IgnoreVisible(name, why) : params.Ignore(name, why);
+    params.Ignore(name, "the path integrator here does not have it");
   }
   params.CheckAllUsed();
 }

@@ -51,6 +51,19 @@ void ReadDisk(ParseState&, ParamSet& params, Shape* shape) {
   ReadPhi(params, shape);
 }
 
+// Longest side of displaced triangles. pbrt-v4 has the second name on GPUs only.
+double EdgeLength(ParseState& state, ParamSet& params) {
+  constexpr const char* kOfGpus = "displacement.edgelength";
+  const Limits limits = {kTiny, kHuge};
+  const double other = params.Float(kOfGpus, 1, limits);
+  if (const Param* given = params.Find(kOfGpus, {})) {
+    state.AddNote(
+        given->where,
+        fmt::format("pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"", kOfGpus));
+  }
+  return params.Float("edgelength", other, limits) * state.edge_scale;
+}
+
 void ReadPly(ParseState& state, ParamSet& params, Shape*) {
   params.Need("filename", ParamType::kString);
   const NamedFile file = FileOf(state, params, "filename");
@@ -61,11 +74,8 @@ void ReadPly(ParseState& state, ParamSet& params, Shape*) {
     const FloatValue height = TexturedFloat(state, params, "displacement", 0, {0, 0});
     request.displacement = height.texture;
   }
-  for (const char* foreign : {"displacement.uvscale", "edgelength"}) {
-    params.Ignore(foreign, "pbrt-v4 has no such parameter");
-  }
-  request.edge_length =
-      params.Float("displacement.edgelength", 1, {kTiny, kHuge}) * state.edge_scale;
+  request.edge_length = EdgeLength(state, params);
+  params.Ignore("displacement.uvscale", "pbrt-v4 has no such parameter");
   state.meshes.push_back(std::move(request));
 }
 

@@ -43,7 +43,7 @@ void ReadByReflectance(ParseState& state, ParamSet& params, Medium* inside) {
   inside->sigma_s = {1 / mfp.x, 1 / mfp.y, 1 / mfp.z};
 }
 
-// What is not given is that of whole milk, as in media.
+// What is not given is that of whole milk. pbrt-v4 takes both coefficients or none.
 void ReadOwnCoefficients(ParseState& state, ParamSet& params, Medium* inside) {
   const Coefficients& milk = CoefficientsOf("Wholemilk", params.where(), "");
   const auto read = [&](const char* name, Rgb absent) {

@@ -99,6 +99,7 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
 
 void ReadCheckerboard(ParseState& state, ParamSet& params, Texture* texture) {
   texture->dimension = params.Integer("dimension", 2, {2, 3});
+  if (!state.unfiltered_images) texture->filter = ImageFilter::kTrilinear;
   texture->tex1 = Operand(state, params, "tex1", 1, texture->is_float);
   texture->tex2 = Operand(state, params, "tex2", 0, texture->is_float);
   ReadMapping(params, &texture->mapping);

@@ -34,10 +34,16 @@ const Param* Samples(ParamSet& params, std::string_view name, ParamType type,
   return param;
 }
 
-// One number for all voxels, which is returned, or one for each.
+// One number for all voxels, which is returned, or one for each. Without any, the scale
+// is 1 at the centre of the box and falls linearly to 1/2 at each side: pbrt-v4 has a
+// grid of one voxel then, outside of which the scale is 0.
 double ReadEmissionScale(ParamSet& params, std::size_t voxels, Medium* medium) {
   const Param* param = params.Find("Lescale", {ParamType::kFloat});
-  if (param == nullptr || param->numbers.size() == 1) {
+  if (param == nullptr) {
+    medium->emission_grid = {1};
+    return 1;
+  }
+  if (param->numbers.size() == 1 && voxels > 1) {
     return params.Float("Lescale", 1, kNotNegative);
   }
   Samples(params, "Lescale", ParamType::kFloat, voxels, 1);
@@ -73,6 +79,7 @@ void ReadBox(ParamSet& params, Medium* medium) {
   }
 }
 
+// pbrt's default is 1 for each coefficient that is missing.
 void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* medium) {
   const auto sigma = [&](const char* name) {
     return PlainColor(state, params, name, {1, 1, 1}, SpectrumUse::kUnbounded) * scale;

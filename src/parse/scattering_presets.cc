@@ -74,6 +74,17 @@ const std::map<std::string, Coefficients> kScatteringPresets = {
 
 }  // namespace
 
+const Coefficients* FindCoefficients(const std::string& name) {
+  const auto found = kScatteringPresets.find(name);
+  return found == kScatteringPresets.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> NamesOfCoefficients() {
+  std::vector<std::string> names;
+  for (const auto& [name, coefficients] : kScatteringPresets) names.push_back(name);
+  return names;
+}
+
 const Coefficients& CoefficientsOf(const std::string& name, const SourceLocation& where,
                                    std::string_view kind) {
   return Lookup(kScatteringPresets, name, where, kind);

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/core/error.h"
 #include "src/core/vec.h"
@@ -12,6 +13,10 @@ namespace lanelight {
 struct Coefficients {
   Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
 };
+
+/// Null if `name` is none.
+const Coefficients* FindCoefficients(const std::string& name);
+std::vector<std::string> NamesOfCoefficients();
 
 /// InputError at `where` with all names if `name` is none: unknown <kind> "<name>".
 const Coefficients& CoefficientsOf(const std::string& name, const SourceLocation& where,

@@ -41,6 +41,7 @@ namespace lanelight {
   X(kSpectralColor1, "a second colour parameter by wavelength")              \
   X(kDispersion, "glass whose index depends on the wavelength")              \
   X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material") \
+  X(kRegularizes, "surfaces that are rougher behind a rough bounce")         \
   X(kAlpha, "alpha cut-outs")                                                \
   X(kMix, "mix materials")                                                   \
   X(kRefraction, "a refracting interface, whose eta roulette must know")     \

@@ -65,7 +65,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, wavelength, ({kSpectral}), kPath, (), "number that chose the wavelengths of the path; below 0, or -0: glass has left one (src/compiled/spectra.h)") \
-  X(f32, bsdf_pdf, ({kMis, kRecordsGuide, kReuse}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular, and surfaces are rougher from there on") \
+  X(f32, bsdf_pdf, ({kMis, kRecordsGuide, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
   X(f32, eta_scale, ({kRefraction, kGuided, kReuse}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
   X(u32, reuse, ({kReuse}), kPath, (0u), "how far the path has come: ReuseState (src/path/block.h)") \

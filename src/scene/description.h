@@ -58,8 +58,10 @@ enum class TextureKind {
   // Not of a file; made of other textures when materials are compiled:
   kMetalExtinction,  // k of a metal of index 1 whose reflectance head-on is tex1, times
                      // amount
-  kCoatedBase  // colour of tex1 below a coat (src/compile/coat_color.h); amount: its
-               // internal reflectance, octaves: bounces off the base
+  kCoatedBase,   // colour of tex1 below a coat (src/compile/coat_color.h); amount: its
+                 // internal reflectance, octaves: bounces off the base
+  kRegularAlpha  // alpha of the roughness tex1, or where amount is not 0 of its root, as
+                 // Integrator::regularize has it
 };
 enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 enum class Encoding { kSrgb, kLinear, kGamma };
@@ -94,6 +96,7 @@ struct Texture {
   double scale = 1;
   bool invert = false;   // 1 - scale * value, negative results cut at 0 (as pbrt)
   bool bilinear = true;  // false: nearest
+  // Of a kCheckerboard kTrilinear and kEwa: it is filtered over the footprint of a pixel.
   ImageFilter filter = ImageFilter::kBilinear;
   double max_anisotropy = 8;     // kEwa
   Transform texture_from_world;  // of mappings and patterns of the place
@@ -139,7 +142,10 @@ struct Material {
   bool has_reflectance = false;  // conductor given by `reflectance`: normal-incidence
                                  // reflectance; eta = 1, k = 2 sqrt(r / (1 - r)).
                                  // hair: `reflectance` of much of it, else `sigma_a`
-  Rgb sigma_a;                   // hair: absorption, per radius of a fibre
+  double scale = 1;  // diffusetransmission: factor on both colours, which are clamped to
+                     // 1 after it
+  Rgb sigma_a;       // hair: absorption, per radius of a fibre
+  OwnSpectrum sigma_a_spectrum;       // that `sigma_a` is the colour of
   double beta_m = 0.3, beta_n = 0.3;  // hair: roughness along a fibre and around it
   double tilt = 2;                    // hair: of its scales, degrees
   double interface_eta = 1.5;         // dielectric, thindielectric, coats, hair
@@ -171,6 +177,9 @@ struct TriangleMesh {
   // Per triangle: it continues the face of the one before, which had more than three
   // corners. Empty: each is a face.
   std::vector<bool> continues;
+  // dp/du is turned from the normal of the face to the shading normal, as pbrt-v4 does on
+  // bilinear patches with normals, instead of projected.
+  bool turns_tangents = false;
 };
 
 /// How wide a curve looks. kFlat: it faces each ray. kCylinder: likewise, with normals of
@@ -332,6 +341,9 @@ struct Integrator {
   /// Surfaces scatter evenly, with the reflectance that their material has for light from
   /// where they are seen (pbrt-v4's option "forcediffuse").
   bool force_diffuse = false;
+  /// Microfacets are rougher behind a bounce that is not specular: below 0.3, alpha
+  /// becomes 2 alpha, but at least 0.1 and at most 0.3 (pbrt-v4's "regularize").
+  bool regularize = false;
   /// Nothing: the file does not say it. CompileScene then takes RGB.
   std::optional<Transport> transport;
 };
@@ -370,7 +382,7 @@ struct Medium {
   int grid_size[3] = {1, 1, 1};
   std::vector<float> grid;
   // What `emission` is multiplied with, at the same voxels; empty: by 1. kUniformGrid:
-  // one number each. kRgbGrid: three.
+  // one number each, or a single one that is a grid of one voxel. kRgbGrid: three.
   std::vector<float> emission_grid;
   // And by the colour of a black body (RgbOfBlackbody) of (t - offset) * scale kelvin,
   // none up to 100 kelvin. kUniformGrid: t at the same voxels; empty: not multiplied.

@@ -253,6 +253,19 @@ LightSource "point" "point3 from" [ 2 4 -2 ] "rgb I" [ 9 9 9 ]
 Shape "sphere"
 )";
 
+/// Surfaces that are rougher behind a bounce that is not specular.
+inline constexpr const char* kRegularScene = R"(
+LookAt 0 1 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+Integrator "path" "bool regularize" true
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.3 0.4 0.5 ]
+Shape "disk" "float radius" 3
+Material "dielectric"
+Shape "sphere"
+)";
+
 /// The insides of materials, with and without a texture.
 inline constexpr const char* kInsideScene = R"(
 LookAt 0 1 -6  0 0 0  0 1 0

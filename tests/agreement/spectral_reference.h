@@ -93,6 +93,8 @@ struct AtTriple {
       Reflect(m.transmittance);
       Index(m.eta);
       Index(m.k);
+      m.sigma_a =
+          Of(m.sigma_a_spectrum ? *m.sigma_a_spectrum : UpsampledColor(m.sigma_a));
     }
     for (lanelight::Light& light : scene.lights) {
       light.emission = Light(light.emission, light.spectrum);

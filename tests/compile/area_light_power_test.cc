@@ -127,7 +127,7 @@ TEST_CASE("displaced faces are triangles with the power each", "[lights][compile
     return fmt::format(
         "Texture \"flat\" \"float\" \"constant\" \"float value\" 0 Shape \"plymesh\" "
         "\"string filename\" \"{}\" \"texture displacement\" \"flat\" "
-        "\"float displacement.edgelength\" {}",
+        "\"float edgelength\" {}",
         folder.File("quad.ply"), edge);
   };
   CHECK(Emit("", displaced(10)).power == Approx(2 * kPower));

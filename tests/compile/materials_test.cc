@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/compile/coat_table.h"
+#include "src/compile/spectrum_rows.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
@@ -99,6 +100,57 @@ TEST_CASE("compile: dielectrics", "[scene][compile]") {
   m = OfKind(MaterialKind::kThinDielectric);
   CHECK(KindOf(Compile(m)) == ShadeKind::kThinDielectric);
   CHECK(Compile(m).eta[0] == 1.5f);
+}
+
+TEST_CASE("compile: hair absorbs by its spectrum", "[scene][compile]") {
+  Material m = OfKind(MaterialKind::kHair);
+  m.sigma_a = {3, 0.1, 3};
+  m.sigma_a_spectrum = std::make_shared<const Spectrum>(
+      [](double nm) { return nm > 520 && nm < 560 ? 0.05 : 3.0; });
+  SceneDescription d;
+  AddMaterial(d, m);
+  d.integrator.transport = Transport::kSpectral;
+  SpectrumRows rows;
+  const CompiledMaterials compiled = CompileMaterials(d, {0}, {}, &rows);
+  const std::size_t first =
+      static_cast<std::size_t>(compiled.table.color0_spectrum[0]) * kWavelengthBins;
+  const SpectrumTable table = rows.Take();
+  // The reflectance of much hair that absorbs so, with a roughness around it of 0.3.
+  const double k = 5.969 - 0.215 * 0.3 + 2.532 * 0.09 - 10.73 * 0.027 + 5.574 * 0.0081 +
+                   0.245 * 0.00243;
+  int green = 0;
+  for (std::size_t b = 0; b < kWavelengthBins; ++b) {
+    const double low = CarriedWavelengths().edge[b],
+                 high = CarriedWavelengths().edge[b + 1];
+    if ((low < 520 && high > 520) || (low < 560 && high > 560)) continue;
+    const double sigma = low >= 520 && high <= 560 ? 0.05 : 3;
+    green += sigma < 1;
+    CAPTURE(low, high);
+    CHECK(table.rows[first + b] == Approx(std::exp(-k * std::sqrt(sigma))).epsilon(1e-4));
+  }
+  CHECK(green > 3);
+}
+
+TEST_CASE("compile: regular materials are rougher rows behind the others",
+          "[scene][compile]") {
+  SceneDescription d;
+  d.integrator.regularize = true;
+  Material glass = OfKind(MaterialKind::kDielectric);
+  Material metal = OfKind(MaterialKind::kConductor);
+  metal.remap_roughness = false;
+  metal.uroughness.constant = 0.12, metal.vroughness.constant = 0.4;
+  for (const Material& m : {glass, OfKind(MaterialKind::kDiffuse), metal}) {
+    AddMaterial(d, m);
+  }
+  const MaterialTable table = CompileMaterials(d, {0, 1, 2}, {}).table;
+  REQUIRE(table.regular == AlignedVector<std::int32_t>{3, 1, 4, 3, 4});
+  CHECK(KindOf(table, 0) == ShadeKind::kDielectricSmooth);
+  CHECK(KindOf(table, 3) == ShadeKind::kDielectricRough);
+  CHECK(table.alpha_x[3] == 0.1f);
+  CHECK(table.alpha_x[4] == 0.24f);
+  CHECK(table.alpha_y[4] == 0.4f);
+  d.integrator.regularize = false;
+  CHECK(CompileMaterials(d, {0, 1, 2}, {}).table.regular.empty());
 }
 
 TEST_CASE("compile: conductors", "[scene][compile]") {

@@ -73,6 +73,31 @@ TEST_CASE("media: emission of a slab of black bodies", "[media][closed-form]") {
   CheckSlab(Slab(grid, {1, 2, 3}), Rgb{1, 2, 3} - SlabOf({1, 2, 3}));
 }
 
+TEST_CASE("media: emission without Lescale falls to half at the sides of the box",
+          "[media][closed-form]") {
+  // One voxel across the view: density and scale are both 1 - |z| / 0.8 at z.
+  Medium medium = MakeMedium(kThickness, {}, 0, {1, 2, 3});
+  medium.kind = MediumKind::kUniformGrid;
+  medium.grid = {1}, medium.emission_grid = {1};
+  medium.box_min = {-1e5, -1e5, -0.4};
+  medium.box_max = {1e5, 1e5, 0.4};
+  Rgb expected;
+  constexpr int kSteps = 100000;
+  constexpr double kStep = 0.8 / kSteps;
+  double depth = 0;  // of a coefficient of 1, up to the middle of a step
+  for (int i = 0; i < kSteps; ++i) {
+    const double tent = 1 - std::abs(-0.4 + (i + 0.5) * kStep) / 0.8;
+    depth += tent * kStep / 2;
+    for (int c = 0; c < 3; ++c) {
+      const double sigma = kThickness[c];
+      expected[c] +=
+          medium.emission[c] * sigma * tent * tent * std::exp(-sigma * depth) * kStep;
+    }
+    depth += tent * kStep / 2;
+  }
+  CheckSlab(Slab(medium), expected);
+}
+
 TEST_CASE("media: colours that a slab emits", "[media][closed-form]") {
   Medium medium = ConstantGrid({}, {});
   medium.kind = MediumKind::kRgbGrid;

@@ -93,6 +93,32 @@ TEST_CASE("curved patches: given normals and coordinates are bilinear", "[parse]
   }
 }
 
+TEST_CASE("flat patches: normals are bilinear between four that are not even",
+          "[parse]") {
+  BilinearPatch patch;
+  patch.p = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+  patch.n = {{{-0.2, 0, 1}, {0.2, 0, 1}, {0, 0.3, 1}, {0, -0.3, 1}}};
+  const TriangleMesh mesh = MeshOf(patch);
+  CHECK(mesh.turns_tangents);
+  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+    Vec3d p, n;  // in the middle of each triangle, as kernels interpolate
+    for (std::size_t k = 0; k < 3; ++k) {
+      p += mesh.positions[mesh.indices[t + k]] / 3;
+      n += mesh.normals[mesh.indices[t + k]] / 3;
+    }
+    const double u = p.x, v = p.y;
+    const Vec3d exact = {-0.2 * (1 - u) * (1 - v) + 0.2 * u * (1 - v),
+                         0.3 * (1 - u) * v - 0.3 * u * v, 1};
+    CHECK(Length(Normalize(n) - Normalize(exact)) < kNormalTolerance);
+  }
+  // Two triangles have the normals of those that change evenly.
+  patch.n = {{{-0.2, 0, 1}, {0.2, 0, 1}, {-0.2, 0, 1}, {0.2, 0, 1}}};
+  CHECK(MeshOf(patch).indices.size() == 6);
+  CHECK(MeshOf(patch).turns_tangents);
+  patch.n.reset();
+  CHECK_FALSE(MeshOf(patch).turns_tangents);
+}
+
 TEST_CASE("patches of a scene: curved, crossing and flat ones", "[parse]") {
   const auto mesh_of = [](const std::string& points) {
     return ParseWorld("Shape \"bilinearmesh\" " + points).shapes.back().mesh;

@@ -166,6 +166,18 @@ TEST_CASE("accelerator, options and color space are noted", "[parse]") {
   CHECK(CountImageChanges(scene.notes) == 0);
 }
 
+TEST_CASE("integrators regularize where the file says so", "[parse]") {
+  for (const char* type : {"path", "volpath", "bdpt", "mlt", "sppm"}) {
+    CAPTURE(type);
+    const auto parse = [&](const char* parameter) {
+      return ParseText(fmt::format("Integrator \"{}\" {} WorldBegin", type, parameter));
+    };
+    CHECK_FALSE(parse("").integrator.regularize);
+    CHECK(parse("\"bool regularize\" true").integrator.regularize);
+    CHECK_FALSE(HasNote(parse("\"bool regularize\" true"), "regularize"));
+  }
+}
+
 TEST_CASE("disabletexturefiltering looks images up in the finest level", "[parse]") {
   for (const bool disabled : {false, true}) {
     const SceneDescription scene =
@@ -174,8 +186,11 @@ TEST_CASE("disabletexturefiltering looks images up in the finest level", "[parse
           WorldBegin
           Texture "a" "spectrum" "imagemap" "string filename" "x.png" "string filter" "ewa"
           Texture "b" "spectrum" "imagemap" "string filename" "x.png" "string filter" "point"
+          Texture "c" "float" "checkerboard"
           Shape "sphere")",
                        "test.pbrt", ".");
+    CHECK(scene.textures[2].filter ==
+          (disabled ? ImageFilter::kBilinear : ImageFilter::kTrilinear));
     CHECK(scene.textures[0].filter ==
           (disabled ? ImageFilter::kBilinear : ImageFilter::kEwa));
     CHECK(scene.textures[0].bilinear);

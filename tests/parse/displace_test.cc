@@ -113,8 +113,7 @@ TEST_CASE("displaced meshes of a scene", "[parse]") {
         "WorldBegin Texture \"h\" \"float\" \"constant\" \"float value\" 0.5\n" + shape,
         "main.pbrt", std::filesystem::path(folder.File("uv.ply")).parent_path().string());
   };
-  const std::string displaced =
-      "\"texture displacement\" \"h\" \"float displacement.edgelength\" 0.4";
+  const std::string displaced = "\"texture displacement\" \"h\" \"float edgelength\" 0.4";
   // The same file, displaced and as it is.
   const SceneDescription scene =
       parse("Shape \"plymesh\" \"string filename\" \"uv.ply\" " + displaced +
@@ -129,6 +128,12 @@ TEST_CASE("displaced meshes of a scene", "[parse]") {
           displaced,
       "main.pbrt", std::filesystem::path(folder.File("uv.ply")).parent_path().string());
   CHECK(coarse.shapes[0].mesh->indices.size() == 3);
+  // The name that pbrt-v4 has on GPUs means the same.
+  const SceneDescription named = parse(
+      "Shape \"plymesh\" \"string filename\" \"uv.ply\" \"texture displacement\" "
+      "\"h\" \"float displacement.edgelength\" 0.4");
+  CHECK(named.shapes[0].mesh->indices == scene.shapes[0].mesh->indices);
+  CHECK(HasNote(named, "write \"edgelength\""));
   CHECK_THROWS_WITH(
       parse("Shape \"plymesh\" \"string filename\" \"plain.ply\" " + displaced),
       Catch::StartsWith("main.pbrt:2:17: error: ") &&

@@ -115,18 +115,17 @@ TEST_CASE("the medium in a coat: what can be textured", "[parse]") {
   }
 }
 
-TEST_CASE("diffuse transmission scales both parts", "[parse]") {
+TEST_CASE("diffuse transmission keeps its scale, which comes before the clamp",
+          "[parse]") {
   const Material plain = ParseMaterial("\"diffusetransmission\"");
   CHECK(plain.reflectance.constant == Rgb{0.25, 0.25, 0.25});
   CHECK(plain.transmittance.constant == Rgb{0.25, 0.25, 0.25});
-  const SceneDescription scene = ParseWorld(R"(
-    Texture "t" "spectrum" "constant" "rgb value" [ 0.2 0.4 0.6 ]
-    Material "diffusetransmission" "texture reflectance" "t" "float scale" 0.5)");
-  CHECK(scene.materials[0].transmittance.constant == Rgb{0.125, 0.125, 0.125});
-  const Texture& scaled = scene.textures[scene.materials[0].reflectance.texture];
-  CHECK(scaled.kind == TextureKind::kScale);
-  CHECK(scaled.tex1.texture == 0);
-  CHECK(scaled.amount.constant == 0.5);
+  CHECK(plain.scale == 1);
+  const Material scaled = ParseMaterial(
+      "\"diffusetransmission\" \"spectrum reflectance\" [ 400 0.2 700 0.4 ] "
+      "\"float scale\" 1.5");
+  CHECK(scaled.scale == 1.5);
+  CHECK(scaled.reflectance.spectrum != nullptr);
 }
 
 TEST_CASE("mix, interface, named materials", "[parse]") {

@@ -20,11 +20,33 @@ TEST_CASE("homogeneous media", "[parse]") {
   CHECK(medium.sigma_s == Rgb{2, 2.5, 3});
   CHECK(medium.emission == Rgb{3, 0, 6});
   CHECK(medium.g == -0.25);
-  const Medium milk = ParseMedium("\"homogeneous\"");
-  CHECK(milk.sigma_s == Rgb{2.55, 3.21, 3.77});
-  CHECK(milk.sigma_a == Rgb{0.0011, 0.0024, 0.014});
   CHECK(ParseMedium("\"homogeneous\" \"string preset\" \"Apple\"").sigma_s ==
         Rgb{2.29, 2.39, 1.97});
+}
+
+TEST_CASE("each coefficient of a homogeneous medium that is missing is 1", "[parse]") {
+  const Medium bare = ParseMedium("\"homogeneous\"");
+  CHECK(bare.sigma_a == Rgb{1, 1, 1});
+  CHECK(bare.sigma_s == Rgb{1, 1, 1});
+  const Medium scattering =
+      ParseMedium("\"homogeneous\" \"rgb sigma_s\" [ 1 2 3 ] \"float scale\" 2");
+  CHECK(scattering.sigma_a == Rgb{2, 2, 2});
+  CHECK(scattering.sigma_s == Rgb{2, 4, 6});
+  const Medium absorbing = ParseMedium("\"homogeneous\" \"rgb sigma_a\" [ 1 2 3 ]");
+  CHECK(absorbing.sigma_a == Rgb{1, 2, 3});
+  CHECK(absorbing.sigma_s == Rgb{1, 1, 1});
+}
+
+TEST_CASE("a preset that no medium has is a warning, as in pbrt", "[parse]") {
+  const SceneDescription scene = ParseWorld(
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" "
+      "\"Aple\" \"rgb sigma_a\" [ 1 2 3 ]");
+  CHECK(scene.media[0].sigma_a == Rgb{1, 2, 3});
+  CHECK(scene.media[0].sigma_s == Rgb{1, 1, 1});
+  CHECK(HasNote(scene, "\"Apple\""));
+  CHECK_THAT(WorldError("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" "
+                        "\"string preset\" \"Apple\" \"rgb sigma_a\" [ 1 2 3 ]"),
+             Catch::Contains("exclude each other"));
 }
 
 TEST_CASE("media that vary", "[parse]") {
@@ -47,11 +69,15 @@ TEST_CASE("media that emit by voxel", "[parse]") {
       ParseMedium(grid + "\"rgb Le\" [ 1 2 3 ] \"float Lescale\" [ 4 5 ]");
   CHECK(scaled.emission == Rgb{1, 2, 3});
   CHECK(scaled.emission_grid == std::vector<float>{4, 5});
+  // Without a scale pbrt-v4 has a grid of one voxel; a single number is that everywhere.
+  CHECK(ParseMedium(grid + "\"rgb Le\" [ 1 2 3 ]").emission_grid ==
+        std::vector<float>{1});
   const Medium hot = ParseMedium(grid +
                                  "\"float temperature\" [ 6 7 ] \"float Lescale\" 3 "
                                  "\"float temperaturecutoff\" 2 "
                                  "\"float temperaturescale\" 100");
   CHECK(hot.emission == Rgb{3, 3, 3});
+  CHECK(hot.emission_grid.empty());
   CHECK(hot.temperature == std::vector<float>{6, 7});
   CHECK(hot.temperature_offset == 2);
   CHECK(hot.temperature_scale == 100);

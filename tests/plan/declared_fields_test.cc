@@ -263,6 +263,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kCurvesScene, "points=sobol"},
       {kCurvesScene, "points=sobol,reuse=block"},
       {kForcedScene, "points=sobol"},
+      {kRegularScene, "points=sobol"},
+      {kRegularScene, "directions=light"},
       {kForcedScene, "roulette=adjoint"},
       {kMovingScene, "points=sobol"},
       {kMovingScene, "points=halton,pairs=antithetic"},

@@ -80,8 +80,8 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.source = m;
   out.kind = m->kind;
   out.scattering = m->scattering;
-  out.reflectance = Clamp(look.Color(m->reflectance), 0, 1);
-  out.transmittance = Clamp(look.Color(m->transmittance), 0, 1);
+  out.reflectance = Clamp(look.Color(m->reflectance) * m->scale, 0, 1);
+  out.transmittance = Clamp(look.Color(m->transmittance) * m->scale, 0, 1);
   out.index = m->interface_eta;
   out.interface = look.Distribution(m->uroughness, m->vroughness, m->remap_roughness);
   out.metal = look.Distribution(m->conductor_uroughness, m->conductor_vroughness,
@@ -103,6 +103,13 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
     }
   }
   return out;
+}
+
+void Regularize(LocalMaterial& material) {
+  for (double* alpha : {&material.interface.ax, &material.interface.ay,
+                        &material.metal.ax, &material.metal.ay}) {
+    if (*alpha < 0.3) *alpha = std::min(std::max(2 * *alpha, 0.1), 0.3);
+  }
 }
 
 LocalMaterial MadeDiffuse(const LocalMaterial& material, Vec3d wo, Random& random) {

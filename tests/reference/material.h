@@ -11,6 +11,9 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index material,
                                const SurfacePoint& at, const TextureLookup& texture,
                                Random& random);
 
+/// Makes microfacets with alpha below 0.3 rougher (Integrator::regularize).
+void Regularize(LocalMaterial& material);
+
 /// A diffuse material whose reflectance has the mean of the albedo for `wo`.
 LocalMaterial MadeDiffuse(const LocalMaterial& material, Vec3d wo, Random& random);
 

@@ -13,12 +13,12 @@ namespace lanelight::reference {
 namespace {
 
 // One number of samples at the voxels; zero outside.
-double Voxel(const Medium& m, const std::vector<float>& values, Vec3d i, int channels,
+double Voxel(const int size[3], const std::vector<float>& values, Vec3d i, int channels,
              int channel) {
   for (int a = 0; a < 3; ++a) {
-    if (i[a] < 0 || i[a] >= m.grid_size[a]) return 0;
+    if (i[a] < 0 || i[a] >= size[a]) return 0;
   }
-  const double voxel = (i.z * m.grid_size[1] + i.y) * m.grid_size[0] + i.x;
+  const double voxel = (i.z * size[1] + i.y) * size[0] + i.x;
   return values[static_cast<std::size_t>(voxel * channels + channel)];
 }
 
@@ -36,12 +36,14 @@ double Blend(Vec3d at, const Value& value) {
   return sum;
 }
 
-// `share` of the box.
+// `share` of the box. A single number is a grid of one voxel.
 double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d share,
                     int channels, int channel) {
-  const Vec3d at = {share.x * m.grid_size[0] - 0.5, share.y * m.grid_size[1] - 0.5,
-                    share.z * m.grid_size[2] - 0.5};
-  return Blend(at, [&](Vec3d i) { return Voxel(m, values, i, channels, channel); });
+  constexpr int kSingle[3] = {1, 1, 1};
+  const int* const size = values.size() == 1 ? kSingle : m.grid_size;
+  const Vec3d at = {share.x * size[0] - 0.5, share.y * size[1] - 0.5,
+                    share.z * size[2] - 0.5};
+  return Blend(at, [&](Vec3d i) { return Voxel(size, values, i, channels, channel); });
 }
 
 // Of a point of the medium's space.

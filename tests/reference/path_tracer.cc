@@ -81,7 +81,7 @@ Rgb Tracer::Direct(Vec3d p, int primitive, const Scattered& scattered,
 Rgb Tracer::Trace(Ray ray) const {
   const int max_depth = options.max_depth.value_or(scene.integrator.max_depth);
   Rgb beta = {1, 1, 1}, sum;
-  bool counts_emission = true;
+  bool counts_emission = true, regular = false;
   Index medium = scene.camera.medium;
   // A path through media is one of a single channel.
   const int channel = scene.media.empty() ? 0 : static_cast<int>(3 * random.Uniform());
@@ -104,6 +104,7 @@ Rgb Tracer::Trace(Ray ray) const {
       };
       sum += beta * Direct(p, kNone, phase, [&](Vec3d) { return medium; });
       counts_emission = !samples_lights();
+      regular = scene.integrator.regularize;
       ray = {p, SamplePhaseFunction(m.g, ray.d, random), kNone};
       continue;
     }
@@ -123,6 +124,7 @@ Rgb Tracer::Trace(Ray ray) const {
     const bool inside = medium != kNone && scene.media[medium].in_material;
     if (!inside && depth++ == max_depth) return sum;
     LocalMaterial material = EvaluateMaterial(scene, index, at, options.texture, random);
+    if (regular) Regularize(material);
     const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
                                            options.texture, options.normal_map);
     const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
@@ -137,6 +139,7 @@ Rgb Tracer::Trace(Ray ray) const {
     if (!next || next->weight == Rgb{}) return sum;
     beta = beta * next->weight;
     counts_emission = next->specular || !samples_lights();
+    regular |= scene.integrator.regularize && !next->specular;
     ray = {at.p, Normalize(frame.ToWorld(next->wi)), hit.primitive};
     medium = beyond(ray.d);
   }

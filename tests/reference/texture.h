@@ -76,6 +76,7 @@ class Textures {
         return MarbleColor(t.noise_scale * q, t.octaves, t.roughness, t.variation);
       case TextureKind::kMetalExtinction:
       case TextureKind::kCoatedBase:
+      case TextureKind::kRegularAlpha:
         break;  // of compiled scenes alone
     }
     LL_CHECK(!"a texture of this kind is in no file");
@@ -113,12 +114,7 @@ class Textures {
   // The image is a grid of samples at texel centres; row 0 is at the top, where v = 1.
   Rgb EvalImage(const Texture& t, double s, double v) const {
     const Image& image = images_.at(t.path);
-    double x = s, y = 1 - v;
-    if (t.wrap == WrapMode::kOctahedralSphere) {
-      x = std::min(std::max(x, 0.0), 1.0);
-      y = std::min(std::max(y, 0.0), 1.0);
-    }
-    x *= image.width, y *= image.height;
+    const double x = s * image.width, y = (1 - v) * image.height;
     Rgb sum;
     if (t.bilinear) {
       // Tent weights of the four nearest centres.
@@ -157,9 +153,10 @@ class Textures {
         if (cx < 0 || cx >= w || cy < 0 || cy >= h) return {};
         break;
       case WrapMode::kOctahedralSphere:
-        // Crossing an edge leads back in at the mirror image of the crossing point.
-        if (cx < 0 || cx >= w) cx = cx < 0 ? -1 - cx : 2 * w - 1 - cx, cy = h - 1 - cy;
-        if (cy < 0 || cy >= h) cy = cy < 0 ? -1 - cy : 2 * h - 1 - cy, cx = w - 1 - cx;
+        // Crossing an edge leads back in at the mirror image of the crossing point; below
+        // 0 pbrt leaves out the first sample.
+        if (cx < 0 || cx >= w) cx = cx < 0 ? -cx : 2 * w - 1 - cx, cy = h - 1 - cy;
+        if (cy < 0 || cy >= h) cy = cy < 0 ? -cy : 2 * h - 1 - cy, cx = w - 1 - cx;
         break;
     }
     const int i = static_cast<int>(std::min(std::max(cx, 0.0), w - 1));

@@ -108,6 +108,37 @@ TEST_CASE("triangle surfaces: point, normals, uv and tangent", "[surface]") {
   ForceTarget("");
 }
 
+TEST_CASE("tangents of bilinear patches turn as the normal does, by two mirrors",
+          "[surface]") {
+  constexpr float kSine = 0.6f, kCosine = 0.8f;
+  struct Case {
+    Vec3f normal, along_u;
+  };
+  // By way of the x axis: from z to a normal n, x goes to z and on to
+  // z - 2 (z . b) b / b^2 with b = x - n.
+  for (const auto& [normal, along_u] :
+       {Case{{kSine, 0, kCosine}, {kCosine, 0, -kSine}},
+        Case{{0, kSine, kCosine}, {kCosine, -kSine * kCosine, kSine * kSine}},
+        Case{{0, 0, 1}, {1, 0, 0}}}) {
+    for (const std::string& target : AvailableTargets()) {
+      ForceTarget(target);
+      Geometry g;
+      g.triangles = {MakeTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
+      g.triangles[0].flags = kTurnedTangents;
+      g.turned_tangents = true;
+      g.uvs = {0, 0, 1, 0, 0, 1};
+      for (int i = 0; i < 9; ++i) g.normals.push_back(normal[i % 3]);
+      const CompiledScene scene = MakeScene(std::move(g));
+      WaveFixture f(scene, 1);
+      REQUIRE(HitSurface(f, {{{0.25f, 0.25f, 1}, {0, 0, -1}}}, kEverything).size() == 1);
+      const PathColumns& p = f.wave.path;
+      CAPTURE(target, normal.x, normal.y, p.tg_x[0], p.tg_y[0], p.tg_z[0]);
+      CHECK(Length(Vec3f{p.tg_x[0], p.tg_y[0], p.tg_z[0]} - along_u) < 1e-6f);
+    }
+  }
+  ForceTarget("");
+}
+
 TEST_CASE("without vertex normals the winding gives the normal", "[surface]") {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);

@@ -57,8 +57,16 @@ struct Lookups {
     m.color0_r = m.color0_g = m.color0_b = {0.5f};
     m.color0_texture = {0};
   }
+  explicit Lookups(const Texture& texture) {
+    scene.textures = CompileTextures({texture});
+    MaterialTable& m = scene.materials;
+    m.kind = {0};
+    m.color0_r = m.color0_g = m.color0_b = {0.5f};
+    m.color0_texture = {0};
+  }
   struct Point {
     float u, v, dudx = 0, dudy = 0, dvdx = 0, dvdy = 0;
+    Vec3f p{}, tg{}, tv{};
   };
   std::vector<float> Eval(const std::vector<Point>& points) {
     const auto n = static_cast<std::uint32_t>(points.size());
@@ -71,6 +79,10 @@ struct Lookups {
       p.uv_u[i] = points[i].u, p.uv_v[i] = points[i].v;
       p.spread_0[i] = points[i].dudx, p.spread_1[i] = points[i].dudy;
       p.spread_2[i] = points[i].dvdx, p.spread_3[i] = points[i].dvdy;
+      const auto [at, tg, tv] = std::tie(points[i].p, points[i].tg, points[i].tv);
+      p.p_x[i] = at.x, p.p_y[i] = at.y, p.p_z[i] = at.z;
+      p.tg_x[i] = tg.x, p.tg_y[i] = tg.y, p.tg_z[i] = tg.z;
+      p.tv_x[i] = tv.x, p.tv_y[i] = tv.y, p.tv_z[i] = tv.z;
     }
     f.QueueAll(QueueId::kSurface, n);
     f.Run(TextureStage, {Feature::kTextures, Feature::kUv, Feature::kTextureFootprints});
@@ -193,6 +205,85 @@ TEST_CASE("images get levels only where a filter asks", "[texture][levels]") {
   CHECK(plain.scene.textures.images[0].rgb.size() == 3 * 256);
   Lookups filtered(16, [](double u, double) { return u; }, ImageFilter::kTrilinear);
   CHECK(filtered.scene.textures.images[0].level_begin.size() == 5);
+}
+
+TEST_CASE("checkerboards are filtered by a triangle of 1.5 steps to either side",
+          "[texture][levels]") {
+  Texture texture;
+  texture.kind = TextureKind::kCheckerboard;
+  texture.filter = ImageFilter::kTrilinear;
+  texture.mapping = {2, 3, 0.25, 0};
+  texture.tex1.constant = {1, 1, 1};
+  texture.tex2.constant = {0.25, 0.25, 0.25};
+  Lookups lookups(texture);
+  // The mean of a square wave over the triangle, by the midpoint rule.
+  const auto mean = [](double x, double reach) {
+    constexpr int kSteps = 20000;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double at = (i + 0.5) / kSteps * 2 - 1;
+      const bool odd = std::fmod(std::floor(x + at * reach) + 1000, 2) != 0;
+      sum += (odd ? -1 : 1) * (1 - std::abs(at)) * 2 / kSteps;
+    }
+    return sum;
+  };
+  for (const float step : {0.0f, 0.003f, 0.05f, 0.15f, 0.4f, 3.0f}) {
+    for (const float u : {0.1f, 0.37f, 0.38f, 0.62f, -4.9f}) {
+      for (const float v : {0.01f, 0.33f, 0.5f}) {
+        CAPTURE(step, u, v);
+        // The longer of both steps counts, in the texture's own coordinates.
+        const float value =
+            lookups.Eval({{u, v, step, -step / 2, 0.1f * step, -step}})[0];
+        const double product =
+            mean(2.0 * u + 0.25, 1.5 * 2 * step) * mean(3.0 * v, 1.5 * 3 * step);
+        CHECK(value == Approx(0.625 + 0.375 * product).margin(5e-4));
+      }
+    }
+  }
+}
+
+TEST_CASE("mappings of places are filtered by steps along the surface",
+          "[texture][levels]") {
+  constexpr float kPi = 3.14159265f, kStep = 0.02f;
+  Texture texture;
+  texture.kind = TextureKind::kCheckerboard;
+  texture.filter = ImageFilter::kTrilinear;
+  texture.tex1.constant = {1, 1, 1};
+  // The weight of tex1 at `edge` of a reach from the only edge: 1 - (1 - edge)^2 / 2.
+  const auto check = [&](MappingKind kind, Lookups::Point at, double edge) {
+    texture.mapping.kind = kind;
+    const float value = Lookups(texture).Eval({at})[0];
+    const double less = std::pow(1 - edge, 2) / 2;
+    CAPTURE(static_cast<int>(kind), edge, value);
+    CHECK(value == Approx(1 - less).margin(2e-3));
+  };
+  // Planar: s = x. A reach is 1.5 steps.
+  check(MappingKind::kPlanar,
+        {0, 0, kStep, 0, 0, 0, {0.75f * kStep, 0.5f, 0}, {1, 0, 0}, {0, 1, 0}}, 0.5);
+  // About z from -x: at (-1, -y) turns begin, and a step around by kStep is that over 2
+  // pi.
+  const float angle = 0.75f * kStep;
+  const Vec3f start = {-std::cos(angle), -std::sin(angle), 0.5f};
+  check(MappingKind::kCylindrical,
+        {0, 0, kStep, 0, 0, 0, start, {std::sin(angle), -std::cos(angle), 0}, {}}, 0.5);
+  // The angle to z over pi is s: with an edge at the pole, at 0.75 of a step from it the
+  // turns are 1/8, of which a step along the meridian is none.
+  const Vec3f down = {std::cos(angle) * std::sqrt(0.5f),
+                      std::cos(angle) * std::sqrt(0.5f), -std::sin(angle)};
+  const Vec3f pole = {std::sin(angle) * std::sqrt(0.5f),
+                      std::sin(angle) * std::sqrt(0.5f), std::cos(angle)};
+  check(MappingKind::kSpherical, {0, 0, kStep, 0, 0, 0, pole, down, {}}, 0.5);
+  CHECK(angle < kPi / 8);
+}
+
+TEST_CASE("checkerboards of programs and solid ones stay sharp", "[texture][levels]") {
+  Texture texture;
+  texture.kind = TextureKind::kCheckerboard;
+  texture.tex1.constant = {1, 1, 1};
+  CHECK(Lookups(texture).Eval({{0.01f, 0.5f, 1, 1, 1, 1}})[0] == 1);
+  texture.filter = ImageFilter::kTrilinear;
+  texture.dimension = 3;
+  CHECK(CompileTextures({texture}).nodes[0].filter == ImageFilter::kBilinear);
 }
 
 }  // namespace lanelight

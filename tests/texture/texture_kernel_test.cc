@@ -169,6 +169,38 @@ TEST_CASE("image textures: every wrap mode, filter and file type", "[texture]") 
   }
 }
 
+TEST_CASE("octahedral images are folded once at each edge", "[texture]") {
+  const TemporaryFolder folder;
+  // Texel (i, j) is 10 j + i + 1.
+  Image image = MakeImage(4, 4, {"Y"});
+  for (int k = 0; k < 16; ++k) {
+    image.pixels[k] = static_cast<float>(10 * (k / 4) + k % 4 + 1);
+  }
+  WritePfm(folder.File("a.pfm"), image);
+  Texture t = ImageTexture(folder.File("a.pfm"));
+  t.wrap = WrapMode::kOctahedralSphere;
+  t.bilinear = false;
+  const TextureTable table = CompileTextures({t});
+  struct Texel {
+    double i, j;  // column and row, from the top
+    float expected;
+  };
+  // Beyond an edge the other coordinate is mirrored; below 0 pbrt leaves out the first.
+  const Texel lookups[] = {{1, 2, 22},  {-1, 1, 22}, {-2, 0, 33},  {4, 1, 24}, {5, 3, 3},
+                           {2, -1, 12}, {0, 4, 34},  {-1, -1, 33}, {4, 4, 11}};
+  DrawnPoints points;
+  for (const Texel& l : lookups) {
+    points.Add(0, static_cast<float>((l.i + 0.5) / 4),
+               static_cast<float>(1 - (l.j + 0.5) / 4));
+  }
+  points.Pad();
+  const std::vector<float> rgb = Eval(table, points);
+  for (std::size_t k = 0; k < std::size(lookups); ++k) {
+    CAPTURE(lookups[k].i, lookups[k].j);
+    CHECK(rgb[k] == lookups[k].expected);
+  }
+}
+
 TEST_CASE("odd sizes interpolate as well", "[texture]") {
   const TemporaryFolder folder;
   std::vector<Texture> textures = {
