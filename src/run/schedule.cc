@@ -1,5 +1,7 @@
 #include "src/run/schedule.h"
 
+#include "src/wave/run_options.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +30,13 @@ int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
   int checks = 0;
   for (auto at = FirstCheck(unit); at <= done; at = NextCheck(at, unit)) ++checks;
   return checks;
+}
+
+Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit) {
+  if (done >= per_task) return {per_task, kMostSamplesPerPixel};
+  const auto samples =
+      static_cast<std::uint32_t>(std::max<std::uint64_t>(3 * done, unit));
+  return {std::min(samples, per_task), samples};
 }
 
 std::uint32_t Pace::Whole(double samples) const {

@@ -23,6 +23,12 @@ struct Round {
   std::uint64_t samples = 1;
 };
 
+/// The next round of a render without a time budget, which has `done` samples per pixel.
+/// The first ones are short (up to 1, 4, 16, ... samples, times `unit`), so that an
+/// interruption leaves an image without holes; once tasks are as long as they can be
+/// (`per_task` samples), one round takes all that is left.
+Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit);
+
 /// Rounds of a render with a time budget. The first is as small as can be; each later one
 /// takes at most half of the time left, by the speed of the one before. The last ones are
 /// small again, and what interrupts them (the caller, when the time is over) interrupts
