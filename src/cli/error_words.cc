@@ -33,7 +33,7 @@ std::string WithReason(std::string text, const ErrorEstimate& e) {
 std::string PercentOf(double relative_mse) { return Percent(relative_mse) + " %"; }
 
 std::string PercentText(const ErrorEstimate& e) {
-  if (!e.available) return kUnknown;
+  if (!e.available) return e.why.empty() ? kUnknown : "unknown: " + e.why;
   if (e.why == kNoLight) return kBlack;
   const Interval& v = e.relmse;
   if (v.HasBounds()) {
@@ -50,7 +50,7 @@ std::string BriefPercentText(const ErrorEstimate& e) {
 }
 
 std::string ErrorText(const ErrorEstimate& e) {
-  if (!e.available) return kUnknown;
+  if (!e.available) return e.why.empty() ? kUnknown : "unknown: " + e.why;
   if (e.why == kNoLight) return kBlack;
   return WithReason(fmt::format("RMSE {}, relative MSE {} (95 % confidence)",
                                 IntervalText(e.rmse), IntervalText(e.relmse)),

@@ -72,9 +72,15 @@ int Merge(const MergeOptions& options) {
                        {"missing_pixels", merged.missing},
                        {"seeds", merged.seeds},
                        {"machines", ToJson(merged.machines)}};
-  const RenderFacts facts = {merged.identity, merged.head, merged.head.at("scale"),
-                             merged.identity.value("color_space", std::string("srgb"))};
-  WriteRendering(*merged.film, facts, options.outputs.targets, members, rendering);
+  const FilmAccumulator& film = *merged.film;
+  const RenderFacts facts = {
+      merged.identity,
+      merged.head,
+      merged.head.at("scale"),
+      merged.identity.value("color_space", std::string("srgb")),
+      std::uint64_t(film.width()) * static_cast<std::uint64_t>(film.height()),
+      options.partial};
+  WriteRendering(film, facts, options.outputs.targets, members, rendering);
   const bool good = PrintProblems(rendering.problems);
   if (options.outputs.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");

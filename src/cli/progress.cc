@@ -118,6 +118,14 @@ void ProgressPrinter::Update(const RenderProgress& progress) {
   Draw(progress);
 }
 
+void ProgressPrinter::Say(const std::string& text, bool always) {
+  const std::lock_guard lock(mutex_);
+  if (style_ == ProgressStyle::kLines && always) WriteError(text + "\n");
+  if (style_ != ProgressStyle::kBar) return;
+  RedrawLine(text);
+  drawn_ = true;
+}
+
 void ProgressPrinter::Interrupt(const std::function<void()>& print) {
   const std::lock_guard lock(mutex_);
   if (drawn_) WriteError("\r\x1b[K");

@@ -37,9 +37,19 @@ inline constexpr std::size_t kDescribeAll = 1000;
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
+  /// Erases what is drawn and not finished: an error has ended the work.
+  ~ProgressPrinter() {
+    Interrupt([] {});
+  }
+  ProgressPrinter(const ProgressPrinter&) = delete;
+  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+
   bool Shows() const { return style_ != ProgressStyle::kNone; }
   /// Prints if it is time to; may be called from any thread.
   void Update(const RenderProgress& progress);
+  /// Says what is done before rendering, in the place of the bar; a plain line if there
+  /// is no terminal and `always`.
+  void Say(const std::string& text, bool always);
   /// Calls print(), which writes lines, where the bar was.
   void Interrupt(const std::function<void()>& print);
   /// Ends the line of the bar.

@@ -48,14 +48,18 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   settings.decision = DecisionFor(options, group);
   if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
   if (!group.leads()) return Serve(options, settings, group);
+  ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
+  progress.Say("reading " + options.scene.scene + " and building its BVH",
+               /*always=*/false);
   const Job job = PrepareJob(options.scene.scene, settings);
+  progress.Interrupt([&] {
+    if (!options.outputs.quiet) PrintNotes(job);
+  });
   CheckOutputs(options.outputs, job.loaded->files);
-  if (!options.outputs.quiet) PrintNotes(job);
   CheckPart(options.outputs.targets.checkpoint, job);
   const bool keeps = !options.outputs.targets.checkpoint.path.empty();
   const InterruptGuard interrupt(keeps ? kKeepingMessage : kStoppingMessage,
                                  settings.threads);
-  ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   RenderHooks hooks = PrintingHooks(progress, interrupt.stop());
   if (group.ranks() > 1) hooks.group = &group;
   const Rendering rendering =

@@ -43,14 +43,26 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   return kExitTargetMissed;
 }
 
-// A part has most pixels in other parts.
-void PrintUnsampled(const RenderReport& report, const Job& job,
-                    const RenderOutputs& options) {
-  if (report.unsampled_pixels == 0 || options.targets.exr.empty()) return;
-  PrintError(fmt::format(
-      "warning: {} of {} pixels have no sample and are black: the render was stopped "
-      "before, or paths there do not end (the maximum depth is {})",
-      report.unsampled_pixels, job.window.pixels(), job.plan.options.max_depth));
+// Where the result of a render that has left pixels without a sample is.
+void PrintPartial(const RenderReport& report, const Job& job,
+                  const RenderOutputs& options) {
+  const std::string& asked = options.targets.exr;
+  std::string text;
+  if (report.unsampled_pixels == job.window.pixels()) {
+    text = "error: the render was stopped before its first sample: no image is written";
+  } else {
+    text = "error: " + report.error.why;
+    if (!report.exr.empty()) text += "; the partial image is '" + report.exr + "'";
+  }
+  if (report.result.stop_reason != StopReason::kInterrupted) {
+    text += fmt::format("; paths there may not end (the maximum depth is {})",
+                        job.plan.options.max_depth);
+  }
+  std::error_code ignored;
+  if (!asked.empty() && fs::exists(asked, ignored)) {
+    text += "; '" + asked + "' is as it was";
+  }
+  PrintError(text);
 }
 
 void PrintBlack(const RenderReport& report) {
@@ -156,7 +168,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   const bool good = PrintProblems(rendering.problems);
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
-  } else if (!options.quiet) {
+  } else if (!options.quiet && (!report.partial || report.result.samples > 0)) {
     Print(preface + SummaryText(report, job, {options.verbose, kept}));
   }
   if (report.result.health.Total() > 0) {
@@ -164,18 +176,19 @@ int PrintRendering(const Rendering& rendering, const Job& job,
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
-  PrintUnsampled(report, job, options);
-  PrintBlack(report);
+  if (!report.partial) PrintBlack(report);
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
     PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");
     return kExitBadInput;
   }
   if (!good) return kExitBadInput;
+  if (report.partial) PrintPartial(report, job, options);
   if (!checkpoint.path.empty() && report.result.stopped_early) {
     PrintError("interrupted: go on with --resume '" + checkpoint.path + "'");
     return kExitInterrupted;
   }
+  if (report.partial) return kExitInterrupted;
   const int code = CheckAmount(report, job, options.quiet);
   return code == kExitGood ? CheckImageChanges(job, options) : code;
 }
@@ -185,6 +198,9 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
   if (progress.Shows()) {
     hooks.on_progress = [&](const RenderProgress& p) { progress.Update(p); };
     hooks.tells_error = true;
+    hooks.on_training = [&] {
+      progress.Say("trial run: measuring what this scene needs", /*always=*/true);
+    };
   }
   hooks.on_rendered = [&] { progress.Finish(); };
   hooks.on_problem = [&](const std::string& problem) {  // rendering goes on

@@ -22,4 +22,11 @@ void ForEachPixel(const FilmAccumulator& film, const Visit& visit) {
   ForEachPixel(WindowOf(film), visit);
 }
 
+/// Pixels of the film that have a sample.
+inline std::uint64_t SampledPixels(const FilmAccumulator& film) {
+  std::uint64_t count = 0;
+  ForEachPixel(film, [&](int x, int y) { count += film.Samples(x, y) > 0; });
+  return count;
+}
+
 }  // namespace lanelight

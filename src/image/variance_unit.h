@@ -19,6 +19,9 @@ inline constexpr const char* kObservations = "observations";
 /// squared correlation of their errors with one's own (SampleGroups::dependents).
 inline constexpr const char* kDependentPixels = "dependentPixels";
 
+/// An int above 0: pixels that have no sample and are black.
+inline constexpr const char* kEmptyPixels = "emptyPixels";
+
 /// The power to write with, where the largest finite variance of the image is `largest`;
 /// 0 for 0 and for 1e-18 to 8e37. Beyond that (radiance is float: up to 1e-90 and 1e77)
 /// the largest one comes to lie near the upper end of the range, so that as many of the

@@ -181,8 +181,9 @@ std::unique_ptr<StateCopy> Checkpoint::Copy(RunState& state) const {
 }
 
 std::function<void()> Checkpoint::Watch(RunState& state) const {
-  if (settings_.watch.empty()) return {};
   FilmAccumulator& film = state.films.film();
+  // The image of before is better than one with holes.
+  if (settings_.watch.empty() || SampledPixels(film) < PixelsOf(tiles_)) return {};
   film.FitControl();
   // Made only where they are written.
   std::shared_ptr<std::vector<ExrPlane>> planes;

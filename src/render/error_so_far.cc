@@ -18,7 +18,8 @@ double SamplesOf(const FilmAccumulator& film) {
 
 void ErrorSoFar::Listen(std::uint64_t pixels, RunOptions& options) {
   if (!options.samples_needed) {
-    options.on_film = [this](const FilmAccumulator& film) {
+    options.on_film = [this, pixels](const FilmAccumulator& film) {
+      if (SampledPixels(film) < pixels) return;
       Set(EstimateError(film), SamplesOf(film), 0);
     };
     return;

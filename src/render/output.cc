@@ -139,6 +139,9 @@ void NoteObservations(const FilmAccumulator& film, ExrOptions& options) {
     if (film.HasVariance(x, y)) least = std::min(least, film.Observations(x, y));
   });
   if (least < kMost) options.attributes[kObservations] = static_cast<int>(least);
+  const std::uint64_t pixels = std::uint64_t(film.width()) * std::uint64_t(film.height());
+  const std::uint64_t empty = pixels - SampledPixels(film);
+  if (empty > 0) options.attributes[kEmptyPixels] = static_cast<int>(empty);
   if (film.groups().dependents > 1) {
     options.attributes[kDependentPixels] = film.groups().dependents;
   }

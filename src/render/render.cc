@@ -1,5 +1,6 @@
 #include "src/render/render.h"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -36,12 +37,6 @@ void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
   report.write_seconds = watch.Seconds();
 }
 
-std::uint64_t CountUnsampled(const FilmAccumulator& film) {
-  std::uint64_t count = 0;
-  ForEachPixel(film, [&](int x, int y) { count += film.Samples(x, y) == 0; });
-  return count;
-}
-
 // Every sample is black; false without samples.
 bool IsBlack(const FilmAccumulator& film) {
   bool black = true, sampled = false;
@@ -50,6 +45,23 @@ bool IsBlack(const FilmAccumulator& film) {
     black &= film.Mean(x, y) == Rgb{};
   });
   return black && sampled;
+}
+
+// Without any sample there is no image.
+RenderTargets PartialTargets(RenderTargets targets, bool any) {
+  for (std::string* path : {&targets.exr, &targets.png}) {
+    *path = any ? PartialPath(*path) : "";
+  }
+  targets.json = PartialPath(targets.json);
+  return targets;
+}
+
+// Pixels of the film that a job renders: with --part those of its tiles.
+std::uint64_t PixelsOf(const Job& job, const RunOptions& options) {
+  if (options.tiles.empty()) return job.window.pixels();
+  std::uint64_t pixels = 0;
+  for (const PixelRect& tile : options.tiles) pixels += tile.pixels();
+  return pixels;
 }
 
 // All ranks are to render the same, bit by bit.
@@ -86,6 +98,7 @@ struct ShownRun {
       : options(RunOptionsOf(job)), error(job.target) {
     options.stop = hooks.stop;
     options.group = hooks.group;
+    options.on_training = hooks.on_training;
     if (hooks.on_progress) {
       if (hooks.tells_error) error.Listen(job.window.pixels(), options);
       options.on_progress = [&](const Progress& p) { hooks.on_progress(error.At(p)); };
@@ -111,9 +124,11 @@ struct ShownRun {
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks) {
   const ThreadLimit threads(job.settings.threads);
-  const RenderFacts facts = {IdentityOf(job), HeadJson(job, scene, targets.image.half),
-                             job.scene.compiled->scale,
-                             job.loaded->description.film.color_space};
+  RenderFacts facts;
+  facts.identity = IdentityOf(job);
+  facts.head = HeadJson(job, scene, targets.image.half);
+  facts.scale = job.scene.compiled->scale;
+  facts.color_space = job.loaded->description.film.color_space;
   Rendering out;
   out.report.scene = scene;
   out.report.half = targets.image.half;
@@ -128,6 +143,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
     shown.options.tiles = checkpoint->tiles();
     shown.options.keeper = &*checkpoint;
   }
+  facts.pixels = PixelsOf(job, shown.options);
   if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
   try {
     out.report.result = Run(job.scene, job.plan, shown.options, film);
@@ -154,10 +170,27 @@ void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop
   ServeRun(job.scene, job.plan, options, film);
 }
 
+std::string PartialPath(const std::string& path) {
+  if (path.empty() || path == "-") return path;
+  const std::filesystem::path whole = path;
+  return whole.parent_path() /
+         (whole.stem().string() + ".partial" + whole.extension().string());
+}
+
 void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
-                    const RenderTargets& targets, const Json& members, Rendering& out) {
-  out.report.error = EstimateError(film);
-  out.report.unsampled_pixels = CountUnsampled(film);
+                    const RenderTargets& asked, const Json& members, Rendering& out) {
+  const std::uint64_t sampled = SampledPixels(film);
+  out.report.unsampled_pixels =
+      std::uint64_t(film.width()) * static_cast<std::uint64_t>(film.height()) - sampled;
+  out.report.partial = sampled < facts.pixels && !facts.partial;
+  if (sampled >= facts.pixels) {
+    out.report.error = EstimateError(film);
+  } else {
+    out.report.error.why =
+        fmt::format("{} pixels have no sample", facts.pixels - sampled);
+  }
+  const RenderTargets targets =
+      out.report.partial ? PartialTargets(asked, sampled > 0) : asked;
   out.report.black = IsBlack(film);
   Saver saver;
   SaveImages(film, facts, targets, saver, out.report);

@@ -28,6 +28,7 @@ struct RenderTargets {
 struct RenderHooks {
   std::function<void(const RenderProgress&)> on_progress;
   bool tells_error = false;  // progress has the error so far, which costs a little
+  std::function<void()> on_training;  // RunOptions
   std::function<void()> on_rendered;  // before anything is written
   /// Of a state or watched image that could not be written, or a viewer that is not
   /// there; from any thread.
@@ -45,7 +46,8 @@ struct Rendering {
 };
 
 /// Renders the job, estimates the error, and writes images and report; `scene`: name of
-/// the scene in the report. What cannot be written where it should is kept elsewhere.
+/// the scene in the report. What cannot be written where it should is kept elsewhere, and
+/// so is an image with pixels that have no sample (PartialPath()).
 /// With a checkpoint the state is kept all along, and the render goes on from one. Throws
 /// InputError for a state that it cannot go on from.
 Rendering RenderToFiles(const Job& job, const std::string& scene,
@@ -59,7 +61,15 @@ struct RenderFacts {
   nlohmann::json identity, head;  // src/render/identity.h, HeadJson
   double scale = 1;               // CompiledScene::scale
   std::string color_space;        // that the film holds (src/image/color_spaces.h)
+  /// Pixels that are to have samples: all of the film, or those of a part. Images with
+  /// fewer go to PartialPath(), unless `partial` asks for them.
+  std::uint64_t pixels = 0;
+  bool partial = false;
 };
+
+/// Where an image with pixels that have no sample goes: out.partial.exr for out.exr. So
+/// it never replaces a better one.
+std::string PartialPath(const std::string& path);
 
 /// The second half of it, for a film whoever has rendered it. `members`: of the report,
 /// beside its own. out.report.result is what it came to.

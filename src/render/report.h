@@ -20,7 +20,10 @@ struct RenderReport {
   RunResult result;
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
-  bool black = false;                  // all samples are black
+  /// Pixels were left without a sample: images and report are in partial files, and those
+  /// of the names that were asked for are as they were. Without any sample there is none.
+  bool partial = false;
+  bool black = false;  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   TreeReport trees;
   bool half = false;

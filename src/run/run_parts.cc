@@ -18,8 +18,9 @@ std::optional<RunPart> RunParts::Next() {
   const std::uint64_t done = setting_.tasks.Done(), limit = setting_.limit();
   if (done >= limit || watch_.Ended() || checks_.reached() || checks_.hopeless())
     return std::nullopt;
-  const Round round = pace_ ? pace_->Next(setting_.clock.Elapsed())
-                            : RoundAfter(done, setting_.tasks.per_task(), setting_.unit());
+  const Round round = pace_
+                          ? pace_->Next(setting_.clock.Elapsed())
+                          : RoundAfter(done, setting_.tasks.per_task(), setting_.unit());
   RunPart part;
   part.begin = done;
   part.first = done / kSamplesPerSeed * kSamplesPerSeed;

@@ -53,6 +53,7 @@ std::uint64_t RunStrategy::PlannedTraining() const {
 }
 
 void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
+  if (options_.on_training) options_.on_training();
   RankPasses ranks(group, options_.stop);
   TrainingOptions options;
   options.planned_samples = planned;

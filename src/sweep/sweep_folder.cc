@@ -161,8 +161,10 @@ void SweepFolder::Fail(const SweepCell& cell, const std::string& message) const 
 
 void SweepFolder::RemoveImages(const SweepCell& cell) const {
   std::error_code ignored;
-  fs::remove(File(cell, "image.exr"), ignored);
-  fs::remove(File(cell, "image.png"), ignored);
+  for (const char* name :
+       {"image.exr", "image.png", "image.partial.exr", "image.partial.png"}) {
+    fs::remove(File(cell, name), ignored);
+  }
 }
 
 std::vector<std::string> SweepFolder::OtherCells() const {

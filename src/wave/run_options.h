@@ -48,6 +48,7 @@ struct RunOptions {
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
+  std::function<void()> on_training;  // before a trial run or another training begins
   /// Is shown the film so far, all of it at rest, as often as costs next to nothing
   /// (src/run/film_show.h). Alone, not in a group.
   std::function<void(const FilmAccumulator& film)> on_film;

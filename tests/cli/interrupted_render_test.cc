@@ -1,0 +1,99 @@
+// What an interruption leaves behind: an image that exists is replaced by one without
+// holes or not at all.
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "src/cli/exit_codes.h"
+#include "src/image/exr.h"
+#include "src/image/image.h"
+#include "tests/cli/process.h"
+#include "tests/support/json.h"
+
+namespace lanelight {
+namespace {
+
+using Catch::Matchers::Contains;
+
+std::string BytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+ProcessResult InterruptAt(const std::string& trigger, int number,
+                          const std::vector<std::string>& arguments) {
+  ProcessOptions interrupt;
+  interrupt.trigger = trigger;
+  interrupt.action = [number](int child) { kill(child, number); };
+  return RunLanelight(arguments, interrupt);
+}
+
+}  // namespace
+
+TEST_CASE("an interruption before the first pass ends keeps the image", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  REQUIRE(RunLanelight({"render", scene, "-o", exr, "--spp", "4"}).exit_code ==
+          kExitGood);
+  const std::string before = BytesOf(exr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    INFO("signal " << number);
+    // The first pass of so many pixels takes seconds; a tenth of it is done.
+    const ProcessResult r = InterruptAt(
+        "rendering", number,
+        {"render", scene, "-o", exr, "--png", "--spp", "1", "--resolution", "6000x4000"});
+    INFO(r.err);
+    CHECK(r.exit_code == kExitInterrupted);
+    CHECK(BytesOf(exr) == before);
+    CHECK_FALSE(std::filesystem::exists(directory / "keep.png"));
+    CHECK_THAT(r.err, Contains("have no sample") && Contains("keep.partial.exr") &&
+                          Contains("is as it was"));
+    CHECK_THAT(r.out, Contains("unknown") && !Contains("95 % confidence"));
+    REQUIRE(std::filesystem::exists(directory / "keep.partial.exr"));
+    const ProcessResult info = RunLanelight({"info", directory / "keep.partial.exr"});
+    CHECK_THAT(info.out, Contains("emptyPixels"));
+    std::filesystem::remove(directory / "keep.partial.exr");
+    std::filesystem::remove(directory / "keep.partial.png");
+  }
+}
+
+TEST_CASE("an interrupted trial run leaves no image", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  const std::string json = directory / "r.json";
+  const ProcessResult r =
+      InterruptAt("trial run", SIGINT,
+                  {"render", scene, "-o", exr, "--json", json, "--spp", "64",
+                   "--resolution", "3000x2000", "--strategy", "decide=pilot"});
+  INFO(r.err);
+  CHECK(r.exit_code == kExitInterrupted);
+  CHECK_THAT(r.err, Contains("stopped before its first sample"));
+  CHECK_FALSE(std::filesystem::exists(exr));
+  CHECK_FALSE(std::filesystem::exists(json));
+  const nlohmann::json report = ReadJson(directory / "r.partial.json");
+  CHECK(report.at("partial") == true);
+  CHECK(report.at("unsampled_pixels") == 3000 * 2000);
+  CHECK(report.at("error").is_null());
+}
+
+TEST_CASE("an interruption after the first pass leaves an image without holes", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "whole.exr";
+  const ProcessResult r = InterruptAt(
+      "rendering", SIGINT,
+      {"render", scene, "-o", exr, "--spp", "100000", "--strategy", "decide=none"});
+  INFO(r.err);
+  CHECK(r.exit_code == kExitGood);
+  const Image image = ReadExr(exr);
+  const int samples = image.FindChannel("samples");
+  REQUIRE(samples >= 0);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) CHECK(image.At(x, y, samples) > 0);
+  }
+}
+
+}  // namespace lanelight
