@@ -62,13 +62,7 @@ std::int64_t TargetNamed(const std::string& name) {
 }
 
 // What `./run build` compiles: "all" in cmake/targets.cmake.
-#if HWY_ARCH_X86
-constexpr std::int64_t kAllTargets = HWY_AVX3 | HWY_AVX2 | HWY_SSE4;
-#elif HWY_ARCH_ARM_A64
-constexpr std::int64_t kAllTargets = HWY_NEON;
-#else
-constexpr std::int64_t kAllTargets = HWY_EMU128;
-#endif
+constexpr std::int64_t kAllTargets = HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON;
 
 // Names of the bits.
 std::vector<std::string> TargetsOf(std::int64_t targets) {
@@ -101,7 +95,7 @@ std::string WhyNoTarget(const std::string& name) {
     return fmt::format("this machine's processor cannot run {}; it can run: {}", name,
                        usable);
   }
-  if (std::ranges::any_of(TargetsOf(kAllTargets), is_named)) {
+  if (std::ranges::any_of(TargetsOf(kAllTargets & hwy::SupportedTargets()), is_named)) {
     return fmt::format("this build has {} only; `./run build` adds the others",
                        fmt::join(compiled, ", "));
   }

@@ -182,6 +182,7 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
     // It may have been stopped before its end.
     if (run.tasks.Done() >= part->end) run.parts.Finish(*part);
   }
+  run.watch.Report();
   run.work.Gather();
   // The last state is kept too, also where another rank has failed.
   if (keeper != nullptr) run.Keep(run.watch.Reason() != StopReason::kInterrupted);

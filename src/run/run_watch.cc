@@ -60,11 +60,16 @@ void RunWatch::TaskDone() {
   std::unique_lock lock(progress_mutex_, std::try_to_lock);
   if (!lock || SecondsSince(last_report_) < 0.1) return;
   last_report_ = std::chrono::steady_clock::now();
+  Report();
+}
+
+void RunWatch::Report() {
+  if (!setting_.options.on_progress) return;
   Progress progress;
   progress.seconds = setting_.clock.Elapsed();
   progress.samples = setting_.tasks.taken();
   progress.fraction = Fraction(progress.seconds, progress.samples);
-  options.on_progress(progress);
+  setting_.options.on_progress(progress);
 }
 
 }  // namespace lanelight

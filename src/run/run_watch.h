@@ -40,6 +40,8 @@ class RunWatch : public TaskWatcher {
   bool Stopped() const override;
   bool Cancelled() const override;
   void TaskDone() override;
+  /// Reports the progress now.
+  void Report();
 
  private:
   bool OutOfTime() const;

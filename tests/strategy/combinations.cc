@@ -85,8 +85,8 @@ Combination FitTo(const PreparedScene& scene, const Combination& combination,
       for (const char* key : {"control", "roulette"}) {
         fitted[AxisOf(key)] = 0;
       }
-      CHECK(fits());
-      return fitted;
+      if (fits()) return fitted;
+      fitted = combination;  // it is the scene that refuses it
     }
     fitted[AxisOf("reuse")] = 0;
     if (fits()) return fitted;
