@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "src/core/gunzip.h"
 #include "src/core/input_file.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
@@ -32,13 +33,14 @@ std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
     return InputError(where,
                       fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
   };
-  if (path.ends_with(".gz")) {
-    throw refusal("compressed files are not supported; unpack it first");
-  }
   try {
-    return ReadWholeFile(path);
+    std::string content = ReadWholeFile(path);
+    if (!IsGzip(path, content)) return content;
+    return Gunzip(content, MaxUnpackedSize(content.size()));
   } catch (const Unreadable& problem) {
     throw refusal(problem.reason());
+  } catch (const InputError& problem) {
+    throw refusal(problem.message());
   }
 }
 

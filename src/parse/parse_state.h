@@ -137,8 +137,8 @@ const auto& Lookup(const Table& table, const std::string& name,
 /// ParseOptions::files.
 std::string ResolvePath(const ParseState& state, const std::string& name);
 
-/// The whole content of a regular file. InputError at `where` if it cannot be read, is
-/// compressed (.gz), or if the options forbid access to files.
+/// Returns the whole content of a regular file, unpacked if it is compressed (gzip).
+/// InputError at `where` if it cannot be read or the options forbid access to files.
 std::string ReadSceneFile(const ParseState& state, const std::string& path,
                           const SourceLocation& where, std::string_view kind);
 
