@@ -40,7 +40,7 @@ constexpr Directive kDirectives[] = {
     {"AttributeBegin", Block::kWorld, RunAttributeBegin},
     {"AttributeEnd", Block::kWorld, RunAttributeEnd},
     {"TransformBegin", Block::kWorld, RunTransformBegin},
-    {"TransformEnd", Block::kWorld, RunTransformEnd},
+    {"TransformEnd", Block::kWorld, RunAttributeEnd},
     {"ReverseOrientation", Block::kWorld, RunReverseOrientation},
     {"Material", Block::kWorld, RunObject},
     {"MakeNamedMaterial", Block::kWorld, RunMakeNamedMaterial},

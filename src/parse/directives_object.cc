@@ -43,7 +43,8 @@ struct ObjectKind {
 
 ParamSet ReadParamSet(ParseState& state, Statement& statement, const ObjectKind& kind,
                       const NameOperand& name) {
-  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  ParamList own =
+      ReadParams(statement.lexer, state.graphics.color_space, &state.scene.notes);
   return {fmt::format("{} {}", kind.word, Quoted(name.text)), name.where, std::move(own),
           kind.defaults ? state.Inherited(*kind.defaults) : nullptr, &state.scene.notes};
 }

@@ -25,9 +25,8 @@ void UsePixelCenters(SceneDescription& scene) {
 SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.scopes.empty()) {
     const Scope& scope = state.scopes.back();
-    const char* name = scope.kind == ScopeKind::kAttribute   ? "AttributeBegin"
-                       : scope.kind == ScopeKind::kTransform ? "TransformBegin"
-                                                             : "ObjectBegin";
+    const char* name =
+        scope.kind == ScopeKind::kAttribute ? "AttributeBegin" : "ObjectBegin";
     throw InputError(scope.where, fmt::format("this {} has no matching end", name));
   }
   if (!state.in_world) {

@@ -36,7 +36,7 @@ struct GraphicsState {
   bool Moves() const { return ctm != ctm_end; }
 };
 
-enum class ScopeKind { kAttribute, kTransform, kObject, kImport };
+enum class ScopeKind { kAttribute, kObject, kImport };
 struct Scope {
   ScopeKind kind;
   SourceLocation where;
@@ -90,6 +90,10 @@ struct ParseState {
   void AddNote(const SourceLocation& where, const std::string& message,
                bool changes_image = false) {
     scene.notes.push_back({where, message, changes_image});
+  }
+  /// Adds a warning: the file has a mistake, which pbrt-v4 lets pass too.
+  void AddWarning(const SourceLocation& where, const std::string& message) {
+    scene.notes.push_back({where, message, false, true});
   }
   /// Adds the note unless the same message was noted before.
   void AddNoteOnce(const SourceLocation& where, const std::string& message) {

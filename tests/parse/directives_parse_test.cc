@@ -68,6 +68,7 @@ TEST_CASE("blocks save and restore the graphics state", "[parse]") {
     TransformBegin Translate 2 0 0 ReverseOrientation Shape "sphere" TransformEnd
     Shape "sphere")");
   REQUIRE(scene.shapes.size() == 4);
+  CHECK(HasWarning(scene, "TransformBegin and TransformEnd are AttributeBegin"));
   const Shape &inside = scene.shapes[0], &after = scene.shapes[1];
   CHECK(scene.materials[inside.material].kind == MaterialKind::kDielectric);
   CHECK(inside.reverse_orientation);
@@ -77,8 +78,8 @@ TEST_CASE("blocks save and restore the graphics state", "[parse]") {
   CHECK(after.area_light == kNone);
   CHECK(Near(Origin(after), {0, 0, 0}));
   CHECK(Near(Origin(scene.shapes[2]), {2, 0, 0}));
-  // Only the transform ends with the block.
-  CHECK(scene.shapes[3].reverse_orientation);
+  CHECK(scene.shapes[2].reverse_orientation);
+  CHECK_FALSE(scene.shapes[3].reverse_orientation);
   CHECK(Near(Origin(scene.shapes[3]), {0, 0, 0}));
 }
 
@@ -130,6 +131,38 @@ TEST_CASE("attributes are defaults that may stay unused", "[parse]") {
   CHECK(scene.shapes[2].alpha.constant == 0.5);
   CHECK(scene.materials.back().uroughness.constant == 0.25);
   CHECK(scene.shapes[3].radius == 1);
+}
+
+TEST_CASE("mistakes that pbrt-v4 lets pass are warnings", "[parse]") {
+  const SceneDescription scene = ParseText(R"(
+    ColorSpace "REC2020"  ColorSpace "srbg"
+    WorldBegin
+    Translate 1 0 0  CoordinateSystem "lamp"
+    CoordSysTransform "lmap"
+    AttributeEnd  TransformEnd
+    Shape "sphere" "float radius" 2 "float radius" 3)");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(scene.shapes[0].radius == 3);
+  CHECK(Near(Origin(scene.shapes[0]), {1, 0, 0}));
+  CHECK(HasWarning(scene, "unknown color space \"srbg\""));
+  CHECK(HasWarning(scene, "did you mean \"lamp\"?"));
+  CHECK(HasWarning(scene, "AttributeEnd without AttributeBegin"));
+  CHECK(HasWarning(scene, "TransformEnd without AttributeBegin"));
+  CHECK(HasWarning(scene, "parameter \"float radius\" is given twice"));
+  CHECK(scene.notes.size() == 5);
+  CHECK(scene.notes[4].where.ToString() == "test.pbrt:7:37");
+}
+
+TEST_CASE("a coordinate system replaces both transforms", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    CoordinateSystem "here"  Translate 1 0 0  ActiveTransform EndTime
+    CoordSysTransform "here"  Shape "sphere")");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
+}
+
+TEST_CASE("options are known in any spelling that pbrt-v4 takes", "[parse]") {
+  CHECK(ParseText("Option \"Force-Diffuse\" true WorldBegin").integrator.force_diffuse);
 }
 
 TEST_CASE("unsupported things can be skipped", "[parse]") {
