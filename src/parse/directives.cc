@@ -131,6 +131,7 @@ void RunDirectives(ParseState& state, std::string_view text, const std::string& 
     }
     CheckBlock(state, *directive, statement.where());
     directive->run(state, statement);
+    RunReady(state);
   }
 }
 

@@ -85,14 +85,10 @@ void RunObjectBegin(ParseState& state, Statement& statement) {
         statement.where(),
         fmt::format("ObjectBegin inside the definition of object {}; objects "
                     "do not nest",
-                    Quoted(state.scene.objects.back().name)));
+                    Quoted(state.scene.objects[state.open_object].name)));
   }
-  const Index index = static_cast<Index>(state.scene.objects.size());
-  if (!state.objects.emplace(name, index).second) {
-    throw InputError(where, fmt::format("object {} is defined twice", Quoted(name)));
-  }
+  const Index index = DefineObject(state, name, where);
   Push(state, statement, ScopeKind::kObject);
-  state.scene.objects.push_back({name, {}});
   state.open_object = index;
 }
 
@@ -108,8 +104,7 @@ void RunObjectInstance(ParseState& state, Statement& statement) {
                      "ObjectInstance inside an object definition; "
                      "instances do not nest");
   }
-  const Index object = Lookup(state.objects, name, where, "object");
-  PlaceObject(state, object, statement.where());
+  PlaceObject(state, UseObject(state, name, where), statement.where());
 }
 
 void RunInclude(ParseState& state, Statement& statement) {

@@ -32,6 +32,9 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.in_world) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
+  RequireNothingWaits(state);
+  RequireSlotsDefined(state);
+  PlaceMovingShapes(state);
   state.scene.film.imaging_ratio =
       (state.shutter_close - state.shutter_open) * state.iso / 100;
   if (state.pixel_centers) UsePixelCenters(state.scene);

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "src/core/suggest.h"
+#include "src/parse/forward.h"
 #include "src/parse/params.h"
 #include "src/parse/parse.h"
 
@@ -27,7 +30,9 @@ struct GraphicsState {
   Transform ctm, ctm_end;  // at the two times of TransformTimes
   bool start_active = true, end_active = true;
   bool reverse_orientation = false;
-  Index material = kNone;  // kNone: the default diffuse
+  Index material = kNone;  // kNone: the default diffuse, or ...
+  std::shared_ptr<const NameUse>
+      later_material;  // ... this one, not yet defined; or null
   Index area_light = kNone;
   MediumInterface media;
   std::string color_space = "srgb";
@@ -60,6 +65,17 @@ struct OpenFile {
   std::string directory;
 };
 
+/// A statement that uses a name without definition, and the state it was read in.
+struct WaitingStatement {
+  std::size_t place;  // in the order of the file
+  std::function<void(ParseState&)> run;
+  NameUse needs;
+  std::optional<NameKey> defines;
+  GraphicsState graphics;
+  Index open_object;
+  std::string directory;  // of its file
+};
+
 struct ParseState {
   ParseOptions options;
   SceneDescription scene;
@@ -71,7 +87,13 @@ struct ParseState {
   int files_read = 0;
 
   std::map<std::string, std::pair<Transform, Transform>> coordinate_systems;  // ctm, end
-  std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
+  std::map<NameKey, Index> names;  // materials and textures that are defined
+  NameSlots media, objects;
+  std::set<NameKey> declared;                           // defined, or waiting for others
+  std::map<std::size_t, WaitingStatement> waiting;      // by place
+  std::map<NameKey, std::vector<std::size_t>> waiters;  // places in `waiting`
+  std::deque<std::size_t> ready;                        // the same, to be run
+  std::size_t statements_waited = 0;
   std::map<std::string, std::shared_ptr<const MeasuredReflectance>> measured;  // by path
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;

@@ -192,9 +192,10 @@ struct FolderWithSub {
 
 TEST_CASE("include shares the state, import does not", "[parse]") {
   const FolderWithSub folder;
-  folder.Write("main.pbrt",
-               "WorldBegin Import \"sub/a.pbrt\" Shape \"sphere\"\n"
-               "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\"");
+  folder.Write(
+      "main.pbrt",
+      "WorldBegin Import \"sub/a.pbrt\" Shape \"sphere\"\n"
+      "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\" Shape \"sphere\"");
   folder.Write("sub/a.pbrt", "Translate 1 0 0 Include \"b.pbrt\"");
   folder.Write("sub/b.pbrt", "Attribute \"shape\" \"float radius\" 7");
   std::string message;
