@@ -56,7 +56,7 @@ class InItsState {
       : state_(state), graphics_(std::move(state.graphics)), object_(state.open_object) {
     state.graphics = statement.graphics;
     state.open_object = statement.open_object;
-    state.open_files.push_back({"", statement.directory});
+    state.open_files.push_back(statement.file);
   }
   ~InItsState() {
     state_.open_files.pop_back();
@@ -111,7 +111,7 @@ void RunOrWait(ParseState& state, const NameKey* defines,
     mark.Restore(state);
     Wait(state, {state.statements_waited++, std::move(run), use,
                  defines == nullptr ? std::nullopt : std::optional(*defines),
-                 state.graphics, state.open_object, state.open_files.back().directory});
+                 state.graphics, state.open_object, state.open_files.back()});
   }
 }
 

@@ -63,9 +63,11 @@ SceneDescription ParseSceneText(std::string_view text, const std::string& name,
   ParseState state;
   state.options = options;
   state.scene.path = (fs::path(directory) / name).string();
-  state.open_files.push_back({"", directory});
-  RunDirectives(state, text, name);
-  return Finish(state, {std::make_shared<const std::string>(name), 0, 0});
+  const auto shared_name = std::make_shared<const std::string>(name);
+  state.open_files.push_back(std::make_shared<const SourceFile>(
+      SourceFile{"", directory, shared_name, std::string(text)}));
+  RunDirectives(state);
+  return Finish(state, {shared_name, 0, 0});
 }
 
 }  // namespace lanelight

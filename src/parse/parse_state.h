@@ -60,10 +60,14 @@ struct MeshRequest {
   Transform world_from_object = {};  // to measure them
 };
 
-struct OpenFile {
+/// A scene file that has been read. Small ones are kept, to be included again.
+struct SourceFile {
   std::string identity;  // canonical path, to detect cycles; empty for text
   std::string directory;
+  std::shared_ptr<const std::string> name;
+  std::string text;
 };
+using SourceFilePtr = std::shared_ptr<const SourceFile>;
 
 /// A statement that uses a name without definition, and the state it was read in.
 struct WaitingStatement {
@@ -73,7 +77,7 @@ struct WaitingStatement {
   std::optional<NameKey> defines;
   GraphicsState graphics;
   Index open_object;
-  std::string directory;  // of its file
+  SourceFilePtr file;
 };
 
 struct ParseState {
@@ -83,8 +87,9 @@ struct ParseState {
   bool in_world = false;
   std::vector<Scope> scopes;
   Index open_object = kNone;  // between ObjectBegin and ObjectEnd
-  std::vector<OpenFile> open_files;
-  int files_read = 0;
+  std::vector<SourceFilePtr> open_files;
+  std::map<std::string, SourceFilePtr> kept_files;  // by path
+  std::size_t bytes_kept = 0, bytes_run = 0;
 
   std::map<std::string, std::pair<Transform, Transform>> coordinate_systems;  // ctm, end
   std::map<NameKey, Index> names;  // materials and textures that are defined
@@ -172,10 +177,10 @@ std::string ReadSceneFile(const ParseState& state, const std::string& path,
 std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
                           std::string_view kind);
 
-/// Runs all directives of `text`, in the open file on top of `state.open_files`.
-void RunDirectives(ParseState& state, std::string_view text, const std::string& name);
+/// Runs all directives of the open file on top of `state.open_files`.
+void RunDirectives(ParseState& state);
 
-/// Include: the same for a file; checks cycles, depth and number of files.
+/// Include: the same for a file; checks cycles, depth and the bytes of all files.
 void RunFile(ParseState& state, const std::string& path, const SourceLocation& where);
 
 /// Reads every requested mesh, each file once, in parallel.

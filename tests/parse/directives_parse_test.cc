@@ -218,6 +218,39 @@ TEST_CASE("include shares the state, import does not", "[parse]") {
   CHECK(Near(Origin(scene.shapes[1]), {1, 0, 0}));
 }
 
+// Files level0 to level<depth>, each of which includes the one before `times` times.
+std::string WriteLevels(const FolderWithSub& folder, int depth, int times) {
+  folder.Write("level0.pbrt", "Shape \"sphere\" \"float radius\" 0\n");
+  for (int level = 1; level <= depth; ++level) {
+    std::string text = level == depth ? "WorldBegin\n" : "";
+    for (int i = 0; i < times; ++i) {
+      text += fmt::format("Include \"level{}.pbrt\"\n", level - 1);
+    }
+    folder.Write(fmt::format("level{}.pbrt", level), text);
+  }
+  return (folder.path / fmt::format("level{}.pbrt", depth)).string();
+}
+
+TEST_CASE("a file may be included more than 100000 times", "[parse]") {
+  const FolderWithSub folder;
+  // Each sphere without radius leaves a note.
+  CHECK(ParseScene(WriteLevels(folder, 5, 11)).notes.size() == 11 * 11 * 11 * 11 * 11);
+}
+
+TEST_CASE("files that include each other without end are refused", "[parse][slow]") {
+  const FolderWithSub folder;
+  const std::string scene = WriteLevels(folder, 60, 2);
+  folder.Write("level0.pbrt", "");
+  std::string message;
+  try {
+    ParseScene(scene);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  CHECK(message.find("all included files together have more than 4 GiB") !=
+        std::string::npos);
+}
+
 TEST_CASE("a mesh file used twice is loaded once", "[parse]") {
   const FolderWithSub folder;
   folder.Write("m.ply",
