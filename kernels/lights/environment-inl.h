@@ -8,6 +8,18 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+LANELIGHT_INLINE V3 ByRows(const float* m, V3 v) {
+  return {Dot(Splat3(m[0], m[1], m[2]), v), Dot(Splat3(m[3], m[4], m[5]), v),
+          Dot(Splat3(m[6], m[7], m[8]), v)};
+}
+
+/// Of a stretched environment: from a density per solid angle of the light to one of the
+/// scene. A matrix of determinant 1 that makes unit vectors `length` long makes solid
+/// angles around them 1 / length^3 as large.
+LANELIGHT_INLINE VF Stretched(VF pdf, VF length) {
+  return hn::Div(pdf, hn::Mul(hn::Mul(length, length), length));
+}
+
 LANELIGHT_INLINE void TexelValues(const Environment& e, const EnvironmentTable& table,
                                   VI row, VI column, MapSample* out) {
   const DI di;
@@ -24,9 +36,12 @@ LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index
   const Environment& e = wave.scene->lights.environments[index];
   const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
-  const float* m = e.light_from_scene;
-  const V3 local = {Dot(Splat3(m[0], m[1], m[2]), d), Dot(Splat3(m[3], m[4], m[5]), d),
-                    Dot(Splat3(m[6], m[7], m[8]), d)};
+  V3 local = ByRows(e.light_from_scene, d);
+  VF length = Splat(1.0f);
+  if (e.stretched) {
+    length = hn::Sqrt(Dot(local, local));
+    local = Mul(local, hn::Div(Splat(1.0f), length));
+  }
   VF s, t;
   OctahedralSquare(local, &s, &t);
   const VF size = Splat(static_cast<float>(e.size));
@@ -37,6 +52,7 @@ LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index
   MapSample out;
   out.direction = d;
   TexelValues(e, table, texel(t), texel(s), &out);
+  if (e.stretched) out.pdf_sa = Stretched(out.pdf_sa, length);
   return out;
 }
 
@@ -90,11 +106,14 @@ LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index
   const VF s = hn::Mul(hn::Add(hn::ConvertTo(DF(), column), inside_column), inv_size);
   const VF t = hn::Mul(hn::Add(hn::ConvertTo(DF(), row), inside_row), inv_size);
   const V3 w = OctahedralDirection(s, t);
-  const float* m = e.light_from_scene;  // orthonormal: the transpose is the inverse
   MapSample out;
-  out.direction = {Dot(Splat3(m[0], m[3], m[6]), w), Dot(Splat3(m[1], m[4], m[7]), w),
-                   Dot(Splat3(m[2], m[5], m[8]), w)};
+  out.direction = ByRows(e.scene_from_light, w);
   TexelValues(e, table, row, column, &out);
+  if (e.stretched) {
+    const VF one = Splat(1.0f), length = hn::Sqrt(Dot(out.direction, out.direction));
+    out.direction = Mul(out.direction, hn::Div(one, length));
+    out.pdf_sa = Stretched(out.pdf_sa, hn::Div(one, length));
+  }
   return out;
 }
 

@@ -1,16 +1,18 @@
 // Light samples of spot lights: a delta direction, radiance I s(theta) / d^2, where s
 // falls from 1 inside the falloff cone to 0 at the edge as a smooth step, as in pbrt-v4.
+// Of stretched lights theta is the angle before they are stretched.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
+#include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "src/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-template <bool kMany>
-void SampleSpotLight(Wave& wave) {
+template <bool kMany, bool kStretched>
+HWY_INLINE void SampleSpots(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachLit<kMany>(
       wave, LightShape::kSpot, [&](const StoreSlots& slots, VI index) HWY_ATTR {
@@ -22,7 +24,14 @@ void SampleSpotLight(Wave& wave) {
         const V3 direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
         // 1 - cos of the angle to the axis: half the squared distance of the unit
         // vectors. Cosines would not tell cones below 0.02 degrees from nothing.
-        const V3 aside = direction + light.F3(offsetof(LightRecord, direction));
+        V3 aside;
+        if constexpr (kStretched) {
+          const LightImages axes(wave.scene->lights,
+                                 light.I(offsetof(LightRecord, image)));
+          aside = Normalize(axes.ToLocal(-direction)) - Splat3(0, 0, 1);
+        } else {
+          aside = direction + light.F3(offsetof(LightRecord, direction));
+        }
         const VF versine = hn::Mul(Splat(0.5f), Dot(aside, aside));
         const VF edge = light.F(offsetof(LightRecord, versine_total));
         const VF width = hn::Sub(edge, light.F(offsetof(LightRecord, versine_falloff)));
@@ -39,6 +48,12 @@ void SampleSpotLight(Wave& wave) {
                          {direction, distance, Mul(light.Radiance(), factor), Splat(0),
                           hn::And(hn::Gt(d2, Splat(0)), hn::Gt(smooth, Splat(0)))});
       });
+}
+
+template <bool kMany>
+void SampleSpotLight(Wave& wave) {
+  if (wave.scene->lights.stretched_spots) return SampleSpots<kMany, true>(wave);
+  SampleSpots<kMany, false>(wave);
 }
 
 Stage SampleSpotLightStage() {

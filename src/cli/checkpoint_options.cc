@@ -11,6 +11,11 @@ namespace {
 
 constexpr int kMostParts = 1 << 20;
 
+// An empty variable of a script would mean that nothing is kept.
+std::string NamesFile(const std::string& path) {
+  return path.empty() ? "the name of the file is empty" : "";
+}
+
 }  // namespace
 
 void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
@@ -18,6 +23,7 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
   command
       .add_option("--checkpoint", s.path,
                   "Keep the state of the render in this file, to go on from")
+      ->check(NamesFile)
       ->type_name("FILE");
   command
       .add_option("--every", s.seconds,

@@ -1,5 +1,7 @@
 #include "src/cli/console.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <iostream>
@@ -15,6 +17,17 @@ bool silent = false;
 
 void NoteFailure() {
   if (!std::cout.good() && failure == 0) failure = errno ? errno : EIO;
+}
+
+// Messages quote what files say: control characters would reach the terminal.
+std::string WithoutControls(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7f;
+    out += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return out;
 }
 
 }  // namespace
@@ -34,7 +47,7 @@ void PrintError(const std::string& line) {
   errno = 0;
   std::cout.flush();
   NoteFailure();
-  std::cerr << PaintedMessage(line) << '\n' << std::flush;
+  std::cerr << PaintedMessage(WithoutControls(line)) << '\n' << std::flush;
 }
 
 void PrintWarning(const std::string& error) {

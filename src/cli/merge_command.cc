@@ -30,9 +30,7 @@ struct MergeOptions {
 
 void CheckOutputs(const MergeOptions& o) {
   const RenderTargets& t = o.outputs.targets;
-  // A state may be replaced by what it is merged into, not by an image.
-  CheckOutputPaths({{t.exr, t.png, t.json}}, {o.states.begin(), o.states.end()});
-  CheckOutputPaths({{t.exr, t.png, t.json, o.state}}, {});
+  CheckOutputPaths({{t.exr, t.png, t.json, o.state}}, {o.states.begin(), o.states.end()});
 }
 
 std::string MissingText(const MergedRender& merged) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -38,14 +39,22 @@ std::vector<std::string> NoteLines(const std::vector<Note>& notes) {
       ++kinds[place->second].count;
     }
   }
+  // Warnings first, so that no number of notes hides them.
+  std::vector<NoteKind> ordered;
+  for (const bool warning : {true, false}) {
+    std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(ordered),
+                 [&](const NoteKind& kind) { return kind.first->warning == warning; });
+  }
   std::vector<std::string> lines;
   std::size_t more = 0;
-  for (const NoteKind& kind : kinds) {
+  for (const NoteKind& kind : ordered) {
     if (lines.size() == kMostKinds) {
       more += kind.count;
       continue;
     }
-    std::string line = kind.first->where.ToString() + ": note: " + kind.first->message;
+    std::string line =
+        fmt::format("{}: {}: {}", kind.first->where.ToString(),
+                    kind.first->warning ? "warning" : "note", kind.first->message);
     if (kind.count > 1) line += fmt::format(" (and {} more like it)", kind.count - 1);
     lines.push_back(line);
   }

@@ -66,10 +66,11 @@ int RunStudyCommand(StudyCommandOptions& options) {
   const std::vector<SceneStudy> studies = Study(options.study, hooks);
   progress.Finish();
 
-  bool good = true;
+  bool good = true, interrupted = false;
   for (const SceneStudy& study : studies) {
     if (!options.quiet) Print(StudySummary(study, options.study));
     good &= study.runs.error.empty();
+    interrupted |= study.runs.interrupted;
     for (const StrategyRuns& s : study.runs.strategies) {
       good &= s.status != RunStatus::kFailed;
     }
@@ -78,6 +79,7 @@ int RunStudyCommand(StudyCommandOptions& options) {
     Print(fmt::format("\n{0}/report.html, {0}/study.json, {0}/study.csv\n",
                       options.study.out));
   }
+  if (interrupted) return kExitInterrupted;
   return good ? kExitGood : kExitBadInput;
 }
 

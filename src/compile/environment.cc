@@ -9,6 +9,7 @@
 #include "src/core/error_text.h"
 #include "src/image/octahedral.h"
 #include "src/compile/environment_table.h"
+#include "src/compile/light_axes.h"
 #include "src/compile/light_texels.h"
 
 namespace lanelight {
@@ -43,19 +44,27 @@ double PbrtIlluminance(const AlignedVector<float>& rgb, int size) {
   return sum * 2 * std::numbers::pi / (static_cast<double>(size) * size);
 }
 
-void StoreRotation(const Light& light, Environment& environment) {
-  const double scale = light.world_from_light.UniformScale();
-  if (!(scale > 0)) {
-    throw InputError(light.where,
-                     "an infinite light under a transform that is not rotation, "
-                     "mirroring and uniform scale is not supported");
-  }
+void StoreMatrix(const Transform& t, double scale, float out[9]) {
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {  // inverse of a rotation: transposed
-      environment.light_from_scene[3 * row + column] =
-          static_cast<float>(light.world_from_light(column, row) / scale);
+    for (int column = 0; column < 3; ++column) {
+      out[3 * row + column] = static_cast<float>(t(row, column) / scale);
     }
   }
+}
+
+// Lengths do not count: of a stretched light the matrices are such that the volume stays.
+void StoreTransforms(const Light& light, Environment& environment) {
+  const Transform& t = light.world_from_light;
+  const double uniform = t.UniformScale();
+  if (uniform > 0) {
+    StoreMatrix(t, uniform, environment.scene_from_light);
+    StoreMatrix(t.Transposed(), uniform, environment.light_from_scene);
+    return;
+  }
+  const double scale = std::cbrt(std::abs(t.Determinant3()));
+  StoreMatrix(t, scale, environment.scene_from_light);
+  StoreMatrix(LightFromScene(light), 1 / scale, environment.light_from_scene);
+  environment.stretched = true;
 }
 
 }  // namespace
@@ -81,7 +90,7 @@ Environment CompileEnvironment(const Light& light, const Image& image,
   Environment environment;
   environment.size = image.width;
   environment.rgb = LightTexels(FileOf(light), image, notes);
-  StoreRotation(light, environment);
+  StoreTransforms(light, environment);
   double scale = light.image_scale;
   if (light.illuminance > 0) {
     const double map = PbrtIlluminance(environment.rgb, image.width);

@@ -2,22 +2,12 @@
 
 #include <cmath>
 
+#include "src/compile/light_axes.h"
 #include "src/core/error.h"
 #include "src/core/pi.h"
 
 namespace lanelight {
 namespace {
-
-// An axis of the light in the scene, of unit length.
-Vec3d AxisOf(const Light& light, Vec3d axis) {
-  const double scale = light.world_from_light.UniformScale();
-  if (!(scale > 0)) {
-    throw InputError(light.where,
-                     "a light with an image under a transform that is not rotation, "
-                     "translation, mirroring and uniform scale is not supported");
-  }
-  return light.world_from_light.Vector(axis) / scale;
-}
 
 // What an image of intensity comes to: its mean, weighed, over a domain of some size.
 struct ImageFlux {
@@ -53,9 +43,7 @@ void AddGoniometric(const Light& light, const Frame& frame, LightImageTable& ima
   }
   const Rgb mean = images.Mean(image);
   if (!(Luminance(mean) > 0)) return;
-  Store(AxisOf(light, {1, 0, 0}), image.x_axis);
-  Store(AxisOf(light, {0, 0, 1}), image.y_axis);
-  Store(AxisOf(light, {0, 1, 0}), image.z_axis);
+  StoreAxes(light, {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}, image);
   LightRecord record = EmptyRecord(LightShape::kGoniometric);
   record.image = images.Add(image);
   lights.table.has_goniometric = true;
@@ -78,17 +66,16 @@ void AddProjection(const Light& light, const Frame& frame, LightImageTable& imag
     return std::pow(1 + x * x + y * y, -1.5);
   });
   if (!(Luminance(mean) > 0)) return;
-  const Vec3d axis = AxisOf(light, {0, 0, 1});
-  Store(AxisOf(light, {1, 0, 0}) / half_x, image.x_axis);
-  Store(AxisOf(light, {0, -1, 0}) / half_y, image.y_axis);
-  Store(axis, image.z_axis);
+  StoreAxes(light, {{1 / half_x, 0, 0}, {0, -1 / half_y, 0}, {0, 0, 1}}, image);
   LightRecord record = EmptyRecord(LightShape::kProjection);
   record.image = images.Add(image);
-  Store(axis, record.direction);
-  // 1 - cos of the corner, for the tree of lights.
-  const double tangent2 = half_x * half_x + half_y * half_y,
-               secant = std::hypot(1, std::sqrt(tangent2));
-  record.versine_total = static_cast<float>(tangent2 / (secant * (1 + secant)));
+  const LightCone cone = ConeAround(light, {0, 0, 1},
+                                    {{half_x, half_y, 1},
+                                     {half_x, -half_y, 1},
+                                     {-half_x, half_y, 1},
+                                     {-half_x, -half_y, 1}});
+  Store(cone.axis, record.direction);
+  record.size[0] = static_cast<float>(cone.versine);
   lights.table.has_projection = true;
   AddWithPower(light, frame, {mean, 4 * half_x * half_y}, record, lights);
 }

@@ -96,12 +96,7 @@ LightImage LightImageTable::Load(const LightFile& file, Use use) {
   const Image image = ReadLightImage(file);
   AlignedVector<float> rgb = LightTexels(file, image, &notes_);
   if (use == Use::kGrey) MakeGrey(rgb);
-  if (table_.images.empty()) {
-    table_.texels = {1, 1, 1};
-    LightImage white = {};
-    white.width = white.height = 1;
-    table_.images.push_back(white);
-  }
+  AddWhite();
   // Kernels count the values in 32 bits.
   if (table_.texels.size() + rgb.size() > std::numeric_limits<std::int32_t>::max()) {
     FailAtLight(file, "the images of all lights together have more than 7e8 pixels");
@@ -113,7 +108,16 @@ LightImage LightImageTable::Load(const LightFile& file, Use use) {
   return at->second;
 }
 
+void LightImageTable::AddWhite() {
+  if (!table_.images.empty()) return;
+  table_.texels = {1, 1, 1};
+  LightImage white = {};
+  white.width = white.height = 1;
+  table_.images.push_back(white);
+}
+
 std::uint32_t LightImageTable::Add(const LightImage& image) {
+  AddWhite();
   table_.images.push_back(image);
   return static_cast<std::uint32_t>(table_.images.size()) - 1;
 }

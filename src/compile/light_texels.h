@@ -59,6 +59,8 @@ class LightImageTable {
   }
 
  private:
+  void AddWhite();  // the first image, if there is none
+
   LightTable& table_;
   std::vector<Note>& notes_;
   std::map<std::pair<std::string, Use>, LightImage> loaded_;

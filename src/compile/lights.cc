@@ -10,6 +10,7 @@
 #include "src/compile/area_lights.h"
 #include "src/compile/environment.h"
 #include "src/compile/image_lights.h"
+#include "src/compile/light_axes.h"
 #include "src/compile/light_list.h"
 #include "src/compile/light_texels.h"
 #include "src/compile/portal.h"
@@ -43,6 +44,8 @@ class LightCompiler {
         images_(images),
         notes_(notes) {}
 
+  /// All spots, if one of them is stretched: a kernel takes all or none.
+  void UseStretchedSpots() { stretched_spots_ = lights_.table.stretched_spots = true; }
   void Add(const Light& light);
 
  private:
@@ -59,7 +62,12 @@ class LightCompiler {
   LightList& lights_;
   LightImageTable& images_;
   std::vector<Note>& notes_;
+  bool stretched_spots_ = false;
 };
+
+bool IsStretched(const Light& light) {
+  return !(light.world_from_light.UniformScale() > 0);
+}
 
 // Intensity is power per solid angle; irradiance falls with the square of the distance,
 // and distances are scaled.
@@ -76,12 +84,8 @@ void LightCompiler::Point(const Light& light) {
 }
 
 void LightCompiler::Spot(const Light& light) {
-  if (!(light.world_from_light.UniformScale() > 0)) {
-    throw InputError(light.where,
-                     "a spot light under a transform that is not rotation, translation, "
-                     "mirroring and uniform scale is not supported");
-  }
-  const Vec3d axis = UnitOf(light.world_from_light.Vector(light.to - light.from));
+  const Vec3d own_axis = UnitOf(light.to - light.from);
+  const Vec3d axis = UnitOf(light.world_from_light.Vector(own_axis));
   if (axis == Vec3d{}) {
     throw InputError(light.where, "a spot light whose \"from\" and \"to\" are the same");
   }
@@ -99,6 +103,18 @@ void LightCompiler::Spot(const Light& light) {
   Store(axis, record.direction);
   record.versine_total = static_cast<float>(total);
   record.versine_falloff = static_cast<float>(falloff);
+  record.size[0] = record.versine_total;
+  if (stretched_spots_) {
+    const Vec3d x = Normalize(
+        Cross(own_axis, std::abs(own_axis.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
+    LightImage axes{};
+    StoreAxes(light, {x, Cross(own_axis, x), own_axis}, axes);
+    record.image = images_.Add(axes);
+    if (IsStretched(light)) {
+      record.size[0] =
+          static_cast<float>(StretchedCone(light, own_axis, light.cone_angle).versine);
+    }
+  }
   // The smooth step between the two angles is 1/2 in the mean.
   lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2), light);
 }
@@ -180,7 +196,8 @@ void ApplyFloor(std::vector<double>& weights) {
 bool HasColors(const LightRecord& light) {
   const auto shape = static_cast<LightShape>(light.shape);
   return light.environment >= 0 || shape == LightShape::kPortal ||
-         (light.image != 0 && shape != LightShape::kGoniometric);
+         (light.image != 0 && shape != LightShape::kGoniometric &&
+          shape != LightShape::kSpot);
 }
 
 void AddSpectra(LightList& lights, SpectrumRows& spectra) {
@@ -207,6 +224,12 @@ LightTable CompileLights(const SceneDescription& description, const Placement& p
   LightImageTable images(lights.table, notes);
   CompileAreaLights(description, placement, geometry, images, lights);
   LightCompiler compiler(placement, lights, images, notes);
+  if (std::any_of(description.lights.begin(), description.lights.end(),
+                  [](const Light& light) {
+                    return light.kind == LightKind::kSpot && IsStretched(light);
+                  })) {
+    compiler.UseStretchedSpots();
+  }
   for (const Light& light : description.lights) compiler.Add(light);
   if (!lights.table.lights.empty()) ApplyFloor(lights.power);
   lights.table.power = std::move(lights.power);

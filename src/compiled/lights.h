@@ -25,12 +25,12 @@ struct LightRecord {
                        // pointing TOWARD the light; rectangle: unit, along a side
                        // that begins at `position`
   // Spot: 1 - cos of the cone and of where its falloff begins, exact for narrow cones.
-  // Projection: the first of the cone around the picture.
   float versine_total, versine_falloff;
   float side[3];  // rectangle: unit, along the other side; its normal, on the side that
                   // emits, is cross(direction, side)
   // Rectangle: lengths of the two sides. Sphere: the first is the square of the distance
-  // from its centre beyond which its cone is sampled; nearer, its area.
+  // from its centre beyond which its cone is sampled; nearer, its area. Spot, projection:
+  // the first is 1 - cos of a cone around `direction` that holds all of the light.
   float size[2];
   std::uint32_t second_primitive;  // rectangle: the other triangle
   std::uint32_t image;  // index into LightTable::images, 0 if it has none; portals: into
@@ -42,12 +42,13 @@ static_assert(sizeof(LightRecord) == 92);
 inline float ConeFrom(float radius) { return radius * radius * 1.0001f; }
 
 /// Image that a light shines with: 16 words. Texels are linear and not negative, row 0 at
-/// the top, in LightTable::texels. A direction w away from the light is (x, y, z) = (dot(
-/// x_axis, w), ...) for it:
+/// the top, in LightTable::texels. A unit vector w away from the light is (x, y, z) =
+/// (dot(x_axis, w), ...) for it, of any length where the light is stretched:
 ///   goniometric   equal-area octahedral map of (x, y, z); pbrt-v4 has the light's own z
 ///                 for the map's y, and the reverse
 ///   projection    (s, t) = (1 + (x, y) / z) / 2 for z > 0, t downwards
 ///   area lights   (s, t) = (u, 1 - v) of the surface coordinates; no axes
+///   spot          only where LightTable::stretched_spots; the cone is about z
 struct LightImage {
   std::int32_t first;  // texel
   std::int32_t width, height;
@@ -74,8 +75,9 @@ struct EnvironmentTable {
 /// Looked up without interpolation, as pbrt does.
 struct Environment {
   std::int32_t size = 0;
-  AlignedVector<float> rgb;   // 3 per texel, row by row, scaled
-  float light_from_scene[9];  // rotation, row-major
+  AlignedVector<float> rgb;                        // 3 per texel, row by row, scaled
+  float light_from_scene[9], scene_from_light[9];  // row-major, of determinant 1 or -1
+  bool stretched = false;                          // else they are rotations, or mirror
   /// By which texels are sampled, unless a strategy compensates them.
   std::shared_ptr<const EnvironmentTable> table;
 };
@@ -106,6 +108,7 @@ struct LightTable {
   AlignedVector<LightImage> images;  // the first is white: of lights without one
   AlignedVector<float> texels;       // 3 each, of all images
   bool has_goniometric = false, has_projection = false;
+  bool stretched_spots = false;         // all spots then have axes in `images`
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
 };
 

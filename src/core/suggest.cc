@@ -75,6 +75,10 @@ void ThrowUnknown(const SourceLocation& where, std::string_view kind,
   const std::string nearest = NearestName(found, known);
   const std::string hint =
       nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest));
+  if (known.empty()) {
+    throw InputError(where, fmt::format("unknown {} {}: the scene defines no {}", kind,
+                                        Quoted(found), kind));
+  }
   throw InputError(where, fmt::format("unknown {} {}; {}supported: {}", kind,
                                       Quoted(found), hint, QuotedList(known)));
 }

@@ -41,6 +41,13 @@ bool IsSpecialFile(const std::string& path) {
          !S_ISDIR(info.st_mode);
 }
 
+// A reader that never comes would block the program.
+bool IsPipe(const std::string& path) {
+  struct stat info;
+  return stat(path.c_str(), &info) == 0 &&
+         (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
+}
+
 void WriteInPlace(const std::string& path, std::string_view content) {
   FileDescriptor file(open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.get() < 0) Fail(path, "cannot open for writing", errno);
@@ -89,6 +96,19 @@ void WriteAndRename(const std::string& path, const std::vector<std::string_view>
 
 }  // namespace
 
+std::string LinkTarget(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;  // as the system has it
+  fs::path place = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i) {
+    const fs::path target = fs::read_symlink(place, error);
+    if (error) break;
+    place = place.parent_path() / target;  // that of an absolute path is itself
+  }
+  return place.string();
+}
+
 std::string TemporaryStart(const std::string& path) {
   // Most file systems have 255 bytes for a name, and some want whole characters.
   constexpr std::size_t kMost = 220;
@@ -113,9 +133,14 @@ bool IsTemporaryOf(const std::string& name, const std::string& start) {
 }
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
+  if (IsPipe(path)) {
+    throw InputError(path +
+                     ": cannot write: it is a pipe or a socket, not a regular file");
+  }
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
-  WriteAndRename(path, {content}, true);
-  if (!SyncFolder(path)) Fail(path, "written, but its folder cannot be", errno);
+  const std::string file = LinkTarget(path);
+  WriteAndRename(file, {content}, true);
+  if (!SyncFolder(file)) Fail(file, "written, but its folder cannot be", errno);
 }
 
 void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts) {
@@ -124,7 +149,7 @@ void WriteCacheFile(const std::string& path, const std::vector<std::string_view>
 
 void RemoveTemporaries(const std::string& path) {
   namespace fs = std::filesystem;
-  const fs::path file = path;
+  const fs::path file = LinkTarget(path);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const std::string start = TemporaryStart(file.filename());
   std::error_code ignored;
@@ -135,7 +160,7 @@ void RemoveTemporaries(const std::string& path) {
 
 void CheckCreatable(const std::string& path) {
   std::string temporary;
-  FileDescriptor file(CreateTemporary(path, temporary));
+  FileDescriptor file(CreateTemporary(LinkTarget(path), temporary));
   if (file.get() < 0) {
     throw InputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
   }

@@ -11,12 +11,17 @@ namespace lanelight {
 /// disk, renames it over `path`, keeping the permissions that a new file would get, and
 /// flushes the directory. On any failure (missing directory, no permission, full disk)
 /// the temporary file is removed, an existing `path` stays as it was, and InputError
-/// names the path and the system's reason.
+/// names the path and the system's reason. A symbolic link stays: what it leads to is
+/// replaced. Pipes and sockets are refused.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 /// The same of content in parts, for a file that can be made again: it is not flushed to
 /// the disk, so that after a power failure it may be torn, and its reader has to tell.
 void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts);
+
+/// The file that a symbolic link leads to, by whatever links, whether it exists or not;
+/// other paths as they are.
+std::string LinkTarget(const std::string& path);
 
 /// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
 /// `path`, or as much of it as leaves room for that.

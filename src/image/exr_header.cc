@@ -90,6 +90,7 @@ ExrPart PartOf(const Imf::Header& header) {
 std::vector<ExrPart> ReadExrHeader(const std::string& path) {
   const std::string content = ReadWholeFile(path);
   try {
+    CheckExrMemory(content, /*reads_pixels=*/false);
     ExrMemoryInput stream(path, content);
     Imf::MultiPartInputFile file(stream);
     std::vector<ExrPart> parts;

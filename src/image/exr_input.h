@@ -35,6 +35,14 @@ class ExrMemoryInput : public Imf::IStream {
 /// Those of strings and numbers.
 std::map<std::string, ImageAttribute> ExrAttributes(const Imf::Header& header);
 
+/// The best compression of OpenEXR stores fewer samples than this per byte of file.
+inline constexpr std::size_t kMaxExrSamplesPerByte = 4096;
+
+/// Throws DamagedExr if the headers of an EXR file claim more than the file can hold:
+/// attributes, and with `reads_pixels` the data window and tiles. OpenEXR takes the
+/// memory for all of these before it reads them.
+void CheckExrMemory(const std::string& content, bool reads_pixels);
+
 /// What OpenEXR says of an error is meant for programmers: this is for people.
 std::string WhyNotExr(const std::exception& error, const std::string& content);
 

@@ -44,12 +44,9 @@ void CheckChannels(const Imf::Header& header, const std::vector<std::string>& wa
   }
 }
 
-// The best compression of OpenEXR stores fewer samples than this per byte of file; more
-// means a damaged header, noticed before the memory for it is taken.
-constexpr std::size_t kMaxSamplesPerByte = 4096;
-
 Image Read(const std::string& path, const std::string& content,
            const std::vector<std::string>* wanted) {
+  CheckExrMemory(content, /*reads_pixels=*/true);
   ExrMemoryInput stream(path, content);
   Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
@@ -61,7 +58,7 @@ Image Read(const std::string& path, const std::string& content,
   if (names.empty()) throw DamagedExr("the file has no channels");
   CheckChannels(header, names);
   const std::size_t samples = names.size() * static_cast<std::size_t>(width * height);
-  if (samples / kMaxSamplesPerByte > content.size()) {
+  if (samples / kMaxExrSamplesPerByte > content.size()) {
     throw DamagedExr("the image file is truncated");
   }
   Image image = MakeImage(static_cast<int>(width), static_cast<int>(height), names);

@@ -19,9 +19,13 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <string_view>
+#include <type_traits>
 
 #include "src/core/check.h"
 #include "src/core/error.h"
@@ -35,6 +39,10 @@ namespace {
 class Source {
  public:
   explicit Source(const std::string& content) : content_(content) {}
+
+  /// Gives runs of equal bytes, not zeros, past the end. The decoder of HDR files goes
+  /// through zeros for ever; runs end it, or fail.
+  void EndInRuns() { runs_ = true; }
 
   static const stbi_io_callbacks* Callbacks() {
     static const stbi_io_callbacks callbacks = {&Source::Read, &Source::Skip,
@@ -73,13 +81,15 @@ class Source {
     overrun_ |= n < static_cast<std::size_t>(size) && (n == 0 || data != look_ahead_);
     std::memcpy(data, content_.data() + at_, n);
     at_ += n;
-    return static_cast<int>(n);
+    if (!runs_ || n > 0) return static_cast<int>(n);
+    std::memset(data, 0xff, static_cast<std::size_t>(std::max(size, 0)));
+    return size;
   }
 
   const std::string& content_;
   std::size_t at_ = 0;
   const char* look_ahead_ = nullptr;
-  bool overrun_ = false;
+  bool overrun_ = false, runs_ = false;
 };
 
 struct FreeStb {
@@ -97,6 +107,34 @@ std::vector<std::string> NamesOf(int channels) {
     default:
       return {"R", "G", "B", "A"};
   }
+}
+
+// stb does not look at the checksums of a PNG: of every chunk, over its type and data.
+void CheckPngChunks(const std::string& path, const std::string& content) {
+  constexpr std::string_view kMagic = "\x89PNG\r\n\x1a\n";
+  if (!content.starts_with(kMagic)) return;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      value = value << 8 | static_cast<unsigned char>(content[at + i]);
+    }
+    return value;
+  };
+  constexpr std::size_t kAround = 12;  // length, type and checksum
+  for (std::size_t at = kMagic.size(); at < content.size();) {
+    const std::size_t left = content.size() - at;
+    if (left < kAround || number(at) > left - kAround) {
+      throw InputError(path + ": the image file is truncated");
+    }
+    const std::uint32_t size = number(at);
+    const auto* data = reinterpret_cast<const unsigned char*>(content.data() + at + 4);
+    if (crc32_z(0, data, std::size_t{size} + 4) != number(at + 8 + size)) {
+      throw InputError(path + ": the image file is damaged: a checksum is wrong");
+    }
+    if (content.compare(at + 4, 4, "IEND") == 0) return;  // what follows is not read
+    at += kAround + size;
+  }
+  throw InputError(path + ": the image file is truncated");
 }
 
 [[noreturn]] void FailDecode(const std::string& path) {
@@ -121,12 +159,14 @@ Image ReadHeader(const std::string& path, Source& source) {
 template <class T, class Load>
 Image Decode(const std::string& path, Load load, AlignedVector<T> Image::* pixels) {
   const std::string content = ReadWholeFile(path);
+  CheckPngChunks(path, content);
   Source source(content);
   Image image = ReadHeader(path, source);
+  if constexpr (std::is_same_v<T, float>) source.EndInRuns();
   const std::unique_ptr<T, FreeStb> data(load(Source::Callbacks(), &source, &image.width,
                                               &image.height, &image.channels, 0));
-  if (!data) FailDecode(path);
   if (source.overrun()) throw InputError(path + ": the image file is truncated");
+  if (!data) FailDecode(path);
   image.names = NamesOf(image.channels);
   (image.*pixels).assign(data.get(), data.get() + image.Offset(0, image.height, 0));
   return image;

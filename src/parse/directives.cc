@@ -40,7 +40,7 @@ constexpr Directive kDirectives[] = {
     {"AttributeBegin", Block::kWorld, RunAttributeBegin},
     {"AttributeEnd", Block::kWorld, RunAttributeEnd},
     {"TransformBegin", Block::kWorld, RunTransformBegin},
-    {"TransformEnd", Block::kWorld, RunTransformEnd},
+    {"TransformEnd", Block::kWorld, RunAttributeEnd},
     {"ReverseOrientation", Block::kWorld, RunReverseOrientation},
     {"Material", Block::kWorld, RunObject},
     {"MakeNamedMaterial", Block::kWorld, RunMakeNamedMaterial},
@@ -108,8 +108,9 @@ std::vector<double> Statement::Numbers(std::size_t count) {
   return numbers;
 }
 
-void RunDirectives(ParseState& state, std::string_view text, const std::string& name) {
-  Lexer lexer(text, std::make_shared<const std::string>(name));
+void RunDirectives(ParseState& state) {
+  const SourceFilePtr file = state.open_files.back();
+  Lexer lexer(file->text, file->name);
   for (Token token = lexer.Next(); token.kind != TokenKind::kEnd; token = lexer.Next()) {
     Statement statement{lexer, token};
     if (token.kind != TokenKind::kWord) {
@@ -131,6 +132,7 @@ void RunDirectives(ParseState& state, std::string_view text, const std::string& 
     }
     CheckBlock(state, *directive, statement.where());
     directive->run(state, statement);
+    RunReady(state);
   }
 }
 

@@ -46,7 +46,6 @@ void RunWorldBegin(ParseState&, Statement&);
 void RunAttributeBegin(ParseState&, Statement&);
 void RunAttributeEnd(ParseState&, Statement&);
 void RunTransformBegin(ParseState&, Statement&);
-void RunTransformEnd(ParseState&, Statement&);
 void RunObjectBegin(ParseState&, Statement&);
 void RunObjectEnd(ParseState&, Statement&);
 void RunObjectInstance(ParseState&, Statement&);

@@ -43,7 +43,8 @@ struct ObjectKind {
 
 ParamSet ReadParamSet(ParseState& state, Statement& statement, const ObjectKind& kind,
                       const NameOperand& name) {
-  ParamList own = ReadParams(statement.lexer, state.graphics.color_space);
+  ParamList own =
+      ReadParams(statement.lexer, state.graphics.color_space, &state.scene.notes);
   return {fmt::format("{} {}", kind.word, Quoted(name.text)), name.where, std::move(own),
           kind.defaults ? state.Inherited(*kind.defaults) : nullptr, &state.scene.notes};
 }
@@ -57,8 +58,26 @@ TypedObject ReadObject(ParseState& state, Statement& statement, const ObjectKind
 
 constexpr ObjectKind kMaterial = {"material", AttributeTarget::kMaterial};
 
+void UseMaterial(ParseState& state, const NameUse& use) {
+  const auto found = state.names.find(use.key);
+  const bool later = found == state.names.end();
+  state.graphics.material = later ? kNone : found->second;
+  state.graphics.later_material = later ? std::make_shared<const NameUse>(use) : nullptr;
+}
+
 void SetMaterial(ParseState& state, const std::string& type, ParamSet& params) {
-  state.graphics.material = InterpretMaterial(state, "", type, params);
+  const NameKey key = {NameKind::kPlainMaterial, std::to_string(state.declared.size())};
+  const SourceLocation where = params.where();
+  RunOrWait(state, &key, [key, type, params](ParseState& s) mutable {
+    Define(s, key, InterpretMaterial(s, "", type, params));
+  });
+  UseMaterial(state, {key, where});
+}
+
+void AddShape(ParseState& state, const std::string& type, ParamSet& params) {
+  RunOrWait(state, nullptr, [type, params = std::move(params)](ParseState& s) mutable {
+    InterpretShape(s, type, params);
+  });
 }
 
 void SetAreaLight(ParseState& state, const std::string& type, ParamSet& params) {
@@ -79,7 +98,7 @@ constexpr std::pair<std::string_view, ObjectDirective> kObjects[] = {
     {"Material", {kMaterial, SetMaterial}},
     {"LightSource", {{"light", AttributeTarget::kLight}, InterpretLight}},
     {"AreaLightSource", {{"area light", AttributeTarget::kLight}, SetAreaLight}},
-    {"Shape", {{"shape", AttributeTarget::kShape}, InterpretShape}}};
+    {"Shape", {{"shape", AttributeTarget::kShape}, AddShape}}};
 
 }  // namespace
 
@@ -101,19 +120,22 @@ void RunAccelerator(ParseState& state, Statement& statement) {
 void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
   const NameOperand name = statement.Name();
   ParamSet params = ReadParamSet(state, statement, kMaterial, name);
-  if (state.materials.contains(name.text)) {
+  const NameKey key = {NameKind::kMaterial, name.text};
+  if (state.declared.contains(key)) {
     throw InputError(name.where,
                      fmt::format("material {} is defined twice", Quoted(name.text)));
   }
   params.Need("type", ParamType::kString);
   const std::string type = params.String("type", "");
   CheckRefused(state, {type, name.where}, "Material", "material");
-  state.materials[name.text] = InterpretMaterial(state, name.text, type, params);
+  RunOrWait(state, &key, [key, type, params](ParseState& s) mutable {
+    Define(s, key, InterpretMaterial(s, key.second, type, params));
+  });
 }
 
 void RunNamedMaterial(ParseState& state, Statement& statement) {
   const auto [name, where] = statement.Name();
-  state.graphics.material = Lookup(state.materials, name, where, "named material");
+  UseMaterial(state, {{NameKind::kMaterial, name}, where});
 }
 
 void RunTexture(ParseState& state, Statement& statement) {
@@ -124,12 +146,15 @@ void RunTexture(ParseState& state, Statement& statement) {
   TypedObject object =
       ReadObject(state, statement, {"texture", AttributeTarget::kTexture});
   const bool is_float = Lookup(kIsFloat, value, value_where, "value type of a texture:");
-  const auto& names = is_float ? state.float_textures : state.color_textures;
-  if (names.contains(name)) {
+  const NameKey key = {is_float ? NameKind::kFloatTexture : NameKind::kSpectrumTexture,
+                       name};
+  if (state.declared.contains(key)) {
     throw InputError(where,
                      fmt::format("{} texture {} is defined twice", value, Quoted(name)));
   }
-  InterpretTexture(state, name, is_float, object.type, object.params);
+  RunOrWait(state, &key, [key, object](ParseState& s) mutable {
+    InterpretTexture(s, key, object.type, object.params);
+  });
 }
 
 void RunMakeNamedMedium(ParseState& state, Statement& statement) {
@@ -139,7 +164,8 @@ void RunMakeNamedMedium(ParseState& state, Statement& statement) {
   if (name.text.empty()) {
     throw InputError(name.where, "the empty name is that of empty space; give another");
   }
-  if (state.media.contains(name.text)) {
+  if (const auto it = state.media.find(name.text);
+      it != state.media.end() && it->second.defined) {
     throw InputError(name.where,
                      fmt::format("medium {} is defined twice", Quoted(name.text)));
   }
@@ -149,9 +175,9 @@ void RunMakeNamedMedium(ParseState& state, Statement& statement) {
 namespace {
 
 // The medium that the next string names; "": empty space.
-Index NextMedium(const ParseState& state, Statement& statement) {
+Index NextMedium(ParseState& state, Statement& statement) {
   const auto [name, where] = statement.Name();
-  return name.empty() ? kNone : Lookup(state.media, name, where, "named medium");
+  return name.empty() ? kNone : UseMedium(state, name, where);
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <cctype>
+
 #include "src/parse/directives.h"
 #include "src/parse/interpret.h"
 #include "src/parse/motion.h"
@@ -12,8 +14,6 @@ const char* BeginName(ScopeKind kind) {
   switch (kind) {
     case ScopeKind::kAttribute:
       return "AttributeBegin";
-    case ScopeKind::kTransform:
-      return "TransformBegin";
     case ScopeKind::kObject:
       return "ObjectBegin";
     default:
@@ -60,19 +60,22 @@ void RunAttributeBegin(ParseState& state, Statement& statement) {
   Push(state, statement, ScopeKind::kAttribute);
 }
 
+// pbrt-v4 goes on after one too many, in an imported file as well.
 void RunAttributeEnd(ParseState& state, Statement& statement) {
+  if (state.scopes.empty() || state.scopes.back().kind == ScopeKind::kImport) {
+    return state.AddWarning(
+        statement.where(),
+        fmt::format("{} without AttributeBegin is ignored", statement.token.text));
+  }
   state.graphics = Pop(state, statement, ScopeKind::kAttribute);
 }
 
 void RunTransformBegin(ParseState& state, Statement& statement) {
-  Push(state, statement, ScopeKind::kTransform);
-}
-
-void RunTransformEnd(ParseState& state, Statement& statement) {
-  const GraphicsState saved = Pop(state, statement, ScopeKind::kTransform);
-  GraphicsState& graphics = state.graphics;
-  graphics.ctm = saved.ctm, graphics.ctm_end = saved.ctm_end;
-  graphics.start_active = saved.start_active, graphics.end_active = saved.end_active;
+  const std::string message =
+      "TransformBegin and TransformEnd are AttributeBegin and AttributeEnd, as in "
+      "pbrt-v4; write those";
+  if (state.noted.insert(message).second) state.AddWarning(statement.where(), message);
+  RunAttributeBegin(state, statement);
 }
 
 void RunObjectBegin(ParseState& state, Statement& statement) {
@@ -82,14 +85,10 @@ void RunObjectBegin(ParseState& state, Statement& statement) {
         statement.where(),
         fmt::format("ObjectBegin inside the definition of object {}; objects "
                     "do not nest",
-                    Quoted(state.scene.objects.back().name)));
+                    Quoted(state.scene.objects[state.open_object].name)));
   }
-  const Index index = static_cast<Index>(state.scene.objects.size());
-  if (!state.objects.emplace(name, index).second) {
-    throw InputError(where, fmt::format("object {} is defined twice", Quoted(name)));
-  }
+  const Index index = DefineObject(state, name, where);
   Push(state, statement, ScopeKind::kObject);
-  state.scene.objects.push_back({name, {}});
   state.open_object = index;
 }
 
@@ -105,8 +104,7 @@ void RunObjectInstance(ParseState& state, Statement& statement) {
                      "ObjectInstance inside an object definition; "
                      "instances do not nest");
   }
-  const Index object = Lookup(state.objects, name, where, "object");
-  PlaceObject(state, object, statement.where());
+  PlaceObject(state, UseObject(state, name, where), statement.where());
 }
 
 void RunInclude(ParseState& state, Statement& statement) {
@@ -137,7 +135,8 @@ void RunAttribute(ParseState& state, Statement& statement) {
       {"texture", AttributeTarget::kTexture}};
   const auto [name, where] = statement.Name();
   const AttributeTarget target = Lookup(kTargets, name, where, "target of Attribute:");
-  const ParamList added = ReadParams(statement.lexer, state.graphics.color_space);
+  const ParamList added =
+      ReadParams(statement.lexer, state.graphics.color_space, &state.scene.notes);
   auto& current = state.graphics.attributes[static_cast<int>(target)];
   // Scopes share the list until it changes.
   auto list =
@@ -156,9 +155,13 @@ void RunReverseOrientation(ParseState& state, Statement&) {
 void RunColorSpace(ParseState& state, Statement& statement) {
   static const std::vector<std::string> kSpaces = {"srgb", "dci-p3", "rec2020",
                                                    "aces2065-1"};
-  const auto [name, where] = statement.Name();
+  const auto [given, where] = statement.Name();
+  std::string name = given;  // in letters of either case, as in pbrt-v4
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (std::find(kSpaces.begin(), kSpaces.end(), name) == kSpaces.end()) {
-    ThrowUnknown(where, "color space", name, kSpaces);
+    return state.AddWarning(
+        where, fmt::format("unknown color space {} is ignored; known: {}", Quoted(given),
+                           QuotedList(kSpaces)));
   }
   state.graphics.color_space = name;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "src/parse/directives.h"
 #include "src/core/suggest.h"
@@ -144,9 +145,17 @@ void RunCoordinateSystem(ParseState& state, Statement& statement) {
 
 void RunCoordSysTransform(ParseState& state, Statement& statement) {
   const auto [name, where] = statement.Name();
-  const auto& [start, end] =
-      Lookup(state.coordinate_systems, name, where, "coordinate system");
-  Set(state, statement, start, end);
+  const auto found = state.coordinate_systems.find(name);
+  if (found == state.coordinate_systems.end()) {
+    const std::string nearest = NearestName(name, Names(state.coordinate_systems));
+    return state.AddWarning(
+        where,
+        fmt::format(
+            "unknown coordinate system {} is ignored{}", Quoted(name),
+            nearest.empty() ? "" : fmt::format("; did you mean {}?", Quoted(nearest))));
+  }
+  // Both, whichever is active: as in pbrt-v4.
+  std::tie(state.graphics.ctm, state.graphics.ctm_end) = found->second;
 }
 
 void RunActiveTransform(ParseState& state, Statement& statement) {

@@ -78,9 +78,9 @@ void InterpretAccelerator(const std::string& type, ParamSet& params);
 /// Appends the material and returns its index.
 Index InterpretMaterial(ParseState& state, const std::string& name,
                         const std::string& type, ParamSet& params);
-/// Appends the texture `name`.
-void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
-                      const std::string& type, ParamSet& params);
+/// Appends the texture and defines its name.
+void InterpretTexture(ParseState& state, const NameKey& key, const std::string& type,
+                      ParamSet& params);
 /// Appends the medium `name`.
 void InterpretMedium(ParseState& state, const std::string& name, ParamSet& params);
 void InterpretLight(ParseState& state, const std::string& type, ParamSet& params);

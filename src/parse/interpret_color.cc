@@ -48,16 +48,6 @@ Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   return RgbFromBlackbody(kelvin);
 }
 
-Index FindTexture(const ParamSet& params, const Param& param,
-                  const std::map<std::string, Index>& same,
-                  const std::map<std::string, Index>& other, const char* kind) {
-  const std::string& name = param.strings[0];
-  if (!same.contains(name) && other.contains(name)) {
-    params.Fail(param, fmt::format("texture {} is not a {} texture", Quoted(name), kind));
-  }
-  return Lookup(same, name, param.where, fmt::format("{} texture", kind));
-}
-
 }  // namespace
 
 Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
@@ -114,8 +104,8 @@ ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view n
     return {ColorOf(state, params, *param, use), kNone,
             SpectrumOf(state, params, *param, extend)};
   }
-  return {absent, FindTexture(params, *param, state.color_textures, state.float_textures,
-                              "spectrum")};
+  return {absent, Resolve(state, {{NameKind::kSpectrumTexture, param->strings[0]},
+                                  param->where})};
 }
 
 FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view name,
@@ -124,8 +114,8 @@ FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view n
   if (param == nullptr) return {absent, kNone};
   if (param->type == ParamType::kFloat)
     return {params.Float(name, absent, limits), kNone};
-  return {absent, FindTexture(params, *param, state.float_textures, state.color_textures,
-                              "float")};
+  return {absent,
+          Resolve(state, {{NameKind::kFloatTexture, param->strings[0]}, param->where})};
 }
 
 }  // namespace lanelight

@@ -168,7 +168,7 @@ void ReadMix(ParseState& state, ParamSet& params, Material* material) {
   }
   for (int i = 0; i < 2; ++i) {
     material->mix[i] =
-        Lookup(state.materials, names.strings[i], names.where, "named material");
+        Resolve(state, {{NameKind::kMaterial, names.strings[i]}, names.where});
     if (state.scene.materials[material->mix[i]].inside != kNone) {
       params.Fail(names,
                   "mixing a \"subsurface\" material is not supported: what is in a "

@@ -73,8 +73,7 @@ void InterpretMedium(ParseState& state, const std::string& name, ParamSet& param
   read(state, params, &medium);
   medium.g = params.Float("g", 0, {-0.9999, 0.9999});
   params.CheckAllUsed();
-  state.media[name] = static_cast<Index>(state.scene.media.size());
-  state.scene.media.push_back(std::move(medium));
+  DefineMedium(state, std::move(medium));
 }
 
 }  // namespace lanelight

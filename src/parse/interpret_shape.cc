@@ -106,6 +106,9 @@ constexpr std::pair<const char*, ShapeType> kShapes[] = {
     {"curve", {ShapeKind::kCurves, ReadCurve}}};
 
 Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
+  if (state.graphics.later_material) {
+    return Resolve(state, *state.graphics.later_material);
+  }
   if (state.graphics.material != kNone) return state.graphics.material;
   if (state.default_material == kNone) {
     ParamSet defaults("material \"diffuse\"", where, {}, nullptr, &state.scene.notes);

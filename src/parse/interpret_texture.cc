@@ -211,21 +211,21 @@ const TextureType& FindType(const std::string& name, bool is_float,
 
 }  // namespace
 
-void InterpretTexture(ParseState& state, const std::string& name, bool is_float,
-                      const std::string& type, ParamSet& params) {
+void InterpretTexture(ParseState& state, const NameKey& key, const std::string& type,
+                      ParamSet& params) {
+  const bool is_float = key.first == NameKind::kFloatTexture;
   const TextureType& found = FindType(type, is_float, params.where());
   Texture texture;
   texture.kind = found.kind;
-  texture.name = name;
+  texture.name = key.second;
   texture.where = params.where();
   texture.is_float = is_float;
   texture.texture_from_world = state.graphics.ctm.Inverse();
   NoteStill(state, texture.where, "texture");
   found.read(state, params, &texture);
   params.CheckAllUsed();
-  const Index index = static_cast<Index>(state.scene.textures.size());
-  (is_float ? state.float_textures : state.color_textures)[name] = index;
   state.scene.textures.push_back(std::move(texture));
+  Define(state, key, static_cast<Index>(state.scene.textures.size()) - 1);
 }
 
 }  // namespace lanelight

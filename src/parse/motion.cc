@@ -82,6 +82,13 @@ EndTransform EndOf(const Transform& start, const Transform& end,
                      "one of the transforms at the start and at the end mirrors, the "
                      "other does not: in between lies one that flattens space");
   }
+  const Motion motion(start, end);
+  if (!motion.At(0).IsInvertible() || !motion.At(1).IsInvertible()) {
+    throw InputError(
+        where,
+        "the transform at the start or the end of the motion flattens space, "
+        "as far as numbers can tell: scale its axes less differently");
+  }
   return std::make_shared<const Transform>(end);
 }
 
@@ -102,16 +109,25 @@ void AddMovingShape(ParseState& state, const SourceLocation& where,
 
 void PlaceObject(ParseState& state, Index object, const SourceLocation& where) {
   const GraphicsState& graphics = state.graphics;
-  const Instance instance = {object, graphics.ctm, where,
-                             EndOf(graphics.ctm, graphics.ctm_end, where)};
-  if (instance.end) {
-    for (const Shape& shape : state.scene.objects[object].shapes) {
-      if (const char* why = WhyCannotMove(shape.kind)) state.Unsupported(where, why);
+  state.scene.instances.push_back(
+      {object, graphics.ctm, where, EndOf(graphics.ctm, graphics.ctm_end, where)});
+}
+
+void PlaceMovingShapes(ParseState& state) {
+  std::vector<Instance>& instances = state.scene.instances;
+  for (std::size_t i = 0, placed = instances.size(); i < placed; ++i) {
+    const Instance instance = instances[i];
+    if (instance.end) {
+      for (const Shape& shape : state.scene.objects[instance.object].shapes) {
+        const char* why = WhyCannotMove(shape.kind);
+        if (why != nullptr) state.Unsupported(instance.where, why);
+      }
     }
-  }
-  state.scene.instances.push_back(instance);
-  for (const Instance& inner : state.moving_shapes[object]) {
-    state.scene.instances.push_back(Together(instance, inner));
+    const auto moving = state.moving_shapes.find(instance.object);
+    if (moving == state.moving_shapes.end()) continue;
+    for (const Instance& inner : moving->second) {
+      instances.push_back(Together(instance, inner));
+    }
   }
 }
 

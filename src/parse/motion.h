@@ -25,9 +25,11 @@ EndTransform EndOf(const Transform& start, const Transform& end,
 void AddMovingShape(ParseState& state, const SourceLocation& where,
                     const std::function<void()>& add);
 
-/// An instance of the object by the current transforms, and of the shapes that move in
-/// it.
+/// Adds an instance of the object by the current transforms.
 void PlaceObject(ParseState& state, Index object, const SourceLocation& where);
+
+/// After the last directive: adds instances of the shapes that move in objects.
+void PlaceMovingShapes(ParseState& state);
 
 /// From the times of TransformTimes to those of the shutter: ends of motions are where
 /// things are when it opens and closes.

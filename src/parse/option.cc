@@ -1,5 +1,6 @@
 // `Option "name" value` or `Option "type name" value`.
 #include <algorithm>
+#include <cctype>
 
 #include "src/core/suggest.h"
 #include "src/parse/directives.h"
@@ -88,7 +89,11 @@ OptionStatement ReadOption(Statement& statement) {
   const auto [typed, where] = statement.Name();
   OptionStatement option;
   option.where = where;
-  option.name = typed.substr(typed.find_last_of(' ') + 1);
+  // As in pbrt-v4, letters of either case, - and _ are the same.
+  for (const char c : typed.substr(typed.find_last_of(' ') + 1)) {
+    if (c == '-' || c == '_') continue;
+    option.name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
   const bool bracket = statement.lexer.Peek().kind == TokenKind::kOpen;
   if (bracket) statement.lexer.Next();
   option.value = statement.lexer.Next();

@@ -56,9 +56,11 @@ struct Limits {
 };
 inline constexpr Limits kNotNegative = {0, kHuge};
 
-/// Reads parameters up to the first token that starts none. Throws InputError for an
-/// unknown type, values that do not fit it, an incomplete tuple, a name given twice.
-ParamList ReadParams(Lexer& lexer, const std::string& color_space);
+/// Reads parameters up to the first token that starts none. Of several with the same type
+/// and name the last one counts, with a warning among `notes`. Throws InputError for an
+/// unknown type, values that do not fit it, an incomplete tuple, a name with two types.
+ParamList ReadParams(Lexer& lexer, const std::string& color_space,
+                     std::vector<Note>* notes);
 
 /// The parameters of one object and the defaults that Attribute directives give it.
 class ParamSet {

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "src/parse/params.h"
 #include "src/core/suggest.h"
@@ -134,13 +134,31 @@ void CheckCount(const Param& param) {
   }
 }
 
+// Removes what an earlier parameter of the same name says.
+void Replace(ParamList& params, const Param& param, std::vector<Note>* notes) {
+  const auto earlier = std::find_if(params.begin(), params.end(),
+                                    [&](const Param& p) { return p.name == param.name; });
+  if (earlier == params.end()) return;
+  if (earlier->type != param.type) {
+    throw InputError(param.where,
+                     fmt::format("parameter {} is given twice, as {} and as {}; keep one",
+                                 Quoted(param.name), ParamTypeName(earlier->type),
+                                 ParamTypeName(param.type)));
+  }
+  notes->push_back({param.where,
+                    fmt::format("parameter \"{} {}\" is given twice; this one counts",
+                                ParamTypeName(param.type), param.name),
+                    false, true});
+  params.erase(earlier);
+}
+
 }  // namespace
 
 const char* ParamTypeName(ParamType type) { return kTypes[static_cast<int>(type)].name; }
 
-ParamList ReadParams(Lexer& lexer, const std::string& color_space) {
+ParamList ReadParams(Lexer& lexer, const std::string& color_space,
+                     std::vector<Note>* notes) {
   ParamList params;
-  std::set<std::string> names;
   while (lexer.Peek().kind == TokenKind::kString) {
     const Token token = lexer.Next();
     Param param;
@@ -149,10 +167,7 @@ ParamList ReadParams(Lexer& lexer, const std::string& color_space) {
     ReadDeclaration(lexer, token, &param);
     ReadValues(lexer, &param);
     CheckCount(param);
-    if (!names.insert(param.name).second) {
-      throw InputError(param.where,
-                       fmt::format("parameter {} is given twice", Quoted(param.name)));
-    }
+    Replace(params, param, notes);
     params.push_back(std::move(param));
     if (params.size() > kMostParams) {
       throw InputError(params.back().where,

@@ -25,14 +25,16 @@ void UsePixelCenters(SceneDescription& scene) {
 SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.scopes.empty()) {
     const Scope& scope = state.scopes.back();
-    const char* name = scope.kind == ScopeKind::kAttribute   ? "AttributeBegin"
-                       : scope.kind == ScopeKind::kTransform ? "TransformBegin"
-                                                             : "ObjectBegin";
+    const char* name =
+        scope.kind == ScopeKind::kAttribute ? "AttributeBegin" : "ObjectBegin";
     throw InputError(scope.where, fmt::format("this {} has no matching end", name));
   }
   if (!state.in_world) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
+  RequireNothingWaits(state);
+  RequireSlotsDefined(state);
+  PlaceMovingShapes(state);
   state.scene.film.imaging_ratio =
       (state.shutter_close - state.shutter_open) * state.iso / 100;
   if (state.pixel_centers) UsePixelCenters(state.scene);
@@ -61,9 +63,11 @@ SceneDescription ParseSceneText(std::string_view text, const std::string& name,
   ParseState state;
   state.options = options;
   state.scene.path = (fs::path(directory) / name).string();
-  state.open_files.push_back({"", directory});
-  RunDirectives(state, text, name);
-  return Finish(state, {std::make_shared<const std::string>(name), 0, 0});
+  const auto shared_name = std::make_shared<const std::string>(name);
+  state.open_files.push_back(std::make_shared<const SourceFile>(
+      SourceFile{"", directory, shared_name, std::string(text)}));
+  RunDirectives(state);
+  return Finish(state, {shared_name, 0, 0});
 }
 
 }  // namespace lanelight

@@ -1,10 +1,9 @@
 // pbrt-v4 text scenes (with Include, Import and PLY meshes) to SceneDescription.
 //
-// Follows pbrt-v4 in meaning and defaults. Differences: names must be defined before they
-// are used; what would change the image and is not supported is an InputError (or, with
-// skip_unsupported, a note); what cannot change the image, or only by design, is a note
-// in SceneDescription::notes. Extensions: Shape "plane", "string scattering" of Material
-// "diffuse".
+// Follows pbrt-v4 in meaning and defaults. Differences: what would change the image and
+// is not supported is an InputError (or, with skip_unsupported, a note); what cannot
+// change the image, or only by design, is a note in SceneDescription::notes. Extensions:
+// Shape "plane", "string scattering" of Material "diffuse".
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "src/core/gunzip.h"
 #include "src/core/input_file.h"
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
@@ -10,7 +11,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kDeepestInclude = 64;
-constexpr int kMostFiles = 100000;  // a chain of files that each include the next twice
+// Of all files, included again counted again: a chain of files that each include the next
+// twice would not end. Each file counts some bytes more than it has.
+constexpr std::size_t kGiB = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = 4 * kGiB, kBytesPerFile = 256;
+// Files up to this size are kept, until all that are kept have so many bytes.
+constexpr std::size_t kMaxKeptFile = 1 << 16, kMaxKept = kGiB / 4;
 
 bool Exists(const fs::path& path) {
   std::error_code ignored;
@@ -32,20 +38,21 @@ std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
     return InputError(where,
                       fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
   };
-  if (path.ends_with(".gz")) {
-    throw refusal("compressed files are not supported; unpack it first");
-  }
   try {
-    return ReadWholeFile(path);
+    std::string content = ReadWholeFile(path);
+    if (!IsGzip(path, content)) return content;
+    return Gunzip(content, MaxUnpackedSize(content.size()));
   } catch (const Unreadable& problem) {
     throw refusal(problem.reason());
+  } catch (const InputError& problem) {
+    throw refusal(problem.message());
   }
 }
 
 std::string ResolvePath(const ParseState& state, const std::string& name) {
-  const fs::path main = fs::path(state.open_files.front().directory) / name;
+  const fs::path main = fs::path(state.open_files.front()->directory) / name;
   if (!state.options.allow_files) return main.string();
-  const fs::path local = fs::path(state.open_files.back().directory) / name;
+  const fs::path local = fs::path(state.open_files.back()->directory) / name;
   const fs::path& found = !Exists(main) && Exists(local) ? local : main;
   if (state.options.files != nullptr) state.options.files->insert(found.string());
   return found.string();
@@ -68,11 +75,31 @@ std::string ReadSceneFile(const ParseState& state, const std::string& path,
   return ReadWholeFile(path, where, kind);
 }
 
-void RunFile(ParseState& state, const std::string& path, const SourceLocation& where) {
+namespace {
+
+SourceFilePtr OpenSource(ParseState& state, const std::string& path,
+                         const SourceLocation& where) {
+  const auto kept = state.kept_files.find(path);
+  if (kept != state.kept_files.end()) return kept->second;
   std::error_code ignored;
-  const std::string identity = fs::weakly_canonical(path, ignored).string();
-  for (const OpenFile& file : state.open_files) {
-    if (!identity.empty() && file.identity == identity) {
+  auto file = std::make_shared<const SourceFile>(SourceFile{
+      fs::weakly_canonical(path, ignored).string(), fs::path(path).parent_path().string(),
+      std::make_shared<const std::string>(path),
+      ReadSceneFile(state, path, where, "the scene file")});
+  const std::size_t size = file->text.size();
+  if (size <= kMaxKeptFile && state.bytes_kept + size <= kMaxKept) {
+    state.bytes_kept += size;
+    state.kept_files.emplace(path, file);
+  }
+  return file;
+}
+
+}  // namespace
+
+void RunFile(ParseState& state, const std::string& path, const SourceLocation& where) {
+  const SourceFilePtr source = OpenSource(state, path, where);
+  for (const SourceFilePtr& file : state.open_files) {
+    if (!source->identity.empty() && file->identity == source->identity) {
       throw InputError(where,
                        fmt::format("{} is included from within itself", Quoted(path)));
     }
@@ -81,12 +108,15 @@ void RunFile(ParseState& state, const std::string& path, const SourceLocation& w
     throw InputError(
         where, fmt::format("files are included more than {} deep", kDeepestInclude));
   }
-  if (++state.files_read > kMostFiles) {
-    throw InputError(where, fmt::format("more than {} files are included", kMostFiles));
+  state.bytes_run += source->text.size() + kBytesPerFile;
+  if (state.bytes_run > kMaxBytes) {
+    throw InputError(where,
+                     fmt::format("all included files together have more than {} GiB; a "
+                                 "file that is included again counts again",
+                                 kMaxBytes / kGiB));
   }
-  const std::string text = ReadSceneFile(state, path, where, "the scene file");
-  state.open_files.push_back({identity, fs::path(path).parent_path().string()});
-  RunDirectives(state, text, path);
+  state.open_files.push_back(source);
+  RunDirectives(state);
   // ResolvePath needs the main file's directory to the end, so the last entry stays.
   if (state.open_files.size() > 1) state.open_files.pop_back();
 }

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "src/core/suggest.h"
+#include "src/parse/forward.h"
 #include "src/parse/params.h"
 #include "src/parse/parse.h"
 
@@ -27,7 +30,9 @@ struct GraphicsState {
   Transform ctm, ctm_end;  // at the two times of TransformTimes
   bool start_active = true, end_active = true;
   bool reverse_orientation = false;
-  Index material = kNone;  // kNone: the default diffuse
+  Index material = kNone;  // kNone: the default diffuse, or ...
+  std::shared_ptr<const NameUse>
+      later_material;  // ... this one, not yet defined; or null
   Index area_light = kNone;
   MediumInterface media;
   std::string color_space = "srgb";
@@ -36,7 +41,7 @@ struct GraphicsState {
   bool Moves() const { return ctm != ctm_end; }
 };
 
-enum class ScopeKind { kAttribute, kTransform, kObject, kImport };
+enum class ScopeKind { kAttribute, kObject, kImport };
 struct Scope {
   ScopeKind kind;
   SourceLocation where;
@@ -55,9 +60,24 @@ struct MeshRequest {
   Transform world_from_object = {};  // to measure them
 };
 
-struct OpenFile {
+/// A scene file that has been read. Small ones are kept, to be included again.
+struct SourceFile {
   std::string identity;  // canonical path, to detect cycles; empty for text
   std::string directory;
+  std::shared_ptr<const std::string> name;
+  std::string text;
+};
+using SourceFilePtr = std::shared_ptr<const SourceFile>;
+
+/// A statement that uses a name without definition, and the state it was read in.
+struct WaitingStatement {
+  std::size_t place;  // in the order of the file
+  std::function<void(ParseState&)> run;
+  NameUse needs;
+  std::optional<NameKey> defines;
+  GraphicsState graphics;
+  Index open_object;
+  SourceFilePtr file;
 };
 
 struct ParseState {
@@ -67,11 +87,18 @@ struct ParseState {
   bool in_world = false;
   std::vector<Scope> scopes;
   Index open_object = kNone;  // between ObjectBegin and ObjectEnd
-  std::vector<OpenFile> open_files;
-  int files_read = 0;
+  std::vector<SourceFilePtr> open_files;
+  std::map<std::string, SourceFilePtr> kept_files;  // by path
+  std::size_t bytes_kept = 0, bytes_run = 0;
 
   std::map<std::string, std::pair<Transform, Transform>> coordinate_systems;  // ctm, end
-  std::map<std::string, Index> materials, media, objects, float_textures, color_textures;
+  std::map<NameKey, Index> names;  // materials and textures that are defined
+  NameSlots media, objects;
+  std::set<NameKey> declared;                           // defined, or waiting for others
+  std::map<std::size_t, WaitingStatement> waiting;      // by place
+  std::map<NameKey, std::vector<std::size_t>> waiters;  // places in `waiting`
+  std::deque<std::size_t> ready;                        // the same, to be run
+  std::size_t statements_waited = 0;
   std::map<std::string, std::shared_ptr<const MeasuredReflectance>> measured;  // by path
   Index default_material = kNone;  // pbrt's grey diffuse, once a shape needs it
   std::vector<MeshRequest> meshes;
@@ -90,6 +117,10 @@ struct ParseState {
   void AddNote(const SourceLocation& where, const std::string& message,
                bool changes_image = false) {
     scene.notes.push_back({where, message, changes_image});
+  }
+  /// Adds a warning: the file has a mistake, which pbrt-v4 lets pass too.
+  void AddWarning(const SourceLocation& where, const std::string& message) {
+    scene.notes.push_back({where, message, false, true});
   }
   /// Adds the note unless the same message was noted before.
   void AddNoteOnce(const SourceLocation& where, const std::string& message) {
@@ -137,8 +168,8 @@ const auto& Lookup(const Table& table, const std::string& name,
 /// ParseOptions::files.
 std::string ResolvePath(const ParseState& state, const std::string& name);
 
-/// The whole content of a regular file. InputError at `where` if it cannot be read, is
-/// compressed (.gz), or if the options forbid access to files.
+/// Returns the whole content of a regular file, unpacked if it is compressed (gzip).
+/// InputError at `where` if it cannot be read or the options forbid access to files.
 std::string ReadSceneFile(const ParseState& state, const std::string& path,
                           const SourceLocation& where, std::string_view kind);
 
@@ -146,10 +177,10 @@ std::string ReadSceneFile(const ParseState& state, const std::string& path,
 std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
                           std::string_view kind);
 
-/// Runs all directives of `text`, in the open file on top of `state.open_files`.
-void RunDirectives(ParseState& state, std::string_view text, const std::string& name);
+/// Runs all directives of the open file on top of `state.open_files`.
+void RunDirectives(ParseState& state);
 
-/// Include: the same for a file; checks cycles, depth and number of files.
+/// Include: the same for a file; checks cycles, depth and the bytes of all files.
 void RunFile(ParseState& state, const std::string& path, const SourceLocation& where);
 
 /// Reads every requested mesh, each file once, in parallel.

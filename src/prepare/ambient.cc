@@ -53,9 +53,11 @@ void Store(const std::array<Harmonics, 3>& radiance, AmbientLight& out) {
 
 Vec3d SceneDirection(const Environment& e, double u, double v) {
   const Vec3d w = OctahedralToDirection(u, v);
-  const float* m = e.light_from_scene;  // orthonormal: the transpose is the inverse
-  return {m[0] * w.x + m[3] * w.y + m[6] * w.z, m[1] * w.x + m[4] * w.y + m[7] * w.z,
-          m[2] * w.x + m[5] * w.y + m[8] * w.z};
+  const float* m = e.scene_from_light;
+  const Vec3d scene = {m[0] * w.x + m[1] * w.y + m[2] * w.z,
+                       m[3] * w.x + m[4] * w.y + m[5] * w.z,
+                       m[6] * w.x + m[7] * w.y + m[8] * w.z};
+  return e.stretched ? Normalize(scene) : scene;
 }
 
 // Midpoint rule over texels, which have equal solid angles. Any function would do as a

@@ -102,7 +102,7 @@ LightBounds BoundsOf(const Geometry& g, const LightRecord& light) {
     case LightShape::kSpot: {
       b.Add(ToVec(light.position));
       const double width =
-          2 * std::asin(std::sqrt(std::clamp(light.versine_total / 2.0, 0.0, 1.0)));
+          2 * std::asin(std::sqrt(std::clamp(light.size[0] / 2.0, 0.0, 1.0)));
       b.cone = {Normalize(ToVec(light.direction)), std::max(0.0, width - kPi / 2)};
       break;
     }

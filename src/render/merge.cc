@@ -42,6 +42,17 @@ Json WithoutSeed(Json identity) {
   return identity;
 }
 
+// What merging and writing read later: a state without it is damaged, and is to be named.
+void CheckIdentity(const std::string& path, const Json& identity) {
+  for (const char* key : {"crop", "resolution", "strategy", "version", "scene_hash"}) {
+    identity.at(key);
+  }
+  Strategy strategy;
+  SourceLocation where;
+  where.file = std::make_shared<const std::string>(path);
+  ApplyStrategy(identity.at("strategy").get<std::string>(), where, strategy);
+}
+
 // What the image was rendered with.
 Strategy StrategyOf(const MergedRender& merged) {
   Strategy strategy;
@@ -160,6 +171,7 @@ class Merger {
                        "' holds several seeds; merge the states of single ones");
     }
     input.seed = input.identity.at("seed");
+    CheckIdentity(path, input.identity);
     window_ = file->window();  // the same for all: CheckSame
     // Opened again, it is read and checked once more.
     if (inputs_.size() < kMostOpen) input.file = std::move(file);

@@ -55,10 +55,14 @@ Json NotesJson(const Job& job) {
   for (const Note& note : job.loaded->description.notes) {
     out.push_back({{"where", note.where.ToString()},
                    {"message", note.message},
-                   {"changes_image", note.changes_image}});
+                   {"changes_image", note.changes_image},
+                   {"warning", note.warning}});
   }
   for (const std::string& note : job.plan.notes) {
-    out.push_back({{"where", "strategy"}, {"message", note}, {"changes_image", false}});
+    out.push_back({{"where", "strategy"},
+                   {"message", note},
+                   {"changes_image", false},
+                   {"warning", false}});
   }
   return out;
 }

@@ -119,7 +119,13 @@ std::string FallbackPath(const std::string& path) {
   constexpr std::size_t kMostOfName = 200;
   std::string name = fs::path(path).filename();
   if (name.size() > kMostOfName) name.erase(0, name.size() - kMostOfName);
-  return (directory / fmt::format("lanelight-{}-{}", getpid(), name)).string();
+  // Results of one name, as those of a sweep's cells, each have a file of their own.
+  for (int i = 0;; ++i) {
+    const std::string number = i == 0 ? "" : fmt::format("-{}", i);
+    const fs::path place =
+        directory / fmt::format("lanelight-{}{}-{}", getpid(), number, name);
+    if (!fs::exists(place, error)) return place.string();
+  }
 }
 
 }  // namespace lanelight

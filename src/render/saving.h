@@ -48,7 +48,8 @@ void CheckOutputPaths(OutputPaths outputs, const std::set<std::string>& inputs);
 /// writable, and what exists there is a regular file. Leaves nothing behind.
 void CheckWritable(const std::string& path);
 
-/// Where a result goes that could not be written to `path`: the temporary directory.
+/// Where a result goes that could not be written to `path`: a file of the temporary
+/// directory that does not exist.
 std::string FallbackPath(const std::string& path);
 
 }  // namespace lanelight

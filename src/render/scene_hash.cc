@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/gunzip.h"
 #include "src/core/hash.h"
 #include "src/core/input_file.h"
 #include "src/parse/lex.h"
@@ -67,6 +68,18 @@ class QuotedNames {
   std::vector<std::string_view> names_;
 };
 
+// Unpacks a compressed scene in place. Returns false for what is no scene file.
+bool UnpackedScene(const fs::path& path, std::string& content) {
+  if (path.extension() == ".pbrt") return true;
+  if (path.extension() != ".gz" || path.stem().extension() != ".pbrt") return false;
+  try {
+    content = Gunzip(content, MaxUnpackedSize(content.size()));
+  } catch (const InputError&) {
+    return false;  // reported by the parser
+  }
+  return true;
+}
+
 class SceneHasher {
  public:
   explicit SceneHasher(const fs::path& scene) : directory_(scene.parent_path()) {}
@@ -80,7 +93,7 @@ class SceneHasher {
       return;  // most are no names of files
     }
     hash_.AddArray(content);
-    if (path.extension() != ".pbrt") return;
+    if (!UnpackedScene(path, content)) return;
     for (std::string_view name : QuotedNames(content).Find()) {
       AddFile(directory_ / fs::path(name));
       if (path.parent_path() != directory_) AddFile(path.parent_path() / fs::path(name));

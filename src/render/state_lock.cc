@@ -22,7 +22,7 @@ StateLock::StateLock(const std::string& path,
                      const std::function<void(const std::string&)>& on_problem) {
   do {
     lock_.reset();
-    file_.emplace(path + ".lock");
+    file_.emplace(LinkTarget(path) + ".lock");
     if (!file_->locking()) {
       on_problem(fmt::format(
           "{}: this file system knows no locks: see to it that nobody else keeps '{}'",

@@ -349,11 +349,13 @@ struct Integrator {
 };
 
 /// Something that was read and deliberately not used. `changes_image`: what is rendered
-/// is visibly not what the file asks for.
+/// is visibly not what the file asks for. `warning`: the image is that of pbrt-v4, but
+/// the file has a mistake.
 struct Note {
   SourceLocation where;
   std::string message;
   bool changes_image = false;
+  bool warning = false;
 };
 
 enum class MediumKind { kHomogeneous, kUniformGrid, kRgbGrid, kCloud, kNanoVdb };

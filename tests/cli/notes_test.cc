@@ -118,6 +118,23 @@ TEST_CASE("a study and a sweep say that images are not what the file asks for", 
   CHECK_THAT(sweep.err, Contains("the images of 2 cells are not what"));
 }
 
+TEST_CASE("warnings stand before notes and are called so", "[cli]") {
+  TempDirectory directory;
+  std::ofstream(directory / "w.pbrt")
+      << std::ifstream(BrokenMeshes(directory)).rdbuf() << "AttributeEnd\n";
+  const std::string scene = directory / "w.pbrt", json = directory / "w.json";
+  const ProcessResult r =
+      RunLanelight({"render", scene, "-o", directory / "w.exr", "--json", json});
+  INFO(r.err);
+  CHECK(r.exit_code == kExitGood);
+  CHECK(r.err.starts_with(scene + ":12:1: warning: AttributeEnd without"));
+  std::ifstream in(json);
+  const nlohmann::json notes = nlohmann::json::parse(in).at("notes");
+  REQUIRE(notes.size() == 3);
+  CHECK(notes[0].at("warning") == true);
+  CHECK(notes[1].at("warning") == false);
+}
+
 TEST_CASE("a study keeps the notes of compiling", "[cli]") {
   TempDirectory directory;
   const std::string out = directory / "study";

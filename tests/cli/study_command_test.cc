@@ -121,7 +121,7 @@ TEST_CASE("study: Ctrl-C reports what is finished", "[cli]") {
   options.action = [](int child) { kill(child, SIGINT); };
   const ProcessResult r = RunLanelight(arguments, options);
   INFO(r.err);
-  CHECK(r.exit_code == kExitGood);
+  CHECK(r.exit_code == kExitInterrupted);
   CHECK_THAT(r.err, Contains("--resume goes on"));
   CHECK_THAT(r.out, Contains("interrupted"));
   const Json json = ReadJson(directory / "out/study.json");

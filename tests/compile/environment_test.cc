@@ -101,9 +101,23 @@ TEST_CASE("compile: environment rotation", "[scene][compile]") {
     CHECK(m[3 * i] * world.x + m[3 * i + 1] * world.y + m[3 * i + 2] * world.z ==
           Approx(local[i]).margin(1e-6));
   }
-  light.world_from_light = Transform::Scale({1, 2, 1});
-  CHECK_THROWS_WITH(CompileEnvironment(light, Grey(1, 1)),
-                    Catch::Contains("scene.pbrt:40:1") && Catch::Contains("rotation"));
+}
+
+TEST_CASE("compile: stretched environments keep the volume", "[scene][compile]") {
+  Light light = Infinite();
+  light.world_from_light =
+      Transform::Rotate(37, {1, 2, 3}) * Transform::Scale({-10, 20, 5});
+  const Environment e = CompileEnvironment(light, Grey(1, 1));
+  CHECK(e.stretched);
+  const Vec3d local = Normalize(Vec3d{0.3, -0.5, 0.8});
+  const auto times = [](const float* m, Vec3d v) {
+    return Vec3d{m[0] * v.x + m[1] * v.y + m[2] * v.z,
+                 m[3] * v.x + m[4] * v.y + m[5] * v.z,
+                 m[6] * v.x + m[7] * v.y + m[8] * v.z};
+  };
+  const Vec3d world = times(e.scene_from_light, local);
+  CHECK(Length(world - light.world_from_light.Vector(local) / 10) < 1e-6);
+  CHECK(Length(times(e.light_from_scene, world) - local) < 1e-6);
 }
 
 TEST_CASE("compile: illuminance of environments as in pbrt", "[scene][compile]") {

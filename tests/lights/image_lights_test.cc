@@ -12,6 +12,7 @@
 #include "src/prepare/prepared_scene.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
+#include "tests/reference/lights.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -32,11 +33,18 @@ Light ImageLight(LightKind kind) {
   return light;
 }
 
-// Intensity towards the unit direction d of the light's own space. The centre of a
-// goniometric map is the light's +y.
+Light Stretched(LightKind kind) {
+  Light light = ImageLight(kind);
+  light.world_from_light = light.world_from_light * Transform::Scale({0.6, 1.2, 0.8}) *
+                           Transform::Rotate(25, {0, 1, 1});
+  return light;
+}
+
+// Intensity towards the direction d of the light's own space. The centre of a goniometric
+// map is the light's +y.
 Rgb Intensity(const Light& light, Vec3d d) {
   if (light.kind == LightKind::kGoniometric) {
-    const auto [s, t] = DirectionToOctahedral({d.x, d.z, d.y});
+    const auto [s, t] = reference::GoniometricPlace(d);
     const Rgb texel = Patchwork(std::min(int(s * kSquare), kSquare - 1),
                                 std::min(int(t * kSquare), kSquare - 1));
     return light.emission * ((texel.x + texel.y + texel.z) / 3);
@@ -66,7 +74,7 @@ bool NearEdge(const Light& light, Vec3d d) {
   for (int i = 0; i < 6; ++i) {
     Vec3d moved = d;
     moved[i / 2] += i % 2 == 0 ? 1e-5 : -1e-5;
-    if (!(Intensity(light, Normalize(moved)) == here)) return true;
+    if (!(Intensity(light, moved) == here)) return true;
   }
   return false;
 }
@@ -92,7 +100,7 @@ void CheckImageSamples(const std::vector<Light>& lights) {
     const Vec3d at = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.compiled->scale +
                      scene.compiled->center;
     const Vec3d to = light.world_from_light.Point({0, 0, 0}) - at;
-    const Vec3d away = Normalize(light.world_from_light.Inverse().Vector(-to));
+    const Vec3d away = light.world_from_light.Inverse().Vector(Normalize(-to));
     INFO("path " << i << ", light " << chosen);
     CHECK(Length(Vec3d{p.ls_x[i], p.ls_y[i], p.ls_z[i]} - Normalize(to)) < 1e-5);
     CHECK(p.ls_distance[i] == Approx(Length(to) * scene.compiled->scale).epsilon(1e-5));
@@ -122,6 +130,8 @@ TEST_CASE("samples of image lights are what the image says", "[lights]") {
     CheckImageSamples({map});
     CheckImageSamples({slide});
     CheckImageSamples({map, slide, tall});
+    CheckImageSamples({Stretched(LightKind::kGoniometric)});
+    CheckImageSamples({Stretched(LightKind::kProjection), map});
   }
   ForceTarget("");
 }
@@ -169,6 +179,8 @@ TEST_CASE("power of image lights multiplies their colour and scale", "[lights]")
 TEST_CASE("image lights render as the reference does", "[lights]") {
   CheckStrategies(
       Lit({ImageLight(LightKind::kGoniometric), ImageLight(LightKind::kProjection)}));
+  CheckStrategies(
+      Lit({Stretched(LightKind::kGoniometric), Stretched(LightKind::kProjection)}));
 }
 
 TEST_CASE("scenes without images of lights have nothing of them", "[lights]") {

@@ -13,7 +13,7 @@ void Store(Vec3d v, float* out) {
 }
 
 // An image with dark corners and a bright texel, so that probabilities differ widely.
-Environment Sky(int size, double turn) {
+Environment Sky(int size, double turn, Vec3d scale) {
   Image image = MakeImage(size, size, {"R", "G", "B"});
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
@@ -23,7 +23,7 @@ Environment Sky(int size, double turn) {
   image.At(size / 2, size / 3, 0) = 30;
   Light light;
   light.kind = LightKind::kInfinite;
-  light.world_from_light = Transform::Rotate(turn, {1, 2, -1});
+  light.world_from_light = Transform::Rotate(turn, {1, 2, -1}) * Transform::Scale(scale);
   return CompileEnvironment(light, image);
 }
 
@@ -66,7 +66,7 @@ LightScene::LightScene() {
   AddLight("constant sky", LightShape::kInfiniteConstant, 0xffffffffu, 0);
   AddLight("sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
   AddLight("another sky", LightShape::kInfiniteImage, 0xffffffffu, 0);
-  scene.lights.environments = {Sky(4, 0), Sky(13, 70)};
+  scene.lights.environments = {Sky(4, 0, {1, 1, 1}), Sky(13, 70, {-0.6, 1.4, 1})};
   for (const Environment& e : scene.lights.environments) {
     chances.environments.push_back(e.table);
   }

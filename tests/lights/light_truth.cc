@@ -111,7 +111,7 @@ SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d 
   const Environment& e = EnvironmentOf(scene, light);
   const float* m = e.light_from_scene;
   const Vec3d local = {Dot(ToVec(m), w), Dot(ToVec(m + 3), w), Dot(ToVec(m + 6), w)};
-  const auto [u, v] = DirectionToOctahedral(local);
+  const auto [u, v] = DirectionToOctahedral(Normalize(local));
   const int x = std::clamp(static_cast<int>(u * e.size), 0, e.size - 1);
   const int y = std::clamp(static_cast<int>(v * e.size), 0, e.size - 1);
   // Rounding may move a direction over the edge of a texel.
@@ -121,7 +121,9 @@ SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d 
   seen.radiance = ToVec(&e.rgb[3 * static_cast<std::size_t>(y * e.size + x)]);
   double total = 0;
   for (std::size_t i = 0; i < e.rgb.size(); i += 3) total += Luminance(ToVec(&e.rgb[i]));
-  seen.pdf = Luminance(seen.radiance) / total * e.size * e.size / (4 * kPi);
+  // Of a matrix with determinant 1.
+  const double stretch = 1 / std::pow(Length(local), 3);
+  seen.pdf = Luminance(seen.radiance) / total * e.size * e.size / (4 * kPi) * stretch;
   return seen;
 }
 

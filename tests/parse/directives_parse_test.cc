@@ -68,6 +68,7 @@ TEST_CASE("blocks save and restore the graphics state", "[parse]") {
     TransformBegin Translate 2 0 0 ReverseOrientation Shape "sphere" TransformEnd
     Shape "sphere")");
   REQUIRE(scene.shapes.size() == 4);
+  CHECK(HasWarning(scene, "TransformBegin and TransformEnd are AttributeBegin"));
   const Shape &inside = scene.shapes[0], &after = scene.shapes[1];
   CHECK(scene.materials[inside.material].kind == MaterialKind::kDielectric);
   CHECK(inside.reverse_orientation);
@@ -77,8 +78,8 @@ TEST_CASE("blocks save and restore the graphics state", "[parse]") {
   CHECK(after.area_light == kNone);
   CHECK(Near(Origin(after), {0, 0, 0}));
   CHECK(Near(Origin(scene.shapes[2]), {2, 0, 0}));
-  // Only the transform ends with the block.
-  CHECK(scene.shapes[3].reverse_orientation);
+  CHECK(scene.shapes[2].reverse_orientation);
+  CHECK_FALSE(scene.shapes[3].reverse_orientation);
   CHECK(Near(Origin(scene.shapes[3]), {0, 0, 0}));
 }
 
@@ -132,6 +133,38 @@ TEST_CASE("attributes are defaults that may stay unused", "[parse]") {
   CHECK(scene.shapes[3].radius == 1);
 }
 
+TEST_CASE("mistakes that pbrt-v4 lets pass are warnings", "[parse]") {
+  const SceneDescription scene = ParseText(R"(
+    ColorSpace "REC2020"  ColorSpace "srbg"
+    WorldBegin
+    Translate 1 0 0  CoordinateSystem "lamp"
+    CoordSysTransform "lmap"
+    AttributeEnd  TransformEnd
+    Shape "sphere" "float radius" 2 "float radius" 3)");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(scene.shapes[0].radius == 3);
+  CHECK(Near(Origin(scene.shapes[0]), {1, 0, 0}));
+  CHECK(HasWarning(scene, "unknown color space \"srbg\""));
+  CHECK(HasWarning(scene, "did you mean \"lamp\"?"));
+  CHECK(HasWarning(scene, "AttributeEnd without AttributeBegin"));
+  CHECK(HasWarning(scene, "TransformEnd without AttributeBegin"));
+  CHECK(HasWarning(scene, "parameter \"float radius\" is given twice"));
+  CHECK(scene.notes.size() == 5);
+  CHECK(scene.notes[4].where.ToString() == "test.pbrt:7:37");
+}
+
+TEST_CASE("a coordinate system replaces both transforms", "[parse]") {
+  const SceneDescription scene = ParseWorld(R"(
+    CoordinateSystem "here"  Translate 1 0 0  ActiveTransform EndTime
+    CoordSysTransform "here"  Shape "sphere")");
+  REQUIRE(scene.shapes.size() == 1);
+  CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
+}
+
+TEST_CASE("options are known in any spelling that pbrt-v4 takes", "[parse]") {
+  CHECK(ParseText("Option \"Force-Diffuse\" true WorldBegin").integrator.force_diffuse);
+}
+
 TEST_CASE("unsupported things can be skipped", "[parse]") {
   const std::string text = R"(
     MakeNamedMedium "fog" "string type" "homogeneous"
@@ -159,9 +192,10 @@ struct FolderWithSub {
 
 TEST_CASE("include shares the state, import does not", "[parse]") {
   const FolderWithSub folder;
-  folder.Write("main.pbrt",
-               "WorldBegin Import \"sub/a.pbrt\" Shape \"sphere\"\n"
-               "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\"");
+  folder.Write(
+      "main.pbrt",
+      "WorldBegin Import \"sub/a.pbrt\" Shape \"sphere\"\n"
+      "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\" Shape \"sphere\"");
   folder.Write("sub/a.pbrt", "Translate 1 0 0 Include \"b.pbrt\"");
   folder.Write("sub/b.pbrt", "Attribute \"shape\" \"float radius\" 7");
   std::string message;
@@ -182,6 +216,39 @@ TEST_CASE("include shares the state, import does not", "[parse]") {
   CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
   CHECK(scene.shapes[1].radius == 7);
   CHECK(Near(Origin(scene.shapes[1]), {1, 0, 0}));
+}
+
+// Files level0 to level<depth>, each of which includes the one before `times` times.
+std::string WriteLevels(const FolderWithSub& folder, int depth, int times) {
+  folder.Write("level0.pbrt", "Shape \"sphere\" \"float radius\" 0\n");
+  for (int level = 1; level <= depth; ++level) {
+    std::string text = level == depth ? "WorldBegin\n" : "";
+    for (int i = 0; i < times; ++i) {
+      text += fmt::format("Include \"level{}.pbrt\"\n", level - 1);
+    }
+    folder.Write(fmt::format("level{}.pbrt", level), text);
+  }
+  return (folder.path / fmt::format("level{}.pbrt", depth)).string();
+}
+
+TEST_CASE("a file may be included more than 100000 times", "[parse]") {
+  const FolderWithSub folder;
+  // Each sphere without radius leaves a note.
+  CHECK(ParseScene(WriteLevels(folder, 5, 11)).notes.size() == 11 * 11 * 11 * 11 * 11);
+}
+
+TEST_CASE("files that include each other without end are refused", "[parse][slow]") {
+  const FolderWithSub folder;
+  const std::string scene = WriteLevels(folder, 60, 2);
+  folder.Write("level0.pbrt", "");
+  std::string message;
+  try {
+    ParseScene(scene);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  CHECK(message.find("all included files together have more than 4 GiB") !=
+        std::string::npos);
 }
 
 TEST_CASE("a mesh file used twice is loaded once", "[parse]") {

@@ -37,4 +37,12 @@ inline bool HasNote(const SceneDescription& scene, const std::string& words) {
   return false;
 }
 
+/// True if a warning contains the words.
+inline bool HasWarning(const SceneDescription& scene, const std::string& words) {
+  for (const Note& note : scene.notes) {
+    if (note.warning && note.message.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
 }  // namespace lanelight

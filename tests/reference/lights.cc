@@ -1,7 +1,9 @@
 #include "tests/reference/lights.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "src/core/check.h"
@@ -169,11 +171,20 @@ Rgb Lights::PortalRadiance(const Light& light, Index image, Vec3d p, Vec3d towar
   return textures_->Eval(image, s, 1 - t) * light.image_scale;
 }
 
+std::array<double, 2> GoniometricPlace(Vec3d d) {
+  const double ring = std::sqrt(std::max(0.0, 1 - std::abs(d.y)));
+  const double phi = std::atan2(std::abs(d.z), std::abs(d.x)) * (2 / kPi);
+  double v = phi * ring, u = ring - v;
+  if (d.y < 0) std::tie(u, v) = std::pair{1 - v, 1 - u};
+  return {(std::copysign(u, d.x) + 1) / 2, (std::copysign(v, d.z) + 1) / 2};
+}
+
 Rgb Lights::PointIntensity(Index index, Vec3d away) const {
   const Light& light = scene_.lights[index];
-  const Vec3d d = Normalize(light.world_from_light.Inverse().Vector(away));
+  const Vec3d local = light.world_from_light.Inverse().Vector(Normalize(away));
+  const Vec3d d = Normalize(local);
   if (light.kind == LightKind::kGoniometric) {
-    const auto [s, t] = DirectionToOctahedral({d.x, d.z, d.y});
+    const auto [s, t] = GoniometricPlace(local);
     const Rgb value = textures_->Eval(light_images_[index], s, 1 - t);
     return light.emission * ((value.x + value.y + value.z) / 3);
   }

@@ -2,6 +2,7 @@
 // two ways to gather light at a point (delta lights exactly, all others by area).
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,6 +24,11 @@ struct LightConnection {
   double distance = kInfinity;
   Rgb radiance;
 };
+
+/// Where a goniometric map is looked up, (s, t) in [0, 1]^2, for a direction d of the
+/// light, which pbrt-v4 does not normalise: under a transform that scales, d is longer or
+/// shorter than 1, and all that counts of its y is how far that is from 1.
+std::array<double, 2> GoniometricPlace(Vec3d d);
 
 class Lights {
  public:
