@@ -8,9 +8,7 @@
 #include "src/image/wavelengths.h"
 
 namespace lanelight {
-namespace {
 
-// Over its maximum.
 Spectrum NormalizedBlackbody(double kelvin) {
   return [kelvin](double nm) {
     const double x = kSecondRadiation / (nm * kelvin);
@@ -19,8 +17,6 @@ Spectrum NormalizedBlackbody(double kelvin) {
     return q2 * q2 * q * (std::expm1(kPlanckPeak) / std::expm1(x));
   };
 }
-
-}  // namespace
 
 Rgb RgbOfBlackbody(double kelvin) {
   LL_CHECK_GT(kelvin, 0);

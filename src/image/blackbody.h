@@ -4,8 +4,12 @@
 #include <vector>
 
 #include "src/core/vec.h"
+#include "src/image/spectrum_integral.h"
 
 namespace lanelight {
+
+/// The spectrum of a black body divided by its own maximum. `kelvin` as below.
+Spectrum NormalizedBlackbody(double kelvin);
 
 /// Linear sRGB of a black body whose spectrum is divided by its own maximum, as pbrt-v4's
 /// film sees it: its luminance is the integral over nm of that spectrum times the

@@ -7,6 +7,7 @@
 #include "src/core/error.h"
 #include "src/image/color_matrix.h"
 #include "src/image/color_spaces.h"
+#include "src/image/fluorescent_lamps.h"
 #include "src/image/spectrum_data.h"
 #include "src/image/spectrum_integral.h"
 
@@ -89,13 +90,20 @@ struct NamedLight {
 };
 
 const std::vector<NamedLight>& NamedLights() {
-  static const std::vector<NamedLight> lights = {
-      {"illum-acesD60", Daylight(0.32168, 0.33767)},
-      // CIE 15:2004: a black body of 2848 K by the constants of 1931, 2856 K today.
-      {"stdillum-A", BlackbodySpectrum(2848 * 1.4388 / 1.4350)},
-      {"stdillum-D50", Daylight(0.34567, 0.35850)},
-      {"stdillum-D65", DaylightD65()},
-  };
+  static const std::vector<NamedLight> lights = [] {
+    std::vector<NamedLight> all = {
+        {"illum-acesD60", Daylight(0.32168, 0.33767)},
+        // CIE 15:2004: a black body of 2848 K by the constants of 1931, 2856 K today.
+        {"stdillum-A", BlackbodySpectrum(2848 * 1.4388 / 1.4350)},
+        {"stdillum-D50", Daylight(0.34567, 0.35850)},
+        {"stdillum-D65", DaylightD65()},
+    };
+    for (const FluorescentLamp& lamp : kFluorescentLamps) {
+      all.push_back({lamp.name, EvenlySpaced({lamp.power.begin(), lamp.power.end()},
+                                             kLampStart, kLampStep, false)});
+    }
+    return all;
+  }();
   return lights;
 }
 
@@ -148,6 +156,10 @@ Rgb RgbFromBlackbody(double kelvin) {
   LL_CHECK_GT(kelvin, 0);
   LL_CHECK(std::isfinite(kelvin));
   return NormalizedLight(BlackbodySpectrum(kelvin));
+}
+
+Rgb RgbFromSpectrum(const Spectrum& spectrum, SpectrumUse use) {
+  return Convert(spectrum, use);
 }
 
 Rgb RgbFromSamples(const std::vector<double>& wavelengths_nm,

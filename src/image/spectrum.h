@@ -42,6 +42,8 @@ bool NamedSpectrum(const std::string& name, SpectrumUse use, Rgb* rgb);
 
 /// The spectrum itself: of light in any unit, of glass by its dispersion formula.
 std::optional<Spectrum> SpectrumOfName(const std::string& name);
+/// Three numbers for a spectrum, by its use.
+Rgb RgbFromSpectrum(const Spectrum& spectrum, SpectrumUse use);
 /// Of a black body, in any unit; `kelvin` as below.
 Spectrum BlackbodySpectrum(double kelvin);
 /// Through samples, with the rules of RgbFromSamples; `extend`: outside them it keeps its

@@ -18,9 +18,9 @@ namespace lanelight {
 Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
             SpectrumUse use);
 /// The spectrum that the parameter is of, which ColorOf has found to be right; null for
-/// an rgb. `extend`: as in SpectrumFromSamples.
+/// an rgb. Of unbounded ones, end values go on outside of the samples.
 OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
-                       const Param& param, bool extend = false);
+                       const Param& param, SpectrumUse use);
 /// A colour without texture: of a light, say.
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
                SpectrumUse use);
@@ -39,8 +39,8 @@ struct SpectrumSamples {
 };
 SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
                           const Param& param);
-/// Index of refraction of a dielectric as one number: float, named glass, or a sampled
-/// spectrum at 587.6 nm. `dispersion` becomes that spectrum; null: the material has one
+/// Index of refraction of a dielectric as one number: float, or any other spectrum at
+/// 587.6 nm. `dispersion` becomes that spectrum; null: the material has one
 /// index for all wavelengths, which is noted.
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
                      double absent, OwnSpectrum* dispersion = nullptr);

@@ -37,12 +37,12 @@ Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
 
 Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   const double kelvin = param.numbers[0];
-  if (use != SpectrumUse::kIlluminant && use != SpectrumUse::kRadiance) {
-    params.Fail(param, "blackbody is for lights only");
-  }
   if (!(kelvin >= 100 && kelvin <= kHottest)) {
     params.Fail(param, fmt::format("the temperature {} is outside 100 to {} kelvin",
                                    kelvin, kHottest));
+  }
+  if (use == SpectrumUse::kAlbedo || use == SpectrumUse::kUnbounded) {
+    return RgbFromSpectrum(NormalizedBlackbody(kelvin), use);
   }
   if (use == SpectrumUse::kRadiance) return RgbOfBlackbody(kelvin) / kPhotometricIntegral;
   return RgbFromBlackbody(kelvin);
@@ -73,10 +73,14 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
 }
 
 OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
-                       const Param& param, bool extend) {
+                       const Param& param, SpectrumUse use) {
   if (param.type == ParamType::kRgb) return nullptr;
+  const bool unbounded = use == SpectrumUse::kUnbounded;
   if (param.type == ParamType::kBlackbody) {
-    return std::make_shared<const Spectrum>(BlackbodySpectrum(param.numbers[0]));
+    const bool light = !unbounded && use != SpectrumUse::kAlbedo;
+    const double kelvin = param.numbers[0];
+    return std::make_shared<const Spectrum>(light ? BlackbodySpectrum(kelvin)
+                                                  : NormalizedBlackbody(kelvin));
   }
   if (!param.strings.empty()) {
     const auto named = SpectrumOfName(param.strings[0]);
@@ -84,7 +88,7 @@ OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
   }
   const SpectrumSamples samples = SamplesOf(state, params, param);
   return std::make_shared<const Spectrum>(
-      SpectrumFromSamples(samples.wavelengths, samples.values, extend));
+      SpectrumFromSamples(samples.wavelengths, samples.values, unbounded));
 }
 
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
@@ -100,9 +104,8 @@ ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view n
                                           ParamType::kTexture, ParamType::kBlackbody});
   if (param == nullptr) return {absent, kNone};
   if (param->type != ParamType::kTexture) {
-    const bool extend = use == SpectrumUse::kUnbounded;
     return {ColorOf(state, params, *param, use), kNone,
-            SpectrumOf(state, params, *param, extend)};
+            SpectrumOf(state, params, *param, use)};
   }
   return {absent, Resolve(state, {{NameKind::kSpectrumTexture, param->strings[0]},
                                   param->where})};

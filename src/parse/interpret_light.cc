@@ -19,7 +19,7 @@ Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
   const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
   const Rgb color = PlainColor(state, params, name, absent, use);
   const Param* given = params.Find(name, {});
-  if (given != nullptr) *spectrum = SpectrumOf(state, params, *given);
+  if (given != nullptr) *spectrum = SpectrumOf(state, params, *given, use);
   return color;
 }
 

@@ -46,8 +46,9 @@ void ReadDiffuse(ParseState& state, ParamSet& params, Material* material) {
 // `reflectance`, or else `<prefix>eta` and `<prefix>k`.
 void ReadMetal(ParseState& state, ParamSet& params, const std::string& prefix,
                Material* material) {
-  const Param* reflectance = params.Find(
-      "reflectance", {ParamType::kRgb, ParamType::kSpectrum, ParamType::kTexture});
+  const Param* reflectance =
+      params.Find("reflectance", {ParamType::kRgb, ParamType::kSpectrum,
+                                  ParamType::kTexture, ParamType::kBlackbody});
   material->has_reflectance = reflectance != nullptr;
   if (reflectance == nullptr) {
     ConductorIor(state, params, prefix, &material->eta, &material->k);

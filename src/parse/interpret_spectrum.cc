@@ -3,6 +3,7 @@
 
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
+#include "src/image/upsampling.h"
 
 namespace lanelight {
 namespace {
@@ -51,17 +52,6 @@ std::vector<double> ReadNumbers(const std::string& text, const std::string& path
   return numbers;
 }
 
-// Linear between samples, the end values outside.
-double Interpolate(const SpectrumSamples& samples, double wavelength) {
-  const auto& x = samples.wavelengths;
-  const auto& y = samples.values;
-  const std::size_t i = std::upper_bound(x.begin(), x.end(), wavelength) - x.begin();
-  if (i == 0) return y.front();
-  if (i == x.size()) return y.back();
-  const double t = (wavelength - x[i - 1]) / (x[i] - x[i - 1]);
-  return (1 - t) * y[i - 1] + t * y[i];
-}
-
 // "metal-Cu-eta" with suffix "-eta" gives "Cu"; "" if the name is not of that form.
 std::string MetalName(const Param* param, const std::string& suffix) {
   if (param == nullptr) return "Cu";
@@ -88,6 +78,30 @@ bool IsSampled(const Param* param) {
           !NamedSpectrum(param->strings[0], SpectrumUse::kUnbounded, &unused));
 }
 
+bool IsGrey(const Param& param) {
+  const std::vector<double>& n = param.numbers;
+  return param.type == ParamType::kRgb && n[0] == n[1] && n[1] == n[2];
+}
+
+// By wavelength.
+OwnSpectrum IndexOf(ParseState& state, const ParamSet& params, const Param& param) {
+  if (param.type == ParamType::kRgb) {
+    return std::make_shared<const Spectrum>(
+        UpsampledColor(ColorOf(state, params, param, SpectrumUse::kUnbounded)));
+  }
+  double glass = 0;
+  Rgb unused;
+  const bool named = !param.strings.empty() &&
+                     NamedSpectrum(param.strings[0], SpectrumUse::kUnbounded, &unused);
+  if (named && !NamedGlassEta(param.strings[0], &glass) &&
+      !param.strings[0].starts_with("metal-")) {
+    params.Fail(param, fmt::format("the spectrum {} is that of a light",
+                                   Quoted(param.strings[0])));
+  }
+  if (!named) ColorOf(state, params, param, SpectrumUse::kUnbounded);  // checks it
+  return SpectrumOf(state, params, param, SpectrumUse::kUnbounded);
+}
+
 }  // namespace
 
 SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
@@ -109,23 +123,20 @@ SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
                      double absent, OwnSpectrum* dispersion) {
   constexpr double kLow = 0.01, kHigh = 100;
-  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kSpectrum});
+  const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kSpectrum,
+                                          ParamType::kRgb, ParamType::kBlackbody});
   if (param == nullptr) return absent;
   if (param->type == ParamType::kFloat) return params.Float(name, absent, {kLow, kHigh});
-  double eta = 0;
-  if (param->strings.empty() || !NamedGlassEta(param->strings[0], &eta)) {
-    if (!IsSampled(param)) {
-      params.Fail(*param, fmt::format("the spectrum {} is not that of a glass",
-                                      Quoted(param->strings[0])));
-    }
-    eta = Interpolate(SamplesOf(state, params, *param), kSodium);
-  }
+  const OwnSpectrum spectrum = IndexOf(state, params, *param);
+  double eta = (*spectrum)(kSodium);
+  if (!param->strings.empty()) NamedGlassEta(param->strings[0], &eta);
   if (!(eta >= kLow && eta <= kHigh)) {
     params.Fail(*param, fmt::format("the index of refraction {} is outside {} to {}", eta,
                                     kLow, kHigh));
   }
+  if (IsGrey(*param)) return eta;
   if (dispersion != nullptr) {
-    *dispersion = SpectrumOf(state, params, *param, /*extend=*/true);
+    *dispersion = spectrum;
     return eta;
   }
   state.AddNoteOnce(param->where,
@@ -137,7 +148,8 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
 
 void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
                   ColorValue* eta, ColorValue* k) {
-  const auto types = {ParamType::kSpectrum, ParamType::kRgb, ParamType::kTexture};
+  const auto types = {ParamType::kSpectrum, ParamType::kRgb, ParamType::kTexture,
+                      ParamType::kBlackbody};
   const Param* eta_param = params.Find(prefix + "eta", types);
   const Param* k_param = params.Find(prefix + "k", types);
   if (IsSampled(eta_param) && IsSampled(k_param)) {
@@ -145,8 +157,9 @@ void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix
     const SpectrumSamples m = SamplesOf(state, params, *k_param);
     const ComplexIor ior =
         ComplexIorFromSamples(n.wavelengths, n.values, m.wavelengths, m.values);
-    *eta = {ior.eta, kNone, SpectrumOf(state, params, *eta_param, true)};
-    *k = {ior.k, kNone, SpectrumOf(state, params, *k_param, true)};
+    *eta = {ior.eta, kNone,
+            SpectrumOf(state, params, *eta_param, SpectrumUse::kUnbounded)};
+    *k = {ior.k, kNone, SpectrumOf(state, params, *k_param, SpectrumUse::kUnbounded)};
     return;
   }
   const std::string eta_metal = MetalName(eta_param, "-eta");

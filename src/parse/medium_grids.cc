@@ -92,7 +92,9 @@ void ReadEmission(ParseState& state, ParamSet& params, double scale, Medium* med
   medium->emission =
       PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) * scale;
   const Param* given = params.Find("Le", {});
-  if (given != nullptr) medium->emission_spectrum = SpectrumOf(state, params, *given);
+  if (given != nullptr)
+    medium->emission_spectrum =
+        SpectrumOf(state, params, *given, SpectrumUse::kIlluminant);
 }
 
 void ReadTemperatureScale(ParamSet& params, Medium* medium) {

@@ -118,6 +118,26 @@ TEST_CASE("black bodies and illuminant A have their known colour", "[spectrum]")
   CheckNearRgb(a, RgbFromBlackbody(2856), 2e-3);
 }
 
+TEST_CASE("fluorescent lamps have the chromaticities that the CIE states", "[spectrum]") {
+  // CIE 15:2004, table T.7: x and y of FL1 to FL12, 2 degree observer.
+  constexpr double kChromaticity[12][2] = {
+      {0.3131, 0.3371}, {0.3721, 0.3751}, {0.4091, 0.3941}, {0.4402, 0.4031},
+      {0.3138, 0.3452}, {0.3779, 0.3882}, {0.3129, 0.3292}, {0.3458, 0.3586},
+      {0.3741, 0.3727}, {0.3458, 0.3588}, {0.3805, 0.3769}, {0.4370, 0.4042}};
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = fmt::format("stdillum-F{}", i + 1);
+    Rgb rgb;
+    INFO(name);
+    REQUIRE(NamedSpectrum(name, SpectrumUse::kIlluminant, &rgb));
+    const double x = 0.4124564 * rgb.x + 0.3575761 * rgb.y + 0.1804375 * rgb.z;
+    const double y = 0.2126729 * rgb.x + 0.7151522 * rgb.y + 0.0721750 * rgb.z;
+    const double z = 0.0193339 * rgb.x + 0.1191920 * rgb.y + 0.9503041 * rgb.z;
+    // The observer is a fit, which narrow lines find out.
+    CHECK(x / (x + y + z) == Approx(kChromaticity[i][0]).margin(0.004));
+    CHECK(y / (x + y + z) == Approx(kChromaticity[i][1]).margin(0.004));
+  }
+}
+
 TEST_CASE("light has luminance 1 and no negative channel at any temperature",
           "[spectrum]") {
   for (double kelvin : {0.5, 100.0, 800.0, 1500.0, 3000.0, 6500.0, 2e4, 1e7}) {
@@ -177,7 +197,7 @@ TEST_CASE("a metal given by samples equals the named one", "[spectrum]") {
 
 TEST_CASE("every listed spectrum is known, others are not", "[spectrum]") {
   const std::vector<std::string> names = NamedSpectra();
-  CHECK(names.size() == 4 + 7 + 14);
+  CHECK(names.size() == 4 + 12 + 7 + 14);
   CHECK(std::is_sorted(names.begin(), names.end()));
   for (const std::string& name : names) {
     Rgb rgb;

@@ -304,5 +304,42 @@ TEST_CASE("measured materials that cannot be", "[parse]") {
                     Contains("test.pbrt:1:") && Contains("no.bsdf"));
 }
 
+TEST_CASE("a black body may be a reflectance", "[parse]") {
+  const SceneDescription scene =
+      ParseWorld("Material \"diffuse\" \"blackbody reflectance\" 6000 Shape \"sphere\"");
+  const ColorValue& color = scene.materials.at(0).reflectance;
+  REQUIRE(color.spectrum != nullptr);
+  // 1 where it emits most, at 2 897 772 nm / 6000.
+  CHECK((*color.spectrum)(482.96) == Approx(1).epsilon(1e-6));
+  CHECK((*color.spectrum)(700) == Approx(0.7481).epsilon(1e-3));
+  // pbrt-v4 renders 0.844, 0.973, 0.989.
+  CHECK(color.constant.x == Approx(0.844).epsilon(0.005));
+  CHECK(color.constant.y == Approx(0.973).epsilon(0.005));
+  CHECK(color.constant.z == Approx(0.989).epsilon(0.005));
+}
+
+TEST_CASE("the index of a dielectric may be a colour or any spectrum", "[parse]") {
+  const auto glass = [](const std::string& eta) {
+    return ParseWorld("Material \"dielectric\" " + eta).materials.at(0);
+  };
+  const Material grey = glass("\"rgb eta\" [ 1.5 1.5 1.5 ]");
+  CHECK(grey.interface_eta == 1.5);
+  CHECK(grey.dispersion == nullptr);
+  const Material tinted = glass("\"rgb eta\" [ 1.4 1.5 1.7 ]");
+  REQUIRE(tinted.dispersion != nullptr);
+  CHECK((*tinted.dispersion)(630) < 1.45);
+  CHECK((*tinted.dispersion)(450) > 1.6);
+  CHECK(tinted.interface_eta == (*tinted.dispersion)(587.6));
+  CHECK(glass("\"spectrum eta\" \"metal-MgO-eta\"").interface_eta ==
+        Approx(1.7374).epsilon(1e-3));
+  CHECK(glass("\"blackbody eta\" 5000").interface_eta < 1);
+  const SceneDescription coat = ParseWorld(
+      "Material \"coateddiffuse\" \"rgb eta\" [ 1.4 1.5 1.7 ]\n"
+      "Material \"coatedconductor\" \"rgb interface.eta\" [ 1.3 1.3 1.3 ]");
+  CHECK(coat.materials.at(0).interface_eta == Approx(tinted.interface_eta));
+  CHECK(HasNote(coat, "dispersion of this material is not modelled"));
+  CHECK(coat.materials.at(1).interface_eta == 1.3);
+}
+
 }  // namespace
 }  // namespace lanelight
