@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/compile/motion.h"
 #include "src/core/error.h"
+#include "src/geometry/motion.h"
 
 namespace lanelight {
 namespace {
@@ -62,6 +64,19 @@ bool CanBeEntered(const PlacedInstance& instance, const Placement& placement) {
   return can(instance.world_from_object) && (!instance.end || can(*instance.end));
 }
 
+// A motion is stored in float32, which may flatten what is much thinner in one direction
+// than in another.
+void CheckMotion(const PlacedInstance& instance, const Placement& placement) {
+  if (!instance.end) return;
+  const Frame& object = placement.objects[instance.object].frame;
+  const Motion motion(instance.world_from_object, *instance.end);
+  const Motion stored = MotionOf(RecordOf(InFrames(motion, placement.frame, object)));
+  if (stored.At(0).IsInvertible() && stored.At(1).IsInvertible()) return;
+  throw InputError(instance.where,
+                   "the transform at the start or the end of the motion scales the axes "
+                   "too differently for float32: bring the scales closer together");
+}
+
 }  // namespace
 
 void RequireInScene(Vec3d p, const SourceLocation& where, const char* what) {
@@ -81,6 +96,7 @@ void LeaveOutSmall(Placement& placement, std::vector<Note>& notes) {
   LeaveOut("sphere", placement.frame.scale, placement.spheres, notes);
   LeaveOut("disk", placement.frame.scale, placement.disks, notes);
   std::erase_if(placement.instances, [&](const PlacedInstance& instance) {
+    CheckMotion(instance, placement);
     if (CanBeEntered(instance, placement)) return false;
     NoteSmall(instance.where, "instance", kNone, notes);
     return true;

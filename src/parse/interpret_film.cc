@@ -113,6 +113,11 @@ void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
 
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
   if (type != "rgb" && type != "gbuffer" && type != "spectral") {
+    if (type == "image") {  // the only film before pbrt-v4
+      throw InputError(params.where(),
+                       "film \"image\" is pbrt-v3 syntax: convert the file with `pbrt "
+                       "--upgrade`");
+    }
     ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer", "spectral"});
   }
   Film film;

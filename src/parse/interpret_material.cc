@@ -137,7 +137,7 @@ void ReadHairColor(ParseState& state, ParamSet& params, Material* material) {
     material->sigma_a =
         PlainColor(state, params, "sigma_a", {0, 0, 0}, SpectrumUse::kUnbounded);
     material->sigma_a_spectrum =
-        SpectrumOf(state, params, *params.Find("sigma_a", {}), true);
+        SpectrumOf(state, params, *params.Find("sigma_a", {}), SpectrumUse::kUnbounded);
     return ignore({"reflectance", "color", pigments[0], pigments[1]}, "sigma_a");
   }
   material->has_reflectance = params.Find(color, {}) != nullptr;

@@ -82,13 +82,6 @@ EndTransform EndOf(const Transform& start, const Transform& end,
                      "one of the transforms at the start and at the end mirrors, the "
                      "other does not: in between lies one that flattens space");
   }
-  const Motion motion(start, end);
-  if (!motion.At(0).IsInvertible() || !motion.At(1).IsInvertible()) {
-    throw InputError(
-        where,
-        "the transform at the start or the end of the motion flattens space, "
-        "as far as numbers can tell: scale its axes less differently");
-  }
   return std::make_shared<const Transform>(end);
 }
 

@@ -40,8 +40,13 @@ std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
   };
   try {
     std::string content = ReadWholeFile(path);
-    if (!IsGzip(path, content)) return content;
-    return Gunzip(content, MaxUnpackedSize(content.size()));
+    if (IsGzip(path, content)) {
+      content = Gunzip(content, MaxUnpackedSize(content.size()));
+    }
+    if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) {
+      throw refusal("it is UTF-16; save it as UTF-8");
+    }
+    return content;
   } catch (const Unreadable& problem) {
     throw refusal(problem.reason());
   } catch (const InputError& problem) {

@@ -74,7 +74,7 @@ TEST_CASE("an interrupted trial run leaves no image", "[cli]") {
   CHECK_THAT(r.err, Contains("stopped before its first sample"));
   CHECK_FALSE(std::filesystem::exists(exr));
   CHECK_FALSE(std::filesystem::exists(json));
-  const nlohmann::json report = ReadJson(directory / "r.partial.json");
+  const nlohmann::json report = test::ReadJson(directory / "r.partial.json");
   CHECK(report.at("partial") == true);
   CHECK(report.at("unsampled_pixels") == 3000 * 2000);
   CHECK(report.at("error").is_null());

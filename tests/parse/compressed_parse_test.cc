@@ -66,6 +66,13 @@ TEST_CASE("compressed scenes, includes, imports and meshes are read", "[parse]")
   CHECK(scene.shapes[3].mesh->indices.size() == 3);
 }
 
+TEST_CASE("a file in UTF-16 is refused in one sentence", "[parse]") {
+  const Folder folder;
+  folder.Write("utf16.pbrt", std::string("\xff\xfeW\0o\0", 6));
+  CHECK_THAT(MessageOf(folder.Path("utf16.pbrt")),
+             Catch::Contains("it is UTF-16; save it as UTF-8"));
+}
+
 TEST_CASE("damaged compressed files are refused with the reason", "[parse]") {
   const Folder folder;
   folder.Write("main.pbrt", "WorldBegin\nInclude \"a.pbrt.gz\"");

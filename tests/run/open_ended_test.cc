@@ -159,8 +159,10 @@ TEST_CASE("a render of a million samples has variances whenever it is stopped",
       RunOptions options;
       options.spp = 1'000'000;
       options.stop = &stop;
-      // After a few tasks: 32 samples of a pixel, of which a million are planned.
-      options.on_progress = [&](const Progress&) { stop = true; };
+      // After the short first passes, and a few tasks of the million that is planned.
+      options.on_progress = [&](const Progress& p) {
+        if (p.samples > 32 * 37 * 29) stop = true;
+      };
       const RunResult result = Run(scene, plan, options, film);
       CHECK(result.stop_reason == StopReason::kInterrupted);
       int sampled = 0, varied = 0;

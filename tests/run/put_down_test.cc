@@ -14,7 +14,7 @@ namespace lanelight {
 namespace {
 
 // A white room with a hole in the wall, through which the left half of the image, and a
-// little more, sees the sky. A path in the room takes 30 000 events to find it.
+// little more, sees the sky. A path in the room takes 250 000 events to find it.
 const char* kScene = R"(
 Camera "perspective" "float fov" 1.146
 Film "rgb" "integer xresolution" 32 "integer yresolution" 32
@@ -23,7 +23,7 @@ WorldBegin
 LightSource "infinite" "rgb L" [ 1 2 3 ]
 Material "diffuse" "rgb reflectance" [ 1 1 1 ]
 Shape "trianglemesh"
-  "point3 P" [ -1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1
+  "point3 P" [ -3 -3 -5  3 -3 -5  3 3 -5  -3 3 -5  -3 -3 1  3 -3 1  3 3 1  -3 3 1
                -0.02 -0.02 1  0.002 -0.02 1  0.002 0.02 1  -0.02 0.02 1 ]
   "integer indices" [ 0 1 2  0 2 3  0 1 5  0 5 4  1 2 6  1 6 5  2 3 7  2 7 6  3 0 4  3 4 7
                       4 5 9  4 9 8  5 6 10  5 10 9  6 7 11  6 11 10  7 4 8  7 8 11 ]
@@ -106,8 +106,8 @@ TEST_CASE("a stop puts down paths that do not end, and keeps the others", "[put_
       samples += r.film.Samples(x, y);
       if (r.film.Samples(x, y) == 0) continue;
       ++pixels;
-      // No path of the room has come to its end.
-      REQUIRE(r.film.Mean(x, y) == Rgb{1, 2, 3});
+      // All that a path can end in is the sky, after however many events.
+      REQUIRE(r.film.Mean(x, y).y == Approx(2).epsilon(0.02));
     }
   }
   CHECK(pixels > 0);
