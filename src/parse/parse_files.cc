@@ -38,20 +38,21 @@ std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
     return InputError(where,
                       fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
   };
+  std::string content;
   try {
-    std::string content = ReadWholeFile(path);
+    content = ReadWholeFile(path);
     if (IsGzip(path, content)) {
       content = Gunzip(content, MaxUnpackedSize(content.size()));
     }
-    if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) {
-      throw refusal("it is UTF-16; save it as UTF-8");
-    }
-    return content;
   } catch (const Unreadable& problem) {
     throw refusal(problem.reason());
   } catch (const InputError& problem) {
     throw refusal(problem.message());
   }
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) {
+    throw refusal("it is UTF-16; save it as UTF-8");
+  }
+  return content;
 }
 
 std::string ResolvePath(const ParseState& state, const std::string& name) {
