@@ -111,7 +111,7 @@ std::vector<BiasRound> ScreeningRounds() {
 }
 
 std::vector<BiasRound> LongRounds() {
-  return {{32, 64, 1e-3}, {64, 128, 5e-3}, {64, 512, 1e-3}};
+  return {{16, 32, 1e-3}, {32, 64, 5e-3}, {64, 128, 1e-3}};
 }
 
 BiasTest::BiasTest(PreparedScene scene, std::string base, std::vector<BiasRound> rounds,

@@ -135,9 +135,13 @@ def two_processes():
         for _ in range(3):
             errors = refused("a second process on a state", command, "is being kept by",
                              f"process {first.pid} on ")
+        shutil.copyfile(folder / "s", folder / "copy")
         refused("merging into a state that is being kept",
-                ["merge", folder / "s", "--partial", "--state", folder / "s"],
+                ["merge", folder / "copy", "--partial", "--state", folder / "s"],
                 "is being kept by")
+        refused("merging a state into itself",
+                ["merge", folder / "s", "--partial", "--state", folder / "s"],
+                "would overwrite")
         test.expect(first.poll() is None, "the first one has ended:", errors)
         # Who only reads takes no lock.
         for _ in range(100 if test.full else 5):
