@@ -106,10 +106,6 @@ namespace lanelight {
   X(LightSpectra)                              \
   X(Consider)                                  \
   X(KeepCandidate)                             \
-  X(AnalyticDiffuse)                           \
-  X(AnalyticTransmission)                      \
-  X(AmbientDiffuse)                            \
-  X(AmbientTransmission)                       \
   LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_STAGE) \
   X(ShadowRoulette)                            \
   X(ShadowTriangles)                           \
@@ -122,7 +118,6 @@ namespace lanelight {
   X(ShadowThrough)                             \
   X(Connect)                                   \
   X(RecordReuseLight)                          \
-  X(AmbientScattered)                          \
   X(RecordDecision)                            \
   X(UnsplitDecision)                           \
   X(RecordRay)                                 \

@@ -17,8 +17,7 @@ set(long
   cli/build_cache_test cli/profile_test cli/render_test cli/stress_test
   cli/study_command_test cli/target_test compile/materials_test
   compile/medium_emission_test compile/nested_test compile/tessellate_test
-  control/ambient_test control/analytic_test control/crossfit_test
-  control/irradiance_test control/regression_render_test control/regression_test
+  control/regression_render_test control/regression_test
   directions/uniform_test estimate/estimate_test generate/lenses_test guide/mixture_test
   guide/unbiased_test image/accumulator_test image/long_sums_test
   lights/emission_images_test lights/image_lights_test lights/portal_test

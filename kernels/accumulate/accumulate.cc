@@ -37,27 +37,12 @@ struct PlaneWriter {
   }
 };
 
-// Makes a sample bad whose control difference is: it is dropped as a whole.
-HWY_INLINE V3 Poison(V3 sample, V3 difference) {
-  const VF sum = hn::Add(difference.x, hn::Add(difference.y, difference.z));
-  sample.x = hn::IfThenElse(hn::IsFinite(sum), sample.x, hn::NaN(DF()));
-  return sample;
-}
-
-// What control variates with fitted coefficients need of a sample.
-HWY_INLINE void StoreControl(const Wave& wave, const Slots& slots, V3 difference, MF bad,
-                             VI output) {
+// Stores the numbers of a path that control=regression fits to.
+HWY_INLINE void StoreNumbers(const Wave& wave, const Slots& slots, VI output) {
   const PathColumns& p = wave.path;
-  if (p.k_r != nullptr) {
-    PlaneWriter(wave, PlaneGroup::kDifference)
-        .Store(IfThenElse(bad, Splat3(0, 0, 0), difference), output);
-  }
-  if (p.first_bsdf != nullptr) {
-    PlaneWriter numbers(wave, PlaneGroup::kNumbers);
-    for (const uint32_t* column :
-         {p.first_film, p.first_bsdf, p.first_light, p.choices}) {
-      numbers.Store(hn::BitCast(DF(), Gather(column, slots)), output);
-    }
+  PlaneWriter numbers(wave, PlaneGroup::kNumbers);
+  for (const uint32_t* column : {p.first_film, p.first_bsdf, p.first_light, p.choices}) {
+    numbers.Store(hn::BitCast(DF(), Gather(column, slots)), output);
   }
 }
 
@@ -112,16 +97,6 @@ void Accumulate(Wave& wave) {
                  if (p.weight != nullptr && !is_light) {
                    sample = Mul(sample, Gather(p.weight, slots));
                  }
-                 V3 difference = Splat3(0, 0, 0);
-                 if (kSigned && p.k_r != nullptr) {
-                   difference = Mul(Gather3(p.k_r, p.k_g, p.k_b, slots), exposure);
-                   if (p.wavelength != nullptr) {
-                     difference = FilmColor(wave.scene->spectra, difference, {p, slots});
-                   }
-                   if (p.weight != nullptr)
-                     difference = Mul(difference, Gather(p.weight, slots));
-                   sample = Poison(sample, difference);
-                 }
                  const Checked checked = Check<kSigned>(wave.health, sample, valid);
                  PlaneWriter(wave, PlaneGroup::kColor).Store(checked.value, output);
                  if constexpr (kAov) {
@@ -132,7 +107,7 @@ void Accumulate(Wave& wave) {
                    if (p.gb_hit != nullptr) StoreGbuffer(wave, slots, output);
                  }
                  if constexpr (kSigned) {
-                   StoreControl(wave, slots, difference, checked.bad, output);
+                   if (p.first_bsdf != nullptr) StoreNumbers(wave, slots, output);
                    if (keeps_spectra) StoreRadiance(wave, slots, checked.bad, output);
                  }
                  if (is_light) StoreWeight(wave, slots, output);
@@ -141,7 +116,8 @@ void Accumulate(Wave& wave) {
 }
 
 StageFn ResolveAccumulate(const FeatureSet& features) {
-  if (features.HasAny({Feature::kSignedFilter, Feature::kControl, Feature::kSpectral})) {
+  if (features.HasAny(
+          {Feature::kSignedFilter, Feature::kRegressionControl, Feature::kSpectral})) {
     return features.Has(Feature::kAov) ? Accumulate<true, true> : Accumulate<true, false>;
   }
   return features.Has(Feature::kAov) ? Accumulate<false, true> : Accumulate<false, false>;
@@ -152,7 +128,7 @@ Stage AccumulateStage() {
           .meaning = "checks finished samples and frees their slots",
           .input = QueueId::kDone,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
-                   fields::kControl | fields::kFirstNumbers |
+                   fields::kFirstNumbers |
                    FieldSet{Field::output, Field::weight, Field::wavelength},
           .resolve = ResolveAccumulate};
 }

@@ -33,8 +33,7 @@ void BeginCandidates(Wave& wave) {
 }
 
 // Puts the kept sample where a single one would be. Where no candidate could add light
-// the last one stays, which carries none. The factor stays in kept_worth for those who
-// need the density without the radiance (kernels/control/ambient.cc).
+// the last one stays, which carries none.
 void KeepCandidate(Wave& wave) {
   const PathColumns& p = wave.path;
   const VF inverse_count = Splat(1.0f / static_cast<float>(wave.run->candidates));
@@ -50,7 +49,6 @@ void KeepCandidate(Wave& wave) {
         const VF factor = hn::Div(hn::Mul(sum, inverse_count), worth);
         const V3 light = Mul(Gather3(p.kept_r, p.kept_g, p.kept_b, slots), factor);
         Scatter3(IfThenElseZero(any, light), p.ls_r, p.ls_g, p.ls_b, slots);
-        Scatter(factor, p.kept_worth, slots);
         put(p.kept_x, p.ls_x), put(p.kept_y, p.ls_y), put(p.kept_z, p.ls_z);
         put(p.kept_distance, p.ls_distance);
         put(p.kept_pdf, p.ls_pdf);
@@ -76,7 +74,7 @@ Stage KeepCandidateStage() {
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .reads = fields::kKeptSample | fields::kLightSample |
                    FieldSet{Field::worth_sum, Field::ls_light},
-          .writes = fields::kLightSample | FieldSet{Field::ls_light, Field::kept_worth},
+          .writes = fields::kLightSample | FieldSet{Field::ls_light},
           .resolve = Always<KeepCandidate>};
 }
 

@@ -152,7 +152,7 @@ Stage WindowStage(const char* name, const char* meaning, Feature kind) {
           .needs = {Feature::kSplitting, Feature::kScatters, kind},
           .reads = fields::kThroughput | fields::kRay | fields::kPoint | fields::kNormal |
                    identity | FieldSet{Field::eta_scale},
-          .writes = fields::kThroughput | fields::kRadiance | fields::kControl | identity,
+          .writes = fields::kThroughput | fields::kRadiance | identity,
           .resolve = Always<PlayWindow<Policy>>};
 }
 

@@ -4,7 +4,6 @@
 
 #include "src/core/check.h"
 #include "src/core/huge_pages.h"
-#include "src/image/control_film.h"
 #include "src/image/regression_film.h"
 
 namespace lanelight {
@@ -40,30 +39,18 @@ std::size_t FilmAccumulator::BytesPerPixel(const SampleGroups& groups,
   return bytes;
 }
 
-void FilmAccumulator::UseDifferences() {
-  UseControl(Feature::kControlDifference, PlaneGroup::kDifference,
-             std::make_unique<ControlFilm>(width_, height_, groups_));
-}
-
 void FilmAccumulator::UseRegression(double coefficient) {
-  UseControl(Feature::kRegressionControl, PlaneGroup::kNumbers,
-             std::make_unique<RegressionFilm>(
-                 PixelRect{x0_, y0_, x0_ + width_, y0_ + height_}, groups_, coefficient));
+  for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
+  control_ = std::make_unique<RegressionFilm>(
+      PixelRect{x0_, y0_, x0_ + width_, y0_ + height_}, groups_, coefficient);
+  features_.Add(Feature::kRegressionControl);
+  planes_ = SamplePlanes(features_);
 }
 
 void FilmAccumulator::UseBuckets(const SpectralBuckets& buckets) {
   for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
   bucket_film_ = std::make_unique<BucketFilm>(buckets, samples_.size());
   features_.Add(Feature::kSpectralFilm);
-  planes_ = SamplePlanes(features_);
-}
-
-void FilmAccumulator::UseControl(Feature feature, PlaneGroup group,
-                                 std::unique_ptr<FilmControl> control) {
-  for (std::uint64_t samples : samples_) LL_CHECK_EQ(samples, std::uint64_t{0});
-  control_ = std::move(control);
-  control_planes_ = group;
-  features_.Add(feature);
   planes_ = SamplePlanes(features_);
 }
 
@@ -81,8 +68,8 @@ void FilmAccumulator::AddSamples(int x, int y, const float* const* planes,
   const std::size_t index = Index(x, y);
   AddColors(index, planes, count);
   if (control_) {
-    control_->Add(
-        index, {samples_[index], count, planes, planes + planes_.First(control_planes_)});
+    control_->Add(index, {samples_[index], count, planes,
+                          planes + planes_.First(PlaneGroup::kNumbers)});
   }
   if (has_aov()) AddPlanes(PlaneGroup::kAov, planes, count, aov_[index].of);
   if (has_gbuffer()) AddPlanes(PlaneGroup::kGbuffer, planes, count, gbuffer_[index].of);

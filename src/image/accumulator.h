@@ -13,7 +13,7 @@
 #include "src/core/column.h"
 #include "src/core/vec.h"
 #include "src/image/bucket_film.h"
-#include "src/image/film_control.h"
+#include "src/image/regression_film.h"
 #include "src/image/replicate_sums.h"
 #include "src/path/sample_planes.h"
 
@@ -40,11 +40,9 @@ class FilmAccumulator {
   bool has_gbuffer() const { return !gbuffer_.empty(); }
   static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
 
-  /// From here on (before any sample), samples have further planes after all others: the
-  /// difference h - E[h] of a control variate whose coefficient the film fits, or the
-  /// numbers of control=regression, whose fit is then multiplied by `coefficient`. After
-  /// FitControl, Mean and Variance are those of the corrected samples.
-  void UseDifferences();
+  /// From here on (before any sample), samples have further planes: the numbers of
+  /// control=regression, whose fit is multiplied by `coefficient`. After FitControl, Mean
+  /// and Variance are those of the corrected samples.
   void UseRegression(double coefficient);
   void FitControl();
   /// From here on (before any sample) samples have their wavelengths as well, and the
@@ -54,14 +52,13 @@ class FilmAccumulator {
   const SpectralBuckets* buckets() const {
     return bucket_film_ ? &bucket_film_->buckets() : nullptr;
   }
-  /// What the control variate achieved; empty without the two above.
+  /// Returns the effect of the control variate; empty without UseRegression.
   std::optional<ControlReport> Control() const;
 
   /// Planes that a film takes of a sample, at most.
   static constexpr int kMostPlanes =
       kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kRadiance) +
-      NumPlanes(PlaneGroup::kTriple) +
-      std::max(NumPlanes(PlaneGroup::kDifference), NumPlanes(PlaneGroup::kNumbers));
+      NumPlanes(PlaneGroup::kTriple) + NumPlanes(PlaneGroup::kNumbers);
 
   /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
   /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order.
@@ -108,8 +105,6 @@ class FilmAccumulator {
   struct GbufferSums {
     double of[kGbufferPlanes] = {};
   };
-  void UseControl(Feature feature, PlaneGroup group,
-                  std::unique_ptr<FilmControl> control);
   void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
   void AddPlanes(PlaneGroup group, const float* const* planes, std::uint32_t count,
                  std::span<double> sums);
@@ -134,8 +129,7 @@ class FilmAccumulator {
   std::unique_ptr<BucketFilm> bucket_film_;
   FeatureSet features_;  // of renders that it takes samples of
   SamplePlanes planes_;  // that it takes
-  PlaneGroup control_planes_ = PlaneGroup::kCount;
-  std::unique_ptr<FilmControl> control_;
+  std::unique_ptr<RegressionFilm> control_;
 };
 
 }  // namespace lanelight

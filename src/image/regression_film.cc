@@ -7,7 +7,6 @@
 #include "src/core/check.h"
 #include "src/core/huge_pages.h"
 #include "src/core/parallel.h"
-#include "src/image/control_film.h"
 
 namespace lanelight {
 namespace {
@@ -15,6 +14,7 @@ namespace {
 constexpr int kFunctions = RegressionFilm::kFunctions;
 constexpr std::uint32_t kAtOnce = 32;  // samples
 constexpr float kCaution = 2;          // see Scatter::Fit
+constexpr float kNeighbourFreedom = 24;
 
 // Orthonormal P1 in the middle of a cell.
 float Linear(std::uint32_t cell, int bits) {
@@ -57,13 +57,13 @@ struct RegressionFilm::Scatter {
   // Coefficients of a channel. That of noise alone has the variance sum (f - its mean)^2
   // phi^2 / (sum phi^2)^2, whatever f and phi have in common (White 1980): where both
   // live on the same few paths, samples that are neither tell nothing. They are shrunk
-  // as if kCaution times that had been seen, less the share that the function explains,
-  // with the same weight of the neighbours as FitCoefficient (control_film.h). One sample
-  // more, with phi = 1 and f at its mean,
-  // keeps those of events that have hardly been seen finite.
+  // as if kCaution times that had been seen, less the share that the function explains;
+  // neighbours weigh in with kNeighbourFreedom degrees of freedom at most. One sample
+  // more, with phi = 1 and f at its mean, keeps those of events that have hardly been
+  // seen finite.
   void Fit(const Scatter& block, int c, Values& b) const {
     const float around = block.freedom - freedom;
-    const float w = around > 0 ? std::min(1.0f, float(kNeighbourFreedom) / around) : 0;
+    const float w = around > 0 ? std::min(1.0f, kNeighbourFreedom / around) : 0;
     const auto mix = [w](float of_own, float of_block) {
       return (1 - w) * of_own + w * of_block;
     };

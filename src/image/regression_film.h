@@ -24,16 +24,41 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "src/image/film_control.h"
+#include "src/core/column.h"
+#include "src/core/vec.h"
 #include "src/image/pixel_rect.h"
+#include "src/image/replicate_sums.h"
 #include "src/path/first_numbers.h"
 
 namespace lanelight {
 
-class RegressionFilm final : public FilmControl {
+/// Effect of control=regression over an image.
+struct ControlReport {
+  double coefficient = 0;  // c above; the paper's equation 7 has the opposite sign
+  double correlation = 0;  // of f and its fit, over the variance of all pixels, channels
+};
+
+/// What the film knows of a pixel's f: the other half of what a fit needs.
+struct ControlledColors {
+  const std::vector<std::uint64_t>& samples;
+  const std::vector<ReplicateSums>& replicates;  // empty without replicates
+};
+
+/// Consecutive samples of one pixel, plane by plane.
+struct ControlledSamples {
+  std::uint64_t first = 0;  // number of the first one
+  std::uint32_t count = 0;
+  const float* const* colors = nullptr;
+  const float* const* planes = nullptr;  // the numbers
+};
+
+/// Sums of one film, by pixel index y * width + x. The halves alternate between units of
+/// samples, or between replicates (src/path/replicates.h).
+class RegressionFilm {
  public:
   /// The bits of codes (src/path/first_numbers.h): position in the pixel, direction,
   /// point on a light, choices.
@@ -51,13 +76,20 @@ class RegressionFilm final : public FilmControl {
   /// Values of the functions.
   static void Functions(const float* codes, float* phi);
 
-  void Add(std::size_t pixel, const ControlledSamples& samples) override;
-  void Fit(const ControlledColors& colors) override;
-  Rgb Correction(std::size_t pixel, std::uint64_t samples) const override;
-  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const override;
-  Rgb ResidualSquares(std::size_t pixel, std::uint64_t samples) const override;
-  ControlReport Report(const ControlledColors& colors) const override;
-  std::vector<MutableStateColumn> Columns() override;
+  /// Adds a pixel's samples, in order. Safe for different pixels from different threads.
+  void Add(std::size_t pixel, const ControlledSamples& samples);
+  /// Fits the coefficients to all samples so far; before, they are 0.
+  void Fit(const ControlledColors& colors);
+  /// Returns what to subtract from the sum of f over all `samples` samples.
+  Rgb Correction(std::size_t pixel, std::uint64_t samples) const;
+  /// Subtracts the same from the sums of its replicates.
+  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const;
+  /// Returns the sum of squares of the corrected units about their mean. Without
+  /// replicates.
+  Rgb ResidualSquares(std::size_t pixel, std::uint64_t samples) const;
+  ControlReport Report(const ControlledColors& colors) const;
+  /// Returns all that has been added; coefficients are not part of it.
+  std::vector<MutableStateColumn> Columns();
 
  private:
   using Values = std::array<float, kFunctions>;

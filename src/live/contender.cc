@@ -23,8 +23,7 @@ constexpr std::uint64_t kQuickPixels = 1u << 16;
 constexpr double kLookShare = 0.1;
 
 bool HasControl(const Plan& plan) {
-  const SamplePlanes planes(plan.features);
-  return planes.Has(PlaneGroup::kDifference) || planes.Has(PlaneGroup::kNumbers);
+  return SamplePlanes(plan.features).Has(PlaneGroup::kNumbers);
 }
 
 Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {

@@ -100,9 +100,7 @@ namespace lanelight {
   X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
   X(kDecides, "a strategy chosen by a pilot")                                \
   X(kRecordsGuide, "a training pass that records what a guide learns from")  \
-  X(kRecordsUnsplit, "a training pass that records what single paths bring") \
-  X(kControl, "a control variate (samples may be negative)")                 \
-  X(kControlDifference, "a control variate with an estimated coefficient")
+  X(kRecordsUnsplit, "a training pass that records what single paths bring")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.
 #define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)

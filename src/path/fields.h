@@ -145,13 +145,12 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, kept, ({kLightCandidates}), kBounce, (), "its radiance / pdf")    \
   X(f32, kept_pdf, ({kLightCandidates}), kBounce, (), "its pdf_sa, as a single candidate") \
   X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
-  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed; in the end, the factor on its radiance") \
+  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
   X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
   X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
-  LANELIGHT_RGB(X, f32, k, ({kControlDifference}), kGathered, (0.0f), "sum over the path of throughput (h - E[h])") \
   X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/path/first_numbers.h)") \
   X(u32, first_bsdf, ({kRegressionControl}), kPath, (0u), "u_bsdf of the first event that is not specular; 0 = none") \
   X(u32, first_light, ({kRegressionControl}), kPath, (0u), "u_light of that event; 0 = none") \
@@ -322,7 +321,6 @@ inline constexpr FieldSet kGbuffer = {
     Field::gb_ng_y, Field::gb_ng_z, Field::gb_ns_x, Field::gb_ns_y, Field::gb_ns_z,
     Field::gb_uv_0, Field::gb_uv_1, Field::gb_dz_0, Field::gb_dz_1};
 inline constexpr FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
-inline constexpr FieldSet kControl = {Field::k_r, Field::k_g, Field::k_b};
 inline constexpr FieldSet kFirstNumbers = {Field::first_film, Field::first_bsdf,
                                            Field::first_light, Field::choices};
 inline constexpr FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,

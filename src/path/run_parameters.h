@@ -58,7 +58,6 @@ struct RunParameters {
   PairParameters pairs;
   MisParameters mis;
   RouletteParameters roulette;
-  float control_coefficient = 1;
   std::uint32_t candidates = 1;  // light samples of which one is kept
   const StrategyTables* tables = nullptr;
 };

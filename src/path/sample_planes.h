@@ -19,7 +19,6 @@ inline constexpr int kRecordedVertices = 4;
   X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
   X(Radiance, 3, ({kSpectralFilm}), true, "before the film makes a colour of it: at the long, the middle and the short wavelength of the path, weighed") \
   X(Triple, 1, ({kSpectralFilm}), false, "of bins that these wavelengths are of") \
-  X(Difference, 3, ({kControlDifference}), true, "h - E[h] of a control variate")         \
   X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (first_numbers.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
   X(GuideRecord, 8 * kRecordedVertices + 1, ({kRecordsGuide}), false, "of each scattered ray: start (3), normal, direction, pdf_sa, throughput, gathered before; gathered at the end") \
@@ -69,7 +68,7 @@ class SamplePlanes {
   static bool Sums(PlaneGroup group);
 
  private:
-  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  int first_[kNumPlaneGroups] = {0, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   int count_ = kColorPlanes;
 };
 

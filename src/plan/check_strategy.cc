@@ -2,7 +2,6 @@
 
 #include "src/core/error.h"
 #include "src/path/features.h"
-#include "src/prepare/ambient.h"
 #include "src/plan/plan_features.h"
 
 namespace lanelight {
@@ -12,54 +11,6 @@ using Notes = std::vector<std::string>;
 
 [[noreturn]] void Refuse(const std::string& message) {
   throw InputError("strategy: " + message);
-}
-
-// Light samples alone must find every direction of at least one environment.
-void CheckAmbient(const Strategy& s, const PreparedScene& scene) {
-  if (s.directions != Directions::kLight) return;
-  const LightTable& table = scene.compiled->lights;
-  for (std::uint32_t index : table.infinite) {
-    const std::int32_t e = table.lights[index].environment;
-    if (e < 0) return;
-    if (SamplesEveryDirection(*scene.chances->environments[static_cast<std::size_t>(e)]))
-      return;
-  }
-  Refuse(
-      "control=ambient with directions=light needs an environment that light samples "
-      "find all of; this one has black or very dark directions: use directions=mis");
-}
-
-void CheckControl(const Strategy& s, const PreparedScene& scene,
-                  const PlanOptions& options) {
-  if (s.control == Control::kNone) return;
-  const FeatureSet& f = scene.compiled->features;
-  const std::string name = std::string("control=") + Name(s.control);
-  if (s.control == Control::kRegression) return;
-  if (options.max_depth == 0) Refuse(name + " needs a maximum depth of at least 1");
-  if (!f.HasAny({Feature::kDiffuse, Feature::kDiffuseTransmission})) {
-    Refuse(name +
-           " works on Lambertian surfaces, and this scene has none; control=regression "
-           "works on any");
-  }
-  if (s.control == Control::kAmbient && !f.Has(Feature::kInfiniteLights)) {
-    Refuse("control=ambient needs an environment, and this scene has none" +
-           std::string(f.Has(Feature::kAreaLights)
-                           ? "; control=analytic is for its area lights"
-                           : "; control=regression needs no light of a kind"));
-  }
-  if (s.control == Control::kAmbient) CheckAmbient(s, scene);
-  if (s.control != Control::kAnalytic) return;
-  if (!f.Has(Feature::kAreaLights)) {
-    Refuse("control=analytic needs emitting shapes, and this scene has none" +
-           std::string(f.Has(Feature::kInfiniteLights)
-                           ? "; control=ambient is for its environment"
-                           : "; control=regression needs no light of a kind"));
-  }
-  if (!s.SamplesHittableLights()) {
-    Refuse(std::string("control=analytic needs samples of the area lights: "
-                       "directions=light or mis, not ") +
-           Name(s.directions));
-  }
 }
 
 // A sample of a block is not what one path has brought.
@@ -180,7 +131,6 @@ void NotePaths(const Checked& c) {
 
 Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
-  CheckControl(s, scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
   Notes notes;

@@ -87,9 +87,6 @@ void AddMedia(const Strategy& strategy, const CompiledScene& scene, FeatureSet& 
 void AddControl(const Strategy& strategy, FeatureSet& f) {
   if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
   f.Add(TurnsOn(strategy.control));
-  if (strategy.control != Control::kRegression && !strategy.coefficient) {
-    f.Add(Feature::kControlDifference);
-  }
 }
 
 }  // namespace

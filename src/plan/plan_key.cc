@@ -49,7 +49,7 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   if (features.Has(Feature::kContributionShadowRoulette)) {
     text += fmt::format(" shadow floor {}", s.ShadowFloor());
   }
-  if (features.Has(Feature::kControl)) {
+  if (features.Has(Feature::kRegressionControl)) {
     text += fmt::format(" control {} {}", Name(s.control),
                         s.coefficient ? fmt::format("{}", *s.coefficient) : "optimal");
   }

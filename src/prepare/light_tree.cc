@@ -17,14 +17,14 @@ double Cost(const LightBounds& b, double stretch) {
   return b.power > 0 ? b.power * b.Orientation() * stretch * (b.Area() + 1e-300) : 0;
 }
 
-struct Leaf {
+struct LightLeaf {
   LightBounds bounds;
   std::uint32_t light = 0;
 };
 
-class Builder {
+class LightTreeBuilder {
  public:
-  Builder(std::vector<Leaf> leaves, LightTree& tree)
+  LightTreeBuilder(std::vector<LightLeaf> leaves, LightTree& tree)
       : leaves_(std::move(leaves)), tree_(tree) {}
 
   void Build() {
@@ -92,17 +92,17 @@ class Builder {
     if (best_axis < 0) return begin + (end - begin) / 2;  // all in one place
     const auto middle = std::partition(
         leaves_.begin() + begin, leaves_.begin() + end,
-        [&](const Leaf& leaf) { return Bin(leaf, best_axis, centers) < best_bin; });
+        [&](const LightLeaf& leaf) { return Bin(leaf, best_axis, centers) < best_bin; });
     return static_cast<std::size_t>(middle - leaves_.begin());
   }
 
-  static int Bin(const Leaf& leaf, int axis, const LightBounds& centers) {
+  static int Bin(const LightLeaf& leaf, int axis, const LightBounds& centers) {
     const double extent = centers.high[axis] - centers.low[axis];
     const double at = (leaf.bounds.Center()[axis] - centers.low[axis]) / extent;
     return std::clamp(static_cast<int>(at * kBins), 0, kBins - 1);
   }
 
-  std::vector<Leaf> leaves_;
+  std::vector<LightLeaf> leaves_;
   LightTree& tree_;
 };
 
@@ -112,14 +112,14 @@ LightTree BuildLightTree(const Geometry& geometry, std::span<const LightRecord> 
                          std::span<const double> weights) {
   LL_CHECK_EQ(lights.size(), weights.size());
   LightTree tree;
-  std::vector<Leaf> leaves;
+  std::vector<LightLeaf> leaves;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     if (!(weights[i] > 0)) continue;
     if (!HasPlace(lights[i])) {
       tree.far.push_back(i);
       continue;
     }
-    Leaf leaf{BoundsOf(geometry, lights[i]), i};
+    LightLeaf leaf{BoundsOf(geometry, lights[i]), i};
     leaf.bounds.power = weights[i];
     leaves.push_back(leaf);
   }
@@ -128,7 +128,7 @@ LightTree BuildLightTree(const Geometry& geometry, std::span<const LightRecord> 
   tree.pmf_far = choices > 0 ? 1.0f / static_cast<float>(choices) : 0;
   tree.primitive_leaf.assign(geometry.ranges.end, -1);
   if (leaves.empty()) return tree;
-  Builder(std::move(leaves), tree).Build();
+  LightTreeBuilder(std::move(leaves), tree).Build();
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (tree.nodes[i].child >= 0) continue;
     const LightRecord& light = lights[static_cast<std::uint32_t>(~tree.nodes[i].child)];

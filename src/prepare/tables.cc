@@ -7,7 +7,6 @@ namespace lanelight {
 StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   const Strategy& strategy = scene.strategy;
   StrategyTables tables;
-  if (strategy.control == Control::kAmbient) tables.ambient = MakeAmbientLights(scene);
   if (strategy.guiding != Guiding::kNone) tables.guide = UnknowingGuide();
   tables.shadow_worth.floor = static_cast<float>(strategy.ShadowFloor());
   return tables;

@@ -3,7 +3,6 @@
 
 #include "src/core/aligned.h"
 #include "src/prepare/prepared_scene.h"
-#include "src/prepare/ambient.h"
 #include "src/prepare/guide.h"
 #include "src/prepare/path_values.h"
 #include "src/prepare/shadow_worth.h"
@@ -11,10 +10,9 @@
 namespace lanelight {
 
 struct StrategyTables {
-  PathValues path_values;             // adjoint, efficiency: set by the pilot passes
-  Guide guide;                        // guiding=radiance: knows nothing until trained
-  ShadowWorth shadow_worth;           // shadow-roulette=contribution: by a pilot pass
-  std::vector<AmbientLight> ambient;  // control=ambient
+  PathValues path_values;    // adjoint, efficiency: set by the pilot passes
+  Guide guide;               // guiding=radiance: knows nothing until trained
+  ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a pilot pass
 };
 
 /// What the strategy of the scene needs, and nothing else.

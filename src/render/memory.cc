@@ -8,7 +8,6 @@
 #include "src/core/error.h"
 #include "src/core/machine_info.h"
 #include "src/image/accumulator.h"
-#include "src/image/control_film.h"
 #include "src/image/regression_film.h"
 #include "src/prepare/groups.h"
 
@@ -27,10 +26,7 @@ std::uint64_t LayersPerPixel(const FilmLayers& layers) {
 // Sums from which the coefficients of control variates are fitted.
 std::uint64_t ControlPerPixel(const Strategy& strategy) {
   if (strategy.control == Control::kNone) return 0;
-  const SampleGroups groups = GroupsOf(strategy);
-  if (strategy.control == Control::kRegression)
-    return RegressionFilm::BytesPerPixel(groups);
-  return strategy.coefficient ? 0 : ControlFilm::BytesPerPixel(groups);
+  return RegressionFilm::BytesPerPixel(GroupsOf(strategy));
 }
 
 constexpr double kGiB = 1 << 30;

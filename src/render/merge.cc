@@ -69,9 +69,6 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
                               : file.HasPixels("aov")   ? Auxiliary::kAov
                                                         : Auxiliary::kNone;
   FeatureSet features = AuxiliaryFeatures(auxiliary);
-  if (file.HasPixels("control_replicates") || file.HasPixels("control_halves")) {
-    features.Add(Feature::kControlDifference);
-  }
   if (file.HasPixels("regression_sums")) features.Add(Feature::kRegressionControl);
   merged.film = std::make_unique<FilmAccumulator>(w.x0, w.y0, w.width(), w.height(),
                                                   GroupsOf(strategy), auxiliary);

@@ -61,11 +61,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 
 #define LANELIGHT_CONTROLS(X)                                                             \
   X(None, PLAIN, ({}), "none", "", "no control variate (default)", "1/N sum f", "") \
-  X(Analytic, STAGE, ({kControl}), "analytic", "", "h = unshadowed direct light of the area lights on diffuse surfaces", \
-    "1/N sum (f - c (h - E[h])), E[h] by the irradiance of polygons, spheres, disks", "paper eq. 7; Lambert 1760") \
-  X(Ambient, STAGE, ({kControl}), "ambient", "", "h = unoccluded environment on diffuse surfaces", \
-    "1/N sum (f - c (h - E[h])), E[h] by spherical harmonics", "paper eq. 7; Ramamoorthi and Hanrahan 2001") \
-  X(Regression, STAGE, ({kControl}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
+  X(Regression, STAGE, ({}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
     "1/N sum (f - c sum_j b_j phi_j(u)), E[phi_j] = 0, b_j = Cov(f, phi_j) / Var(phi_j)", "paper eq. 7; Salaun et al. 2022")
 
 #define LANELIGHT_ROULETTES(X)                                                            \

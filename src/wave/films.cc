@@ -9,7 +9,6 @@ Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& fi
   LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
   LL_CHECK_EQ(planes.Has(PlaneGroup::kGbuffer), film.has_gbuffer());
   LL_CHECK_EQ(planes.Has(PlaneGroup::kRadiance), film.buckets() != nullptr);
-  if (planes.Has(PlaneGroup::kDifference)) film_.UseDifferences();
   if (planes.Has(PlaneGroup::kNumbers)) film_.UseRegression(coefficient);
 }
 
@@ -17,18 +16,13 @@ void Films::UseResponse(const FilmResponse& response) {
   if (!response.IsIdentity()) response_ = response;
 }
 
-// Differences of control variates are light as well.
 void Films::Respond(const TileSamples& tile) const {
   const std::size_t count = tile.pixels.size() * tile.count;
-  for (const PlaneGroup group : {PlaneGroup::kColor, PlaneGroup::kDifference}) {
-    if (!planes_.Has(group)) continue;
-    float* const first = tile.values + std::size_t(planes_.First(group)) * count;
-    const ColorPlanes planes = {first, first + count, first + 2 * count};
-    if (group == PlaneGroup::kColor && response_->limits()) {
-      LimitColors(*response_, planes, count);
-    }
-    ConvertColors(*response_, planes, count);
-  }
+  float* const first =
+      tile.values + std::size_t(planes_.First(PlaneGroup::kColor)) * count;
+  const ColorPlanes planes = {first, first + count, first + 2 * count};
+  if (response_->limits()) LimitColors(*response_, planes, count);
+  ConvertColors(*response_, planes, count);
 }
 
 void Films::Add(const TileSamples& tile) {

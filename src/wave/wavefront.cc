@@ -54,7 +54,6 @@ RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   run.pairs = MakePairParameters(strategy);
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);
-  run.control_coefficient = static_cast<float>(strategy.coefficient.value_or(1));
   run.candidates = CandidatesOf(strategy, plan.features);
   run.max_depth = plan.options.max_depth;
   run.exposure = ExposureOf(scene);

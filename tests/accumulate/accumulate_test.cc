@@ -20,9 +20,9 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kExposure = 2;
 // Not a multiple of any vector: the last batch repeats the last slot, and that sample is
-// an invalid one (122 % kKinds == kNotANumber), which must count once.
-constexpr std::uint32_t kPaths = 123, kCapacity = 160, kStride = 200;
-constexpr int kPlanes = 3 + 7 + 14 + 3 + 4;
+// an invalid one (112 % kKinds == kNotANumber), which must count once.
+constexpr std::uint32_t kPaths = 113, kCapacity = 160, kStride = 200;
+constexpr int kPlanes = 3 + 7 + 14 + 4;
 constexpr float kUntouched = -77;
 
 enum Kind {
@@ -37,34 +37,29 @@ enum Kind {
   kInfAndNegative,  // counts as infinite alone
   kTiny,            // the least positive normal number: good
   kAlmostTooLarge,  // finite after the exposure: good
-  kBadDifferenceNan,
-  kBadDifferenceInf,
-  kBadDifferenceMinusInf,
-  kNegativeDifference,  // good
   kKinds
 };
 
 struct Variant {
-  bool sign, aov, difference, numbers;
+  bool sign, aov, numbers;
   bool gbuffer = false;
   FeatureSet features() const {
     FeatureSet f;
-    if (sign) f.Add(Feature::kControl);
+    if (sign) f.Add(Feature::kSignedFilter);
     if (aov) f.Add(Feature::kAov);
     if (gbuffer) f.Add(Feature::kGbuffer);
-    if (difference) f.Add(Feature::kControlDifference);
     if (numbers) f.Add(Feature::kRegressionControl);
     return f;
   }
 };
 
 struct Sample {
-  float color[3], difference[3];
+  float color[3];
 };
 
 // The planted value stands in channel `c`.
 Sample Plant(Kind kind, int c) {
-  Sample s = {{1, 2, 3}, {0.5f, -0.25f, 4}};
+  Sample s = {{1, 2, 3}};
   const int d = (c + 1) % 3;
   switch (kind) {
     case kNegativeZero:
@@ -97,18 +92,6 @@ Sample Plant(Kind kind, int c) {
     case kAlmostTooLarge:
       s.color[c] = 1.7e38f;
       break;
-    case kBadDifferenceNan:
-      s.difference[c] = kNan;
-      break;
-    case kBadDifferenceInf:
-      s.difference[c] = kInf;
-      break;
-    case kBadDifferenceMinusInf:
-      s.difference[c] = -kInf;
-      break;
-    case kNegativeDifference:
-      s.difference[c] = -1e30f;
-      break;
     default:
       break;
   }
@@ -130,10 +113,6 @@ Verdict VerdictOf(Kind kind, const Variant& v) {
       return Verdict::kInfinite;
     case kNegative:
       return v.sign ? Verdict::kGood : Verdict::kNegative;
-    case kBadDifferenceNan:
-    case kBadDifferenceInf:
-    case kBadDifferenceMinusInf:
-      return v.difference ? Verdict::kNan : Verdict::kGood;
     default:
       return Verdict::kGood;
   }
@@ -155,7 +134,6 @@ class Finished {
     std::copy_n(slots_.begin(), kPaths, done.items);
     done.size = kPaths;
     if (!v.sign) p.weight = nullptr;
-    if (!v.difference) p.k_r = p.k_g = p.k_b = nullptr;
     if (!v.numbers) p.first_bsdf = nullptr;
     if (!v.gbuffer) p.gb_hit = nullptr;
   }
@@ -177,8 +155,7 @@ class Finished {
   static float Number(int k, std::uint32_t i) { return -1.0f - k - 8.0f * i; }
 
   int PlanesWritten() const {
-    return 3 + 7 * variant_.aov + 14 * variant_.gbuffer + 3 * variant_.difference +
-           4 * variant_.numbers;
+    return 3 + 7 * variant_.aov + 14 * variant_.gbuffer + 4 * variant_.numbers;
   }
   bool OthersUntouched() const {
     for (int plane = 0; plane < kPlanes; ++plane) {
@@ -210,8 +187,6 @@ class Finished {
     const Sample s = planted(i);
     p.output[slot] = outputs_[i];
     p.l_r[slot] = s.color[0], p.l_g[slot] = s.color[1], p.l_b[slot] = s.color[2];
-    p.k_r[slot] = s.difference[0], p.k_g[slot] = s.difference[1];
-    p.k_b[slot] = s.difference[2];
     p.weight[slot] = Weight(i);
     float* aov[] = {p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x,
                     p.aov_n_y,      p.aov_n_z,      p.aov_depth};
@@ -233,12 +208,10 @@ class Finished {
   std::vector<std::uint32_t> slots_, outputs_;
 };
 
-constexpr Variant kVariants[] = {
-    {false, false, false, false},      {false, true, false, false},
-    {true, false, false, false},       {true, true, false, false},
-    {true, false, true, false},        {true, true, true, false},
-    {true, false, false, true},        {true, true, false, true},
-    {false, true, false, false, true}, {true, true, true, false, true}};
+constexpr Variant kVariants[] = {{false, false, false},      {false, true, false},
+                                 {true, false, false},       {true, true, false},
+                                 {true, false, true},        {true, true, true},
+                                 {false, true, false, true}, {true, true, false, true}};
 
 void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
   const Sample s = f.planted(i);
@@ -254,9 +227,6 @@ void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
   for (int k = 0; v.gbuffer && k < 14; ++k) {
     CHECK(f.Stored(plane++, i) == Finished::Gbuffer(k, i));
   }
-  for (int c = 0; v.difference && c < 3; ++c) {
-    CHECK(f.Stored(plane++, i) == (good ? f.Factor(i) * s.difference[c] : 0));
-  }
   for (int k = 0; v.numbers && k < 4; ++k) {
     CHECK(f.Stored(plane++, i) == Finished::Number(k, i));
   }
@@ -268,7 +238,7 @@ TEST_CASE("invalid samples are counted by kind and written as zero", "[accumulat
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (const Variant& v : kVariants) {
-      CAPTURE(target, v.sign, v.aov, v.difference, v.numbers);
+      CAPTURE(target, v.sign, v.aov, v.numbers);
       Finished f(v);
       f.Run();
       std::uint64_t counts[4] = {};
@@ -306,7 +276,6 @@ TEST_CASE("a film that keeps spectra is given radiance before exposure, and the 
     fixture.run.planes = SamplePlanes(features);
     PathColumns& p = fixture.wave.path;
     p.wavelength = wavelength.data();
-    p.k_r = p.k_g = p.k_b = nullptr;
     p.first_bsdf = nullptr;
     Queue& done = fixture.wave.queue(QueueId::kDone);
     for (std::uint32_t i = 0; i < kCount; ++i) {

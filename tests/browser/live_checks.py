@@ -218,10 +218,11 @@ def strategies_are_chosen_by_axes(page):
     choose(page, '#card-1 [data-axis="points"]', "halton")
     until(page, "return page.state.slots[1].strategy?.includes('points=halton')",
           "it is not rendered")
-    choose(page, '#card-1 [data-axis="control"]', "ambient")
+    choose(page, '#card-1 [data-axis="roulette"]', "adjoint")
+    choose(page, '#card-1 [data-axis="reuse"]', "block")
     text = until(page, "return document.querySelector('#card-1 .refused')?.innerText",
                  "it is not refused")
-    require("environment" in text, text)
+    require("reuse=block" in text, text)
     page.click("#off")
     until(page, "return page.state.slots[1].name === ''", "B is not given up")
 

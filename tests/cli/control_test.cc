@@ -48,11 +48,4 @@ TEST_CASE("the report tells what a control variate reached", "[cli]") {
                                      Contains("all samples valid"));
 }
 
-TEST_CASE("a control variate that cannot work stops the render", "[cli]") {
-  const TempDirectory directory;
-  const Reported refused = Render(directory, "control=analytic,directions=bsdf");
-  CHECK(refused.process.exit_code == kExitBadInput);
-  CHECK_THAT(refused.process.err, Contains("control=analytic needs"));
-}
-
 }  // namespace lanelight

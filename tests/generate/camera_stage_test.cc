@@ -246,10 +246,9 @@ TEST_CASE("a path begins with nothing gathered and its whole throughput", "[gene
       for (const float* one : {p.beta_r, p.beta_g, p.beta_b, p.eta_scale}) {
         REQUIRE(one[i] == 1);
       }
-      for (const float* zero :
-           {p.l_r, p.l_g, p.l_b, p.bsdf_pdf, p.k_r, p.k_g, p.k_b, p.aov_albedo_r,
-            p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x, p.aov_n_y, p.aov_n_z, p.aov_depth,
-            p.gb_hit, p.gb_p_x, p.gb_dz_1}) {
+      for (const float* zero : {p.l_r, p.l_g, p.l_b, p.bsdf_pdf, p.aov_albedo_r,
+                                p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x, p.aov_n_y,
+                                p.aov_n_z, p.aov_depth, p.gb_hit, p.gb_p_x, p.gb_dz_1}) {
         REQUIRE(zero[i] == 0);
       }
       for (const std::uint32_t* none : {p.first_bsdf, p.first_light, p.choices}) {

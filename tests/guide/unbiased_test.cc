@@ -83,25 +83,6 @@ TEST_CASE("guided: the image of the scalar reference", "[guide]") {
   }
 }
 
-TEST_CASE("guided: control=ambient weighs as shading does", "[guide]") {
-  Material leaf;
-  leaf.kind = MaterialKind::kDiffuseTransmission;
-  leaf.reflectance.constant = {0.4, 0.3, 0.2};
-  leaf.transmittance.constant = {0.2, 0.3, 0.5};
-  for (const Material& material : {Material(), leaf}) {
-    const SceneDescription scene = Plate(material, 8, 2);
-    const stat::ImageEstimate plain = RenderGuided(scene, {.spp = 8192, .seed = 6});
-    for (const char* directions : {"directions=bsdf", "directions=mis"}) {
-      CheckSame(RenderGuided(
-                    scene, {.strategy = std::string(directions) + ",control=ambient,c=1",
-                            .spp = 8192,
-                            .seed = 7,
-                            .guide = &Lopsided()}),
-                plain, 4, 0.05);
-    }
-  }
-}
-
 TEST_CASE("guided: one bounce, and none", "[guide]") {
   for (int depth : {0, 1}) {
     const SceneDescription scene = SmallRoom(8, depth, 0.4);

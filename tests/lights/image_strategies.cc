@@ -17,8 +17,6 @@ constexpr const char* kStrategies[] = {
     "directions=bsdf,seen-lights=paths",
     "light-points=solid-angle,light-candidates=resampled:4",
     "light-points=projected,directions=light",
-    "control=analytic,c=1",
-    "control=ambient,c=1",
     "guiding=radiance,environment=compensated"};
 
 }  // namespace

@@ -143,9 +143,9 @@ TEST_CASE("a contender counts stages, rays by places, and its errors", "[live]")
 
 TEST_CASE("a strategy that the scene does not take is refused", "[live]") {
   const Stage stage = SmallStage();
-  CHECK_THROWS_AS(
-      Contender(stage, MakeView(stage, stage.eye, 1), ChangedStrategy("control=ambient")),
-      InputError);
+  CHECK_THROWS_AS(Contender(stage, MakeView(stage, stage.eye, 1),
+                            ChangedStrategy("reuse=block,roulette=adjoint")),
+                  InputError);
 }
 
 }  // namespace lanelight::live

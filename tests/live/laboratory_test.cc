@@ -126,11 +126,12 @@ TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
   page.Ask("no JSON");
   REQUIRE(page.Until([&] { return page.Last("refused").is_object(); }));
   CHECK_THAT(page.Last("refused")["text"].get<std::string>(), Catch::Contains("JSON"));
-  page.Ask(ChooseText(0, "control=ambient"));
+  page.Ask(ChooseText(0, "reuse=block,roulette=adjoint"));
   page.Ask(ChooseText(1, "default"));
   REQUIRE(page.UntilSpp(1, 4));
   const nlohmann::json slots = page.Last("state")["slots"];
-  CHECK_THAT(slots[0]["refused"].get<std::string>(), Catch::Contains("environment"));
+  CHECK_THAT(slots[0]["refused"].get<std::string>(),
+             Catch::Contains("reuse=block needs"));
   page.Ask(R"({"do": "exr", "slot": 0})");
   CHECK(page.Until([&] {
     return page.Last("refused")["text"].get<std::string>().find("no whole picture") !=

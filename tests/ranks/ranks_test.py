@@ -17,7 +17,7 @@ import time
 import uuid
 
 SIZE = ["--resolution", "72x56"]
-STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic", "control=analytic",
+STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic",
               "control=regression", "roulette=adjoint", "decide=pilot", "guiding=radiance"]
 INTERRUPTED = 6
 

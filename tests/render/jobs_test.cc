@@ -86,7 +86,7 @@ TEST_CASE("a job is as it was after others were made of it", "[render]") {
   CHECK(more.spp == 99);
   CHECK(more.seed == 7);
   CHECK(job.spp == 16);
-  CHECK_THROWS_AS(With(job, "control=ambient"), InputError);
+  CHECK_THROWS_AS(With(job, "reuse=block,roulette=adjoint"), InputError);
 }
 
 // What is allocated on the way, for the strategy's tables and for the plan, which does

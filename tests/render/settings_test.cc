@@ -69,12 +69,6 @@ TEST_CASE("a film beyond the memory is refused with both numbers", "[render]") {
   control.control = Control::kRegression;
   CHECK(FilmBytes(window, Auxiliary::kNone, control) >
         FilmBytes(window, Auxiliary::kNone) + window.pixels() * 300);
-  control.control = Control::kAnalytic;
-  CHECK(FilmBytes(window, Auxiliary::kNone, control) >
-        FilmBytes(window, Auxiliary::kNone) + window.pixels() * 100);
-  control.coefficient = 1;  // applied by the kernel: nothing to fit
-  CHECK(FilmBytes(window, Auxiliary::kNone, control) ==
-        FilmBytes(window, Auxiliary::kNone));
   const std::uint64_t gib = std::uint64_t{1} << 30;
   CHECK_NOTHROW(CheckFilmFits(window, Auxiliary::kNone, {}, 1000 * gib));
   CHECK_THROWS_WITH(CheckFilmFits(window, Auxiliary::kNone, {}, 16 * gib),

@@ -102,7 +102,8 @@ Json CrowdedScene() {
   }
   scene["strategies"].push_back(Twin("points=sobol"));
   scene["strategies"].push_back(Twin("scene"));
-  scene["strategies"].push_back(BareStrategy("control=ambient", "", "refused"));
+  scene["strategies"].push_back(
+      BareStrategy("control=regression,reuse=block", "", "refused"));
   scene["calibration"] = {
       {"inside", 0},
       {"total", 0},

@@ -63,8 +63,9 @@ Json CompleteScene(std::vector<ReportImage>& images) {
                                                counts, 100 + 10 * i, true, images));
     ++i;
   }
-  Json refused = BareStrategy("paper-control", "control=analytic", "refused");
-  refused["message"] = "control=analytic needs a light without area; try control=ambient";
+  Json refused =
+      BareStrategy("paper-control", "control=regression,reuse=block", "refused");
+  refused["message"] = "control=regression needs samples of one path each";
   refused["figure"] = 6;
   Json failed = BareStrategy("paper-roulette", "roulette=constant:0.2", "failed");
   failed["message"] = "the render ended early: no memory left";

@@ -12,8 +12,8 @@ const char* const kStrategies[] = {
     "points=sobol",
     "points=independent,pairs=antithetic",
     "points=cmj,pairs=antithetic",
-    "points=independent,control=analytic",
-    "points=stratified,control=analytic,pairs=antithetic",
+    "points=independent,control=regression",
+    "points=stratified,control=regression,pairs=antithetic",
     "points=sobol,control=regression",
     "points=independent,control=regression,pairs=antithetic",
     "points=halton,roulette=adjoint",
@@ -57,7 +57,7 @@ TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
 
 TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
   for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
-                               "points=cmj,control=analytic"}) {
+                               "points=cmj,control=regression"}) {
     for (double finest : {0.0004, 0.002}) {
       INFO(strategy << ", " << finest);
       Request request;

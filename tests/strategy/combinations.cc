@@ -18,8 +18,6 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
       {"antithetic",
        {"antithetic:all", "antithetic:pixel", "antithetic:light", "antithetic:bsdf",
         "antithetic:first-bounce"}},
-      {"analytic", {"analytic,c=1", "analytic,c=optimal"}},
-      {"ambient", {"ambient,c=1", "ambient,c=optimal"}},
       {"regression", {"regression,c=1"}},
       {"block", {"block:8", "block:64:compact", "block:16:apart"}},
       {"constant", {"constant:0.2"}},

@@ -170,7 +170,8 @@ TEST_CASE("what a scene does not take is reported, and the rest goes on", "[stud
       folder.Write("dark.pbrt",
                    "Film \"rgb\" \"integer xresolution\" 4 \"integer "
                    "yresolution\" 4\nWorldBegin\nShape \"sphere\"\n"));
-  options.strategies = {"control=ambient,c=1", "default", "control=analytic"};
+  options.strategies = {"reuse=block,roulette=adjoint", "default",
+                        "reuse=block,control=regression"};
   options.spp = {1, 4};
   options.repetitions = 2;
   const auto studies = Study(options, {});

@@ -70,7 +70,7 @@ double Efficiency(const Rendered& r) {
 
 TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
   // With a control variate paths serve no others.
-  const Rendered r = Decide(Room(0.9, 100), "control=analytic,decide=pilot");
+  const Rendered r = Decide(Room(0.9, 100), "control=regression,decide=pilot");
   INFO(r.result.training.note);
   CHECK(r.result.roulette == Roulette::kThroughput);
   CHECK(r.result.training.changes == "roulette=throughput:0:2:4,decide=none");
@@ -78,8 +78,8 @@ TEST_CASE("the pilot plays a milder roulette where late light is most", "[decisi
              Catch::Contains("rendered with roulette=throughput:0:2:4") &&
                  Catch::Contains("roulette=adjoint"));
   // The image is what it is with that asked for: the pilot leaves nothing behind.
-  CHECK(
-      SameImage(r, Decide(Room(0.9, 100), "control=analytic,roulette=throughput:0:2:4")));
+  CHECK(SameImage(
+      r, Decide(Room(0.9, 100), "control=regression,roulette=throughput:0:2:4")));
 }
 
 TEST_CASE("the pilot has paths serve their block where light comes by bounces",

@@ -60,13 +60,11 @@ const FilmCase kCases[] = {
     {"replicates", {}, {1, true}, 2},
     {"replicates of pairs and auxiliary planes", {Feature::kAov}, {2, true}, 3},
     {"g-buffer", {Feature::kAov, Feature::kGbuffer}, {1, false}, 4},
-    {"control variate", {Feature::kControlDifference}, {1, false}, 4},
-    {"control variate, pairs and auxiliary planes",
-     {Feature::kControlDifference, Feature::kAov},
-     {2, false},
-     6},
-    {"control variate, replicates", {Feature::kControlDifference}, {1, true}, 3},
     {"regression", {Feature::kRegressionControl}, {1, false}, 5},
+    {"regression and auxiliary planes",
+     {Feature::kRegressionControl, Feature::kAov},
+     {1, false},
+     6},
     {"regression, replicates of pairs", {Feature::kRegressionControl}, {2, true}, 5},
 };
 
