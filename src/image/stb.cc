@@ -118,6 +118,7 @@ struct Format {
 // The last one begins with anything.
 constexpr Format kFormats[] = {
     {"\xff\xd8", 512},  // JPEG: a bit for a block of 8 x 8
+    {"\xff\xff", 512},  // the same, after fill bytes
     {"GIF8", 4096},     // the longest run that a code stands for, in 8 bits or more
     {"8BPS", 64},       // PSD: runs of 128 in two bytes, as in TGA
     {"BM", 8},          // BMP: a bit each, runs are not read
@@ -141,6 +142,9 @@ double PixelsPerByte(const std::string& content) {
 
 // Size and channels, checked before anything is allocated.
 Image ReadStbHeader(const std::string& path, const std::string& content, Source& source) {
+  if (content.starts_with(kFormats[0].magic) || content.starts_with(kFormats[1].magic)) {
+    CheckJpeg(path, content);
+  }
   Image image;
   if (!stbi_info_from_callbacks(Source::Callbacks(), &source, &image.width, &image.height,
                                 &image.channels)) {
@@ -152,7 +156,6 @@ Image ReadStbHeader(const std::string& path, const std::string& content, Source&
   // The height of a BMP is negative if its rows go from the top.
   CheckImageFits(path, image.width, std::abs(static_cast<long long>(image.height)),
                  PixelsPerByte(content), content.size());
-  if (content.starts_with(kFormats[0].magic)) CheckJpeg(path, content);
   source.Rewind();
   if (content[0] == 'P' && stbi_is_16_bit_from_callbacks(Source::Callbacks(), &source)) {
     throw InputError(path + ": PGM and PPM of 16 bits are not read; save as PNG");
