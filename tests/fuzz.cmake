@@ -43,8 +43,9 @@ target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
   -fsanitize=fuzzer-no-link,address,undefined)
 target_link_libraries(lanelight_fuzz_lib PUBLIC lanelight_options hwy::hwy TBB::tbb
   OpenEXR::OpenEXR fmt::fmt nlohmann_json::nlohmann_json FastFloat::fast_float
-  PkgConfig::STB PkgConfig::BLOSC PkgConfig::XXHASH ZLIB::ZLIB)
-target_include_directories(lanelight_fuzz_lib PRIVATE ${NANOVDB_INCLUDE})
+  PkgConfig::STB PkgConfig::BLOSC PkgConfig::XXHASH PkgConfig::UTF8PROC ZLIB::ZLIB PNG::PNG)
+target_include_directories(lanelight_fuzz_lib PRIVATE ${NANOVDB_INCLUDE}
+  ${QOI_INCLUDE})
 
 add_custom_target(lanelight_fuzz)
 foreach(file ${FUZZ_SOURCES})

@@ -67,20 +67,36 @@ std::string Quoted(std::string_view text) {
 std::string QuotedList(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : ", ") + Quoted(name);
-  return out.empty() ? "nothing" : out;
+  return out;
 }
+
+namespace {
+
+// What was found, and the name that was probably meant.
+std::string Unknown(std::string_view kind, std::string_view found,
+                    const std::vector<std::string>& known) {
+  const std::string nearest = NearestName(found, known);
+  return fmt::format(
+      "unknown {} {}; {}", kind, Quoted(found),
+      nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest)));
+}
+
+}  // namespace
 
 void ThrowUnknown(const SourceLocation& where, std::string_view kind,
                   std::string_view found, const std::vector<std::string>& known) {
-  const std::string nearest = NearestName(found, known);
-  const std::string hint =
-      nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest));
-  if (known.empty()) {
-    throw InputError(where, fmt::format("unknown {} {}: the scene defines no {}", kind,
-                                        Quoted(found), kind));
+  throw InputError(where,
+                   Unknown(kind, found, known) + "supported: " + QuotedList(known));
+}
+
+void ThrowNotDefined(const SourceLocation& where, std::string_view kind,
+                     std::string_view found, const std::vector<std::string>& defined) {
+  if (defined.empty()) {
+    throw InputError(
+        where, fmt::format("unknown {0} {1}: no {0} is defined", kind, Quoted(found)));
   }
-  throw InputError(where, fmt::format("unknown {} {}; {}supported: {}", kind,
-                                      Quoted(found), hint, QuotedList(known)));
+  throw InputError(
+      where, Unknown(kind, found, defined) + "the scene defines: " + QuotedList(defined));
 }
 
 }  // namespace lanelight

@@ -28,4 +28,10 @@ std::string QuotedList(const std::vector<std::string>& names);
                                std::string_view found,
                                const std::vector<std::string>& known);
 
+/// The same for a name that the scene itself should define: ... the scene defines: "x",
+/// or: unknown <kind> "<found>": no <kind> is defined.
+[[noreturn]] void ThrowNotDefined(const SourceLocation& where, std::string_view kind,
+                                  std::string_view found,
+                                  const std::vector<std::string>& defined);
+
 }  // namespace lanelight

@@ -54,6 +54,7 @@ namespace {
 // What takes memory before any pixel is read, of one header of the file.
 struct HeaderSizes {
   std::int64_t width = 1, height = 1, tile_width = 1, tile_height = 1;
+  bool deep = false;
 };
 
 // Reads the attributes of a header one by one, as they lie in the file: name, type, size,
@@ -75,6 +76,8 @@ class HeaderWalk {
       } else if (name == "tiles" && size >= 8) {
         sizes.tile_width = static_cast<std::uint32_t>(Number(at_));
         sizes.tile_height = static_cast<std::uint32_t>(Number(at_ + 4));
+      } else if (name == "type") {
+        sizes.deep = content_.compare(at_, 4, "deep") == 0;
       }
       at_ += size;
     }
@@ -120,6 +123,8 @@ void CheckExrMemory(const std::string& content, bool reads_pixels) {
   do {
     const HeaderSizes sizes = walk.Next();
     if (!reads_pixels) continue;
+    // Each pixel claims a number of samples of its own.
+    if (sizes.deep) throw DamagedExr("deep images are not read");
     if (sizes.width < 1 || sizes.height < 1) {
       throw DamagedExr("the data window is empty or negative");
     }

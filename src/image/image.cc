@@ -8,6 +8,8 @@
 
 #include "src/core/check.h"
 #include "src/core/error.h"
+#include "src/core/input_file.h"
+#include "src/image/decode.h"
 #include "src/image/exr.h"
 #include "src/image/stb.h"
 
@@ -40,6 +42,18 @@ void CheckImageSize(const std::string& path, long long width, long long height) 
   }
 }
 
+void CheckImageFits(const std::string& path, long long width, long long height,
+                    double pixels_per_byte, std::size_t bytes) {
+  CheckImageSize(path, width, height);
+  if (static_cast<double>(width * height) <=
+      pixels_per_byte * static_cast<double>(bytes)) {
+    return;
+  }
+  throw InputError(fmt::format(
+      "{}: the image file is truncated: its {} bytes cannot hold {} x {} pixels", path,
+      bytes, width, height));
+}
+
 Image MakeImage(int width, int height, const std::vector<std::string>& names) {
   LL_CHECK(width > 0 && height > 0 && !names.empty());
   Image image;
@@ -56,13 +70,7 @@ Image ReadImage(const std::string& path) {
   if (extension == "exr") return ReadExr(path);
   if (extension == "pfm") return ReadPfm(path);
   if (extension == "hdr") return ReadHdr(path);
-  for (const char* known : {"png", "tga", "jpg", "jpeg", "bmp"}) {
-    if (extension == known) return ReadBytes(path);
-  }
-  throw InputError(
-      fmt::format("{}: unknown image format \"{}\"; supported: exr, pfm, hdr, png, tga, "
-                  "jpg, jpeg, bmp",
-                  path, extension));
+  return DecodeBytes(path, ReadWholeFile(path));
 }
 
 double SrgbToLinear(double encoded) {

@@ -46,8 +46,9 @@ void CheckImageSize(const std::string& path, long long width, long long height);
 /// An image without content: `channels` named as given, all samples zero.
 Image MakeImage(int width, int height, const std::vector<std::string>& names);
 
-/// Reads .exr, .pfm, .hdr (float), .png, .tga, .jpg, .jpeg, .bmp (bytes; 16-bit PNG is
-/// read as 8 bit), chosen by the extension. Channels: "Y" or "Y","A" or "R","G","B" or
+/// Reads .exr, .pfm and .hdr (float) by the extension; in other files the content
+/// decides: PNG, QOI, JPEG, TGA, BMP, GIF (the first frame), PSD, PGM, PPM (bytes; 16-bit
+/// samples are read as 8-bit ones). Channels: "Y" or "Y","A" or "R","G","B" or
 /// "R","G","B","A"; EXR: all channels of the file, colour first.
 /// Throws InputError: missing, unreadable, truncated, absurd, or unknown format.
 Image ReadImage(const std::string& path);

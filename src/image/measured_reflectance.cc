@@ -19,6 +19,8 @@ namespace lanelight {
 namespace {
 
 constexpr double kAngleSlack = 1e-3;
+// Colours take time of the number of wavelengths squared; the database has 195.
+constexpr std::size_t kMostNodes = 4096;
 
 /// What the fields must look like together.
 class Reader {
@@ -63,10 +65,11 @@ std::vector<double> Reader::Nodes(const std::string& name, double low,
   const std::vector<float> floats =
       file_.Floats(name, -static_cast<float>(kLargestInTensor), false);
   std::vector<double> nodes(floats.begin(), floats.end());
-  if (field.shape.size() != 1 || nodes.empty() || nodes.size() > 1u << 16) {
-    FailAtByte(field.place,
-               fmt::format("field \"{}\" has the shape [{}]; expected [count]", name,
-                           fmt::join(field.shape, ", ")));
+  if (field.shape.size() != 1 || nodes.empty() || nodes.size() > kMostNodes) {
+    FailAtByte(
+        field.place,
+        fmt::format("field \"{}\" has the shape [{}]; expected [count], at most {}", name,
+                    fmt::join(field.shape, ", "), kMostNodes));
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (i > 0 && !(nodes[i] > nodes[i - 1])) {

@@ -9,18 +9,18 @@ namespace {
 
 using Coefficients = std::array<double, 3>;
 
-double Sigmoid(double x) { return 0.5 + 0.5 * x / std::sqrt(1 + x * x); }
+double SigmoidOf(double x) { return 0.5 + 0.5 * x / std::sqrt(1 + x * x); }
 
 double Evaluate(const Coefficients& c, double nm) {
   const double t = (nm - kFirstNm) / (kLastNm - kFirstNm) * 2 - 1;
-  return Sigmoid((c[0] * t + c[1]) * t + c[2]);
+  return SigmoidOf((c[0] * t + c[1]) * t + c[2]);
 }
 
 Rgb ColorOf(const Coefficients& c) {
   return ColorUnderD65([&](double nm) { return Evaluate(c, nm); });
 }
 
-double Error(Rgb a, Rgb b) { return Dot(a - b, a - b); }
+double SquaredError(Rgb a, Rgb b) { return Dot(a - b, a - b); }
 
 // Solves the 3x3 system m x = b by Cramer's rule; rows of m are vectors.
 Vec3d Solve(const std::array<Vec3d, 3>& m, Vec3d b) {
@@ -31,10 +31,11 @@ Vec3d Solve(const std::array<Vec3d, 3>& m, Vec3d b) {
 }
 
 // Levenberg-Marquardt from `c`.
-Coefficients Fit(Rgb target, Coefficients c) {
+Coefficients FitCoefficients(Rgb target, Coefficients c) {
   double damping = 1e-3;
   Rgb color = ColorOf(c);
-  for (int iteration = 0; iteration < 30 && Error(color, target) > 1e-10; ++iteration) {
+  for (int iteration = 0; iteration < 30 && SquaredError(color, target) > 1e-10;
+       ++iteration) {
     std::array<Vec3d, 3> jacobian;  // jacobian[k] = d color / d c[k]
     for (std::size_t k = 0; k < 3; ++k) {
       Coefficients step = c;
@@ -52,7 +53,7 @@ Coefficients Fit(Rgb target, Coefficients c) {
     const Vec3d delta = Solve(normal, gradient);
     const Coefficients next = {c[0] + delta.x, c[1] + delta.y, c[2] + delta.z};
     const Rgb next_color = ColorOf(next);
-    if (Error(next_color, target) < Error(color, target)) {
+    if (SquaredError(next_color, target) < SquaredError(color, target)) {
       c = next;
       color = next_color;
       damping = std::max(damping * 0.3, 1e-9);
@@ -75,7 +76,7 @@ Spectrum ReflectanceOfRgb(Rgb rgb) {
   const Rgb grey = {0.5, 0.5, 0.5};
   Coefficients c = {0, 0, 0};
   for (double share : {0.25, 0.5, 0.75, 0.9, 1.0})
-    c = Fit(grey + (rgb - grey) * share, c);
+    c = FitCoefficients(grey + (rgb - grey) * share, c);
   return [c](double nm) { return Evaluate(c, nm); };
 }
 

@@ -7,7 +7,9 @@
 #define STBI_NO_STDIO
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
+#define STBI_ONLY_GIF
+#define STBI_ONLY_PNM
+#define STBI_ONLY_PSD
 #define STBI_ONLY_TGA
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
@@ -19,9 +21,8 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-#include <zlib.h>
-
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -30,6 +31,7 @@
 #include "src/core/check.h"
 #include "src/core/error.h"
 #include "src/core/input_file.h"
+#include "src/image/decode.h"
 
 namespace lanelight {
 namespace {
@@ -109,32 +111,27 @@ std::vector<std::string> NamesOf(int channels) {
   }
 }
 
-// stb does not look at the checksums of a PNG: of every chunk, over its type and data.
-void CheckPngChunks(const std::string& path, const std::string& content) {
-  constexpr std::string_view kMagic = "\x89PNG\r\n\x1a\n";
-  if (!content.starts_with(kMagic)) return;
-  const auto number = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      value = value << 8 | static_cast<unsigned char>(content[at + i]);
-    }
-    return value;
-  };
-  constexpr std::size_t kAround = 12;  // length, type and checksum
-  for (std::size_t at = kMagic.size(); at < content.size();) {
-    const std::size_t left = content.size() - at;
-    if (left < kAround || number(at) > left - kAround) {
-      throw InputError(path + ": the image file is truncated");
-    }
-    const std::uint32_t size = number(at);
-    const auto* data = reinterpret_cast<const unsigned char*>(content.data() + at + 4);
-    if (crc32_z(0, data, std::size_t{size} + 4) != number(at + 8 + size)) {
-      throw InputError(path + ": the image file is damaged: a checksum is wrong");
-    }
-    if (content.compare(at + 4, 4, "IEND") == 0) return;  // what follows is not read
-    at += kAround + size;
-  }
-  throw InputError(path + ": the image file is truncated");
+struct Format {
+  std::string_view magic;  // what its files begin with
+  double pixels_per_byte;  // at best
+};
+// The last one begins with anything.
+constexpr Format kFormats[] = {
+    {"\xff\xd8", 512},  // JPEG: a bit for a block of 8 x 8
+    {"\xff\xff", 512},  // the same, after fill bytes
+    {"GIF8", 4096},     // the longest run that a code stands for, in 8 bits or more
+    {"8BPS", 64},       // PSD: runs of 128 in two bytes, as in TGA
+    {"BM", 8},          // BMP: a bit each, runs are not read
+    {"P5", 1},          // PGM
+    {"P6", 1},          // PPM
+    {"#?", 16},         // HDR: four runs of 127 in eight bytes
+    {"", 64},           // TGA
+};
+
+double PixelsPerByte(const std::string& content) {
+  return std::find_if(std::begin(kFormats), std::end(kFormats),
+                      [&](const Format& f) { return content.starts_with(f.magic); })
+      ->pixels_per_byte;
 }
 
 [[noreturn]] void FailDecode(const std::string& path) {
@@ -144,24 +141,35 @@ void CheckPngChunks(const std::string& path, const std::string& content) {
 }
 
 // Size and channels, checked before anything is allocated.
-Image ReadHeader(const std::string& path, Source& source) {
+Image ReadStbHeader(const std::string& path, const std::string& content, Source& source) {
+  if (content.starts_with(kFormats[0].magic) || content.starts_with(kFormats[1].magic)) {
+    CheckJpeg(path, content);
+  }
   Image image;
   if (!stbi_info_from_callbacks(Source::Callbacks(), &source, &image.width, &image.height,
                                 &image.channels)) {
-    FailDecode(path);
+    if (source.overrun()) throw InputError(path + ": the image file is truncated");
+    throw InputError(path +
+                     ": not an image that can be read; supported: exr, pfm, hdr, png, "
+                     "qoi, jpg, tga, bmp, gif, psd, ppm, pgm");
   }
-  CheckImageSize(path, image.width, image.height);
+  // The height of a BMP is negative if its rows go from the top.
+  CheckImageFits(path, image.width, std::abs(static_cast<long long>(image.height)),
+                 PixelsPerByte(content), content.size());
+  source.Rewind();
+  if (content[0] == 'P' && stbi_is_16_bit_from_callbacks(Source::Callbacks(), &source)) {
+    throw InputError(path + ": PGM and PPM of 16 bits are not read; save as PNG");
+  }
   source.Rewind();
   return image;
 }
 
 // Decodes with `load` into the vector `pixels` of the image.
 template <class T, class Load>
-Image Decode(const std::string& path, Load load, AlignedVector<T> Image::* pixels) {
-  const std::string content = ReadWholeFile(path);
-  CheckPngChunks(path, content);
+Image DecodeByStb(const std::string& path, const std::string& content, Load load,
+                  AlignedVector<T> Image::* pixels) {
   Source source(content);
-  Image image = ReadHeader(path, source);
+  Image image = ReadStbHeader(path, content, source);
   if constexpr (std::is_same_v<T, float>) source.EndInRuns();
   const std::unique_ptr<T, FreeStb> data(load(Source::Callbacks(), &source, &image.width,
                                               &image.height, &image.channels, 0));
@@ -174,12 +182,16 @@ Image Decode(const std::string& path, Load load, AlignedVector<T> Image::* pixel
 
 }  // namespace
 
-Image ReadBytes(const std::string& path) {
-  return Decode<std::uint8_t>(path, &stbi_load_from_callbacks, &Image::bytes);
+Image DecodeBytes(const std::string& path, const std::string& content) {
+  if (content.starts_with("\x89PNG")) return DecodePng(path, content);
+  if (content.starts_with("qoif")) return DecodeQoi(path, content);
+  return DecodeByStb<std::uint8_t>(path, content, &stbi_load_from_callbacks,
+                                   &Image::bytes);
 }
 
 Image ReadHdr(const std::string& path) {
-  return Decode<float>(path, &stbi_loadf_from_callbacks, &Image::pixels);
+  return DecodeByStb<float>(path, ReadWholeFile(path), &stbi_loadf_from_callbacks,
+                            &Image::pixels);
 }
 
 std::string EncodePng(int width, int height, const std::vector<std::uint8_t>& rgb) {

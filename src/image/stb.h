@@ -9,9 +9,6 @@
 
 namespace lanelight {
 
-/// PNG, TGA, JPEG, BMP as bytes; the content decides, not the extension.
-Image ReadBytes(const std::string& path);
-
 /// Radiance HDR as float R, G, B.
 Image ReadHdr(const std::string& path);
 

@@ -1,6 +1,7 @@
 #include "src/parse/directives.h"
 
 #include "src/core/suggest.h"
+#include "src/parse/names.h"
 
 namespace lanelight {
 namespace {
@@ -85,6 +86,12 @@ double Statement::Number() {
 }
 
 NameOperand Statement::Name() {
+  NameOperand name = FileName();
+  name.text = NormalizedName(name.text);
+  return name;
+}
+
+NameOperand Statement::FileName() {
   const Token operand = lexer.Next();
   const SourceLocation where = lexer.Where(operand);
   if (operand.kind == TokenKind::kString) return {std::string(operand.text), where};

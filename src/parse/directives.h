@@ -21,7 +21,9 @@ struct Statement {
   SourceLocation where() const { return lexer.Where(token); }
   /// The next token as a number / a string; InputError naming the directive otherwise.
   double Number();
+  /// Names are in composed form (NFC); names of files are as they stand.
   NameOperand Name();
+  NameOperand FileName();
   /// `count` numbers, in brackets or bare.
   std::vector<double> Numbers(std::size_t count);
 };

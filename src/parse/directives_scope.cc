@@ -108,13 +108,13 @@ void RunObjectInstance(ParseState& state, Statement& statement) {
 }
 
 void RunInclude(ParseState& state, Statement& statement) {
-  const auto [name, where] = statement.Name();
+  const auto [name, where] = statement.FileName();
   RunFile(state, ResolvePath(state, name), where);
 }
 
 // Like Include, but changes to the graphics state end with the file.
 void RunImport(ParseState& state, Statement& statement) {
-  const auto [name, where] = statement.Name();
+  const auto [name, where] = statement.FileName();
   Push(state, statement, ScopeKind::kImport);
   RunFile(state, ResolvePath(state, name), where);
   const Scope& scope = state.scopes.back();

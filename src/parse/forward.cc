@@ -82,7 +82,7 @@ class InItsState {
   for (const NameKey& key : state.declared) {
     if (key.first == kind) known.push_back(key.second);
   }
-  ThrowUnknown(use.where, KindName(kind), name, known);
+  ThrowNotDefined(use.where, KindName(kind), name, known);
 }
 
 }  // namespace

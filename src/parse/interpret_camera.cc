@@ -1,10 +1,10 @@
 // Camera and pixel filter.
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "src/parse/interpret.h"
 #include "src/parse/motion.h"
+#include "src/parse/number_file.h"
 #include "src/core/suggest.h"
 
 namespace lanelight {
@@ -45,23 +45,12 @@ void ReadShutter(ParseState& state, ParamSet& params) {
   state.shutter_close = close;
 }
 
-// Numbers of a lens file: four per row, `#` begins a comment.
+// Numbers of a lens file: four per row.
 std::vector<double> ReadLensFile(const ParseState& state, ParamSet& params,
                                  const Param& file, const std::string& path) {
-  std::istringstream lines(ReadSceneFile(state, path, file.where, "the lens file"));
-  std::vector<double> numbers;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    for (std::string word; words >> word;) {
-      std::istringstream text(word);
-      double value = 0;
-      if (!(text >> value) || !text.eof() || !std::isfinite(value)) {
-        params.Fail(file,
-                    Quoted(word) + " in the file " + Quoted(path) + " is not a number");
-      }
-      numbers.push_back(value);
-    }
-  }
+  const std::string text = ReadSceneFile(state, path, file.where, "the lens file");
+  std::vector<double> numbers =
+      ReadNumbers(text, std::make_shared<const std::string>(path));
   if (numbers.empty() || numbers.size() % 4 != 0) {
     params.Fail(file, fmt::format("the file {} has {} numbers; it takes rows of four: "
                                   "radius, thickness, eta, diameter",

@@ -4,6 +4,7 @@
 #include "src/parse/interpret.h"
 #include "src/core/suggest.h"
 #include "src/image/upsampling.h"
+#include "src/parse/number_file.h"
 
 namespace lanelight {
 namespace {
@@ -36,20 +37,6 @@ SpectrumSamples PairUp(const ParamSet& params, const Param& param,
     samples.values.push_back(numbers[i + 1]);
   }
   return samples;
-}
-
-std::vector<double> ReadNumbers(const std::string& text, const std::string& path) {
-  Lexer lexer(text, std::make_shared<const std::string>(path));
-  std::vector<double> numbers;
-  for (Token token = lexer.Next(); token.kind != TokenKind::kEnd; token = lexer.Next()) {
-    if (token.kind != TokenKind::kNumber) {
-      throw InputError(lexer.Where(token), fmt::format("found {} in a spectrum file; it "
-                                                       "holds numbers only",
-                                                       token.Describe()));
-    }
-    numbers.push_back(token.number);
-  }
-  return numbers;
 }
 
 // "metal-Cu-eta" with suffix "-eta" gives "Cu"; "" if the name is not of that form.
@@ -117,7 +104,8 @@ SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
                  NamedSpectra());
   }
   const std::string text = ReadSceneFile(state, path, param.where, "the spectrum file");
-  return PairUp(params, param, ReadNumbers(text, path));
+  return PairUp(params, param,
+                ReadNumbers(text, std::make_shared<const std::string>(path)));
 }
 
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,

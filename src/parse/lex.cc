@@ -85,11 +85,11 @@ const Token& Lexer::Peek() {
 void Lexer::SkipBlank() {
   for (; (cursor_ = SkipSpaces(cursor_, end_)) < end_; ++cursor_) {
     if (*cursor_ == '#') {
-      while (cursor_ < end_ && *cursor_ != '\n') ++cursor_;
+      while (cursor_ < end_ && !EndsLine(cursor_, end_)) ++cursor_;
       if (cursor_ == end_) return;
     }
     if (!IsBlank(*cursor_)) return;
-    if (*cursor_ == '\n') {
+    if (EndsLine(cursor_, end_)) {
       ++line_;
       line_start_ = cursor_ + 1;
     }
@@ -151,7 +151,7 @@ void Lexer::ScanString(Token* token) {
     }
     if (*cursor_ == '\\') {
       escaped = true;
-      if (++cursor_ == end_ || *cursor_ == '\n') break;
+      if (++cursor_ == end_ || *cursor_ == '\n' || *cursor_ == '\r') break;
     }
   }
   if (cursor_ >= end_ || *cursor_ != '"') {

@@ -24,6 +24,11 @@ inline const char* SkipSpaces(const char* at, const char* end) {
   return at;
 }
 
+/// True if a line ends with the character at `at`: LF, CR LF, or CR alone (old Macs).
+inline bool EndsLine(const char* at, const char* end) {
+  return *at == '\n' || (*at == '\r' && (at + 1 == end || at[1] != '\n'));
+}
+
 enum class TokenKind { kEnd, kWord, kNumber, kString, kOpen, kClose };
 
 /// `text` is what stands in the file; for a string, what is between the quotes with its

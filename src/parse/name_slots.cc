@@ -86,10 +86,10 @@ void RequireSlotsDefined(ParseState& state) {
     }
   }
   if (object != nullptr) {
-    ThrowUnknown(object_slot->where, "object", *object, Defined(state.objects));
+    ThrowNotDefined(object_slot->where, "object", *object, Defined(state.objects));
   }
   if (medium != nullptr) {
-    ThrowUnknown(medium_slot->where, "named medium", *medium, Defined(state.media));
+    ThrowNotDefined(medium_slot->where, "named medium", *medium, Defined(state.media));
   }
 }
 

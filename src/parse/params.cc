@@ -157,6 +157,12 @@ void ParamSet::CheckAllUsed() {
     const std::string nearest = NearestName(own_[i].name, legal_);
     const std::string hint =
         nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest));
+    if (legal_typed_.empty()) {
+      throw InputError(
+          own_[i].where,
+          fmt::format("unknown parameter {} of {}, which takes no parameters",
+                      Quoted(own_[i].name), object_));
+    }
     std::sort(legal_typed_.begin(), legal_typed_.end());
     throw InputError(
         own_[i].where,

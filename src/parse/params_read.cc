@@ -4,6 +4,7 @@
 
 #include "src/parse/params.h"
 #include "src/core/suggest.h"
+#include "src/parse/names.h"
 
 namespace lanelight {
 namespace {
@@ -78,6 +79,11 @@ void AddNumber(const Lexer& lexer, const Token& token, Param* param) {
   param->numbers.push_back(token.number);
 }
 
+// Its strings are names that the scene defines; others are files and choices.
+bool IsName(const Param& param) {
+  return param.type == ParamType::kTexture || param.name == "materials";
+}
+
 void AddValue(const Lexer& lexer, const Token& token, Param* param) {
   const bool is_string = token.kind == TokenKind::kString;
   switch (param->type) {
@@ -90,7 +96,8 @@ void AddValue(const Lexer& lexer, const Token& token, Param* param) {
     case ParamType::kString:
     case ParamType::kTexture:
       if (!is_string) ThrowWrongValue(lexer, token, *param, "strings");
-      param->strings.emplace_back(token.text);
+      param->strings.push_back(IsName(*param) ? NormalizedName(token.text)
+                                              : std::string(token.text));
       return;
     case ParamType::kSpectrum:
       if (!is_string) return AddNumber(lexer, token, param);

@@ -1,5 +1,6 @@
 #include "src/parse/ply_header.h"
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -17,7 +18,9 @@ constexpr std::size_t kMostProperties = 256;
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::string& name)
-      : bytes_(bytes), file_(std::make_shared<const std::string>(name)) {}
+      : bytes_(bytes),
+        line_end_(LineEndOf(bytes)),
+        file_(std::make_shared<const std::string>(name)) {}
 
   [[noreturn]] void Fail(const std::string& message) const {
     throw InputError({file_, line_, 1}, message);
@@ -27,7 +30,7 @@ class HeaderReader {
   std::vector<std::string_view> NextLine() {
     while (true) {
       const std::string_view rest = bytes_.substr(offset_);
-      const std::size_t length = rest.substr(0, kLongestLine).find('\n');
+      const std::size_t length = rest.substr(0, kLongestLine).find(line_end_);
       ++line_;
       if (length == rest.npos) {
         Fail(rest.size() > kLongestLine ? "a line of the PLY header is too long"
@@ -45,6 +48,13 @@ class HeaderReader {
   SourceLocation where() const { return {file_, line_, 1}; }
 
  private:
+  // The first line shows it: binary data may begin with any byte.
+  static char LineEndOf(std::string_view bytes) {
+    const std::size_t first = std::min(bytes.find_first_of("\r\n"), bytes.size());
+    const bool old_mac =
+        bytes.substr(first, 1) == "\r" && bytes.substr(first, 2) != "\r\n";
+    return old_mac ? '\r' : '\n';
+  }
   static std::vector<std::string_view> Words(std::string_view line) {
     constexpr std::string_view kBlank = " \t\r";
     std::vector<std::string_view> words;
@@ -58,6 +68,7 @@ class HeaderReader {
   }
 
   std::string_view bytes_;
+  char line_end_;
   std::shared_ptr<const std::string> file_;
   std::size_t offset_ = 0;
   int line_ = 0;
@@ -160,7 +171,7 @@ const PlyElement* PlyHeader::Find(std::string_view name) const {
 
 PlyHeader ParsePlyHeader(std::string_view bytes, const std::string& name) {
   HeaderReader reader(bytes, name);
-  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n")) {
+  if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r")) {
     throw InputError({std::make_shared<const std::string>(name), 1, 1},
                      "this is not a PLY file: it does not start with the line \"ply\"");
   }

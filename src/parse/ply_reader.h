@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "src/core/error.h"
+#include "src/parse/lex.h"
 #include "src/parse/ply_header.h"
 #include "src/core/suggest.h"
 
@@ -50,9 +51,11 @@ class PlyTextReader {
   }
 
   [[noreturn]] void Fail(const std::string& message) const {
-    const int line = body_line_ + static_cast<int>(std::count(begin_, cursor_, '\n'));
-    const char* start = cursor_;
-    while (start > begin_ && start[-1] != '\n') --start;
+    int line = body_line_;
+    const char* start = begin_;
+    for (const char* at = begin_; at < cursor_; ++at) {
+      if (EndsLine(at, end_)) ++line, start = at + 1;
+    }
     throw InputError({std::make_shared<const std::string>(name_), line,
                       static_cast<int>(cursor_ - start) + 1},
                      message);

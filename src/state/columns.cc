@@ -162,10 +162,15 @@ bool HasColumn(hid_t file, const std::string& group, const std::string& name) {
 }
 
 std::size_t ColumnRows(hid_t file, const std::string& group, const std::string& name) {
-  const std::vector<hsize_t> dims = hdf5::DimsOf(OpenColumn(file, group, name));
+  const hdf5::Handle dataset = OpenColumn(file, group, name);
+  const std::vector<hsize_t> dims = hdf5::DimsOf(dataset);
   if (dims.empty()) {
     throw hdf5::Failure(fmt::format("the state's {} has no rows", Describe(group, name)));
   }
+  const hdf5::Handle type(H5Dget_type(dataset.get()), H5Tclose, "a type");
+  hdf5::CheckStored(
+      dataset, Describe(group, name),
+      static_cast<double>(dims[0]) * static_cast<double>(H5Tget_size(type.get())));
   return dims[0];
 }
 

@@ -108,6 +108,14 @@ std::vector<hsize_t> DimsOf(const Handle& dataset) {
   return dims;
 }
 
+void CheckStored(const Handle& dataset, const std::string& name, double bytes) {
+  constexpr double kMostExpansion = 1032;  // by deflate
+  const auto stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
+  if (bytes <= kMostExpansion * stored) return;
+  throw Failure(fmt::format("{} claims {:.0f} bytes, and the file has {:.0f} for it",
+                            name, bytes, stored));
+}
+
 void SetText(hid_t object, const char* name, const std::string& text) {
   const Handle type = TextType(text), space = NewSpace({});
   const Handle attribute(
@@ -132,7 +140,9 @@ std::string ReadText(hid_t parent, const char* name) {
   if (!fixed || !DimsOf(dataset).empty()) {
     throw Failure(fmt::format("{} is not one text", name));
   }
-  std::string text(H5Tget_size(type.get()), '\0');
+  const std::size_t size = H5Tget_size(type.get());
+  CheckStored(dataset, name, static_cast<double>(size));
+  std::string text(size, '\0');
   Check(H5Dread(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()),
         name);
   if (text == std::string(1, '\0')) text.clear();

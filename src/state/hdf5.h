@@ -83,6 +83,10 @@ Handle NewDataset(hid_t parent, const Title& title, hid_t type,
 Handle OpenDataset(hid_t parent, const std::string& name);
 std::vector<hsize_t> DimsOf(const Handle& dataset);
 
+/// Throws Failure if what a dataset stores cannot become so many bytes. A file may claim
+/// any size without content.
+void CheckStored(const Handle& dataset, const std::string& name, double bytes);
+
 /// Texts, UTF-8: attributes, and datasets of one text each.
 void SetText(hid_t object, const char* name, const std::string& text);
 void WriteText(hid_t parent, const Title& title, const std::string& text);

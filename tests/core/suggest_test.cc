@@ -31,7 +31,22 @@ TEST_CASE("quoted text is short and printable", "[parse]") {
   CHECK(Quoted("a\nb") == "\"a?b\"");
   CHECK(Quoted(std::string(1000, 'x')).size() < 80);
   CHECK(QuotedList({"a", "b"}) == "\"a\", \"b\"");
-  CHECK(QuotedList({}) == "nothing");
+}
+
+TEST_CASE("names that the scene should define are not called supported", "[parse]") {
+  const auto message = [](const std::vector<std::string>& defined) -> std::string {
+    try {
+      ThrowNotDefined({}, "named material", "later", defined);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  CHECK_THAT(message({}),
+             Catch::EndsWith("unknown named material \"later\": no named material is "
+                             "defined"));
+  CHECK_THAT(message({"latter", "x"}),
+             Catch::EndsWith("unknown named material \"later\"; did you mean \"latter\"? "
+                             "the scene defines: \"latter\", \"x\""));
 }
 
 }  // namespace

@@ -135,6 +135,17 @@ TEST_CASE("an EXR header that claims an absurd size is refused", "[image][exr]")
   CHECK_THROWS_AS(ReadExr(folder.Write("huge.exr", bytes)), InputError);
 }
 
+TEST_CASE("deep EXR files are refused before their samples are counted", "[image][exr]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("a.exr");
+  WriteExr(path, 2, 2, {{"R", {1, 2, 3, 4}}});
+  std::string bytes = ReadWholeFile(path);
+  const std::string type("type\0string\0\x0c\0\0\0deepscanline", 28);
+  bytes.insert(8, type);  // before the other attributes
+  CHECK_THROWS_WITH(ReadExr(folder.Write("deep.exr", bytes)),
+                    Catch::Contains("deep images are not read"));
+}
+
 TEST_CASE("an EXR that cannot be written says why", "[image][exr]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(WriteExr(folder.File("no/a.exr"), 1, 1, {{"R", {1}}}),

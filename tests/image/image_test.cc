@@ -194,9 +194,6 @@ TEST_CASE("absurd sizes and unknown formats are refused", "[image]") {
   const std::string huge = TgaHeader(2, 65535, 65535, 24, true) + "x";
   CHECK_THROWS_WITH(ReadImage(folder.Write("huge.tga", huge)),
                     Catch::Contains("65535 x 65535"));
-  CHECK_THROWS_WITH(
-      ReadImage(folder.Write("a.gif", "GIF89a")),
-      Catch::Contains("unknown image format \"gif\"") && Catch::Contains("exr"));
   CHECK_THROWS_WITH(ReadImage(folder.File("absent.png")),
                     Catch::Contains("No such file"));
   CHECK_THROWS_WITH(ReadImage(folder.Write("noise.jpg", std::string(500, 'q'))),

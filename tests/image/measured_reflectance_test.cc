@@ -143,6 +143,12 @@ TEST_CASE("measured files: errors say where and what", "[image][measured]") {
              Contains("\"theta_i\" does not increase"));
   CHECK_THAT(ErrorWith("theta_i", [](TensorField& f) { f.numbers[2] = 2; }),
              Contains("not within 0 and 1.571"));
+  CHECK_THAT(ErrorWith("theta_i",
+                       [](TensorField& f) {
+                         f.shape = {5000}, f.numbers.clear();
+                         for (int i = 0; i < 5000; ++i) f.numbers.push_back(1e-4f * i);
+                       }),
+             Contains("has the shape [5000]; expected [count], at most 4096"));
   CHECK_THAT(ErrorWith("jacobian", [](TensorField& f) { f.bytes[0] = 0; }),
              Contains("\"jacobian\" is not one uint8 other than 0"));
   CHECK_THAT(ErrorWith("ndf",

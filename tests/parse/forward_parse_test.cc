@@ -110,11 +110,11 @@ TEST_CASE("names without definition are errors only where they are used", "[pars
   CHECK(WorldError("NamedMaterial \"x\"").empty());
   CHECK(HasWarning(ParseWorld("MediumInterface \"x\" \"\""), "medium \"x\" is not"));
   CHECK(WorldError("Shape \"sphere\" NamedMaterial \"x\" Shape \"sphere\"") ==
-        "test.pbrt:2:30: error: unknown named material \"x\": the scene defines no named "
-        "material");
+        "test.pbrt:2:30: error: unknown named material \"x\": no named material is "
+        "defined");
   CHECK(WorldError("Material \"diffuse\" \"texture reflectance\" \"x\"")
-            .ends_with("unknown spectrum texture \"x\": the scene defines no spectrum "
-                       "texture"));
+            .ends_with("unknown spectrum texture \"x\": no spectrum texture is "
+                       "defined"));
 }
 
 TEST_CASE("notes of statements that wait are there once", "[parse]") {

@@ -41,6 +41,18 @@ TEST_CASE("tokens have kinds and places", "[parse]") {
   CHECK(lexer.Where(t[7]).ToString() == "a.pbrt:3:1");
 }
 
+TEST_CASE("lines end with LF, CR LF or CR alone, comments too", "[parse]") {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string text = "Shape # comment" + end + end + " 1 # another" + end +
+                             "End" + end + "\"open" + end;
+    Lexer lexer(text, Name());
+    CHECK(lexer.Next().text == "Shape");
+    CHECK(lexer.Where(lexer.Next()).ToString() == "a.pbrt:3:2");
+    CHECK(lexer.Where(lexer.Next()).ToString() == "a.pbrt:4:1");
+    CHECK_THROWS_WITH(lexer.Next(), Catch::Contains("a.pbrt:5:1"));
+  }
+}
+
 TEST_CASE("strings resolve escapes", "[parse]") {
   Lexer lexer(R"("a\"b\\c\td" "plain" "")", Name());
   CHECK(lexer.Peek().text == "a\"b\\c\td");

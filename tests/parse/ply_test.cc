@@ -55,6 +55,13 @@ std::string ErrorOf(const std::string& bytes) {
   return "";
 }
 
+std::string WithLineEnds(std::string text, const std::string& end) {
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += end.size()) {
+    text.replace(at, 1, end);
+  }
+  return text;
+}
+
 const char kPlain[] =
     "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\n";
@@ -63,6 +70,27 @@ std::string PlainTriangle(PlyWriter::Format format) {
   PlyWriter w(format, kPlain);
   for (float v : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.5f}) w.Add(v);
   return w.Add<std::uint8_t>(3).Add(0).Add(1).Add(2).bytes();
+}
+
+TEST_CASE("PLY: lines end with LF, CR LF or CR alone", "[parse][ply]") {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    PlyWriter text(PlyWriter::kAscii, kPlain);
+    for (int value : {0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 1, 2}) text.Add(value);
+    CHECK(ParsePly(WithLineEnds(text.bytes(), end), "m.ply").mesh.positions.size() == 3);
+    // The binary body begins with a byte that looks like a line's end.
+    const PlyWriter head(PlyWriter::kLittle, kPlain);
+    PlyWriter body(PlyWriter::kLittle, kPlain);
+    for (float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) body.Add(value);
+    body.Add<std::uint8_t>(3);
+    for (int value : {0, 1, 2}) body.Add(value);
+    std::string binary = body.bytes().substr(head.bytes().size());
+    binary[0] = '\n';
+    const PlyMesh ply = ParsePly(WithLineEnds(head.bytes(), end) + binary, "m.ply");
+    CHECK(ply.mesh.positions.size() == 3);
+    const PlyWriter empty(PlyWriter::kAscii, kPlain);
+    const std::string bad = WithLineEnds(empty.bytes() + "0 0 0\n1 x 0\n", end);
+    CHECK_THAT(ErrorOf(bad), Catch::Contains("m.ply:12:3"));
+  }
 }
 
 TEST_CASE("a triangle in every format", "[parse][ply]") {

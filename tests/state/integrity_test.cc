@@ -128,6 +128,24 @@ TEST_CASE("what is sealed but has not what states have is an input error", "[sta
   CHECK_THAT(ErrorOf(folder.Write("empty", bytes)), Contains("identity"));
 }
 
+TEST_CASE("a state that claims more than it stores is refused", "[state]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("claims");
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE), type = H5Tcopy(H5T_C_S1);
+  H5Pset_userblock(creation, kSealBytes);
+  H5Tset_size(type, 1000000001);
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  const hid_t space = H5Screate(H5S_SCALAR);
+  // The content would come with the first write.
+  H5Dclose(
+      H5Dcreate2(file, "identity", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  H5Sclose(space), H5Fclose(file), H5Tclose(type), H5Pclose(creation);
+  std::string bytes = ReadWholeFile(path);
+  Seal(bytes.data(), bytes.size(), kStateSchema);
+  CHECK_THAT(ErrorOf(folder.Write("claims", bytes)),
+             Contains("identity claims 1000000001 bytes"));
+}
+
 TEST_CASE("rows that do not expand are an error of their file", "[state]") {
   const TemporaryFolder folder;
   const PixelRect window = {0, 0, 50, 50};
