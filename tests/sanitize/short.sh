@@ -109,7 +109,7 @@ expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace
 expect 0 advise cornell-box.pbrt --resolution 40x30 --time 2 -o "$out/image.exr" --quiet
 expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
   --strategies 'default;points=pmj02' --repetitions 3 --quiet
-expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.svg"
+expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.csv"
 # States are written beside the render; parts, and what they are merged into.
 render cornell-box.pbrt --resolution 40x30 --spp 256 --checkpoint "$out/whole.state" \
   --every 0.05 --watch "$out/watch.exr" --watch "$out/watch.png" --strategy control=analytic
