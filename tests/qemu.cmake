@@ -2,9 +2,9 @@
 # translates every instruction: what takes a second otherwise takes half a minute.
 
 # QEMU keeps no limit on address space (setrlimit), which the first sets, and no filter of
-# system calls (seccomp), which the next two do; the others want to see what a render has
+# system calls (seccomp), which the next sets; the others want to see what a render has
 # done in 0.2 s, and a pilot in 2.5 s.
-set(unable cli/lost_renders_test sweep/directory_test cli/build_cache_turn_test
+set(unable cli/lost_renders_test sweep/directory_test
   run/put_down_test cli/advise_test)
 # Scripts that start the program themselves, or preload a library into it.
 list(APPEND unable cases_run_once cli/completion docs/links failures/kill failures/disk
@@ -14,7 +14,7 @@ set(unrelated bench/simulate_cluster bench/efficiency build/version)
 # More than 12 s of processor time.
 set(long
   accel/spatial_split_test advise/advise_test
-  cli/build_cache_test cli/profile_test cli/render_test cli/stress_test
+  cli/profile_test cli/render_test cli/stress_test
   cli/study_command_test cli/target_test compile/materials_test
   compile/medium_emission_test compile/nested_test compile/tessellate_test
   control/regression_render_test control/regression_test

@@ -12,7 +12,6 @@
 #include "src/accel/instances.h"
 #include "src/accel/round_blocks.h"
 #include "src/accel/shape_items.h"
-#include "src/accel/tree_parts.h"
 #include "src/accel/triangle_blocks.h"
 #include "src/core/check.h"
 #include "src/core/parallel.h"
@@ -139,9 +138,11 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
 }
 
 std::size_t Accel::Bytes() const {
-  std::size_t bytes = 0;
-  VisitParts(*this, [&](const auto& member) { bytes += PartOf(member).bytes(); });
-  return bytes;
+  const auto bytes_of = [](const auto&... arrays) {
+    return ((arrays.size() * sizeof(*arrays.data())) + ...);
+  };
+  return sizeof(*this) + bytes_of(nodes, few.vertices, few.triangles, triangle_blocks,
+                                  groups, sphere_blocks, disk_blocks, curve_blocks);
 }
 
 }  // namespace lanelight

@@ -1,16 +1,11 @@
 #include "src/accel/tree_key.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstring>
-#include <string_view>
+#include <string>
 #include <type_traits>
 #include <vector>
 
-#include "src/accel/tree_parts.h"
 #include "src/core/parallel.h"
-#include "src/core/version.h"
 #include "src/geometry/geometry.h"
 
 namespace lanelight {
@@ -23,10 +18,6 @@ class KeyText {
   void Add(const T& value) {
     static_assert(std::has_unique_object_representations_v<T>);
     text_.append(reinterpret_cast<const char*>(&value), sizeof(value));
-  }
-  void Add(std::string_view text) {
-    Add(text.size());
-    text_ += text;
   }
 
   // Of `floats` floats for each of `records`, which take(record, to) copies. Hashed in
@@ -57,14 +48,6 @@ class KeyText {
  private:
   std::string text_;
 };
-
-void AddProgram(KeyText& text) {
-  text.Add(kTreeVersion);
-  text.Add(std::string_view(Version()));
-  text.Add(std::string_view(Commit()));
-  const Accel nothing;
-  VisitParts(nothing, [&](const auto& member) { text.Add(PartOf(member).element); });
-}
 
 template <std::size_t n>
 float* Copy(const float (&from)[n], float* to) {
@@ -97,7 +80,6 @@ void AddShapes(const Geometry& g, KeyText& text) {
 
 TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options) {
   KeyText text;
-  AddProgram(text);
   text.Add(options.few_triangles);
   text.Add(options.few_round);
   text.Add(options.quality);

@@ -1,18 +1,18 @@
 // `lanelight plot FILE --figure NAME -o OUT`: a plot for a paper, without a browser.
-#include <algorithm>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "src/cli/commands.h"
-#include "src/cli/console.h"
-#include "src/cli/exit_codes.h"
-#include "src/cli/svg_to_png.h"
+#include "src/core/error.h"
 #include "src/core/input_file.h"
-#include "src/core/json_text.h"
-#include "src/image/atomic_file.h"
 #include "src/render/saving.h"
-#include "src/report/plot_figures.h"
+#include "src/report/page_text.h"
 
 namespace lanelight {
 namespace {
@@ -22,45 +22,40 @@ struct PlotCommandOptions {
   bool all = false, list = false;
 };
 
-std::string EndingOf(const std::string& path) {
-  return std::filesystem::path(path).extension().string();
-}
-
 void CheckPlotFlags(const PlotCommandOptions& options) {
   if (options.list) return;
   if (options.figure.empty()) {
     throw CLI::ValidationError("--figure", "is required; --list names what FILE has");
   }
   if (options.out.empty()) throw CLI::ValidationError("--output", "is required");
-  const std::string ending = EndingOf(options.out);
+  const std::string ending = std::filesystem::path(options.out).extension();
   if (ending != ".svg" && ending != ".png" && ending != ".csv") {
     throw CLI::ValidationError("--output", "ends in .svg, .png or .csv");
   }
 }
 
+// Replaces this process by Python, which draws or says what is wrong.
 int RunPlot(const PlotCommandOptions& options) {
   CheckPlotFlags(options);
-  const nlohmann::json json =
-      FromJsonOf(options.file, [&] { return ParseJson(ReadWholeFile(options.file)); });
-  if (options.list) {
-    const std::vector<PlotChoice> choices = PlotsOf(json, options.file);
-    std::size_t widest = 0;
-    for (const PlotChoice& choice : choices) {
-      widest = std::max(widest, choice.name.size());
-    }
-    for (const PlotChoice& choice : choices) {
-      Print(fmt::format("{:<{}}  {}\n", choice.name, widest, choice.shows));
-    }
-    return kExitGood;
-  }
-  CheckOutputPaths({{options.out}}, {options.file});
-  const Plot plot =
-      MakePlot(json, options.file, options.figure, options.scene, options.all);
-  const std::string ending = EndingOf(options.out);
-  WriteFileAtomically(options.out, ending == ".csv"   ? PlotCsv(plot)
-                                   : ending == ".svg" ? PlotSvg(plot)
-                                                      : SvgToPng(PlotSvg(plot)));
-  return kExitGood;
+  OpenInputFile(options.file);
+  if (!options.list) CheckOutputPaths({{options.out}}, {options.file});
+  setenv("PYTHONSAFEPATH", "1", 1);  // no modules of the working directory
+  std::vector<std::string> words = {"python3",
+                                    "-c",
+                                    PlotScript(),
+                                    options.file,
+                                    options.list ? "" : options.figure,
+                                    options.out,
+                                    options.scene,
+                                    options.all ? "all" : ""};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  execvp(arguments[0], arguments.data());
+  throw InputError(
+      fmt::format("cannot start the program 'python3', which draws plots: {}; install "
+                  "python3-matplotlib (Debian)",
+                  std::strerror(errno)));
 }
 
 }  // namespace
@@ -82,7 +77,7 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
   command
       ->add_option(
           "-o,--output", options->out,
-          "Write the plot: .svg, .png (needs rsvg-convert), or its numbers: .csv")
+          "Write the plot: .svg or .png (needs matplotlib), or its numbers: .csv")
       ->type_name("FILE");
   command
       ->add_option("--scene", options->scene,

@@ -46,7 +46,6 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   if (group.leads()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, group);
-  if (options.outputs.quiet) settings.trees.folder.on_wait = nullptr;
   if (!group.leads()) return Serve(options, settings, group);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   progress.Say("reading " + options.scene.scene + " and building its BVH",

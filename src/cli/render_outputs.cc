@@ -131,9 +131,7 @@ void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inp
 
 Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quiet) {
   CheckOutputPaths(outputs, {options.scene});
-  RenderSettings settings = options.settings;
-  if (quiet) settings.trees.folder.on_wait = nullptr;
-  Job job = PrepareJob(options.scene, settings);
+  Job job = PrepareJob(options.scene, options.settings);
   CheckOutputPaths(outputs, job.loaded->files);
   if (!quiet) PrintNotes(job);
   return job;

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "src/cli/console.h"
 #include "src/cli/defaults.h"
 
 namespace lanelight {
@@ -18,8 +17,6 @@ CLI::Option* AddSetting(CLI::App& command, const std::string& name,
       throw CLI::ValidationError(flag, error.message());
     }
   };
-  // What is waited for is told, unless a command sets it otherwise.
-  settings.trees.folder.on_wait = PrintError;
   if (setting.form == ValueForm::kFlag) {
     return command.add_flag_callback(flag, [read] { read("true"); }, setting.meaning);
   }
@@ -29,9 +26,6 @@ CLI::Option* AddSetting(CLI::App& command, const std::string& name,
   CLI::Option* option = command.add_option_function<std::string>(
       flag, read,
       otherwise.empty() ? setting.meaning : WithDefault(setting.meaning, otherwise));
-  if (*setting.needs != '\0') {
-    option->needs(command.get_option(std::string("--") + setting.needs));
-  }
   // Of the two the one that is declared later names the other.
   for (const std::string& other : {std::string(setting.writes), WrittenBy(setting)}) {
     CLI::Option* found =

@@ -60,9 +60,6 @@ int RunStudyCommand(StudyCommandOptions& options) {
   hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
   hooks.stop = &interrupt.stop();
-  TreeFolder& trees = options.study.settings.trees.folder;
-  trees.stop = hooks.stop;
-  trees.on_wait = options.quiet ? nullptr : hooks.on_problem;
   const std::vector<SceneStudy> studies = Study(options.study, hooks);
   progress.Finish();
 

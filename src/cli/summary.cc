@@ -131,7 +131,7 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
              fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
                          DurationText(job.loaded->load_seconds),
                          DurationText(job.loaded->build_seconds),
-                         Name(job.loaded->trees.origin),
+                         job.loaded->trees.Origin(),
                          DurationText(job.loaded->trees.seconds), DurationText(r.seconds),
                          DurationText(report.write_seconds))) +
          SummaryRow("machine", MachineText(ThisMachine())) +

@@ -79,9 +79,8 @@ void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
 
 int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
   const InterruptGuard interrupt("\nstopping\n");
-  options.sweep.build_cache.stop = &interrupt.stop();
-  Print(PredictionText(sweep, Predict(sweep, options.sweep.out, options.pilots,
-                                      interrupt.stop(), options.sweep.build_cache)));
+  Print(PredictionText(
+      sweep, Predict(sweep, options.sweep.out, options.pilots, interrupt.stop())));
   return interrupt.stop() ? kExitInterrupted : kExitGood;
 }
 
@@ -93,8 +92,6 @@ WorkStep StepOf(const SweepProgress& p) {
 
 int RunSweepCommand(SweepCommandOptions& options) {
   const Sweep sweep = ReadSweep(options.file);
-  TreeFolder& trees = options.sweep.build_cache = options.settings.trees.folder;
-  if (options.quiet) trees.on_wait = nullptr;
   if (options.dry_run) return DryRun(sweep, options);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
@@ -104,8 +101,6 @@ int RunSweepCommand(SweepCommandOptions& options) {
   hooks.on_progress = [&](const SweepProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
   hooks.stop = &interrupt.stop();
-  trees.stop = hooks.stop;
-  if (trees.on_wait) trees.on_wait = hooks.on_problem;
   const SweepOutcome outcome = RunSweep(sweep, options.sweep, hooks);
   progress.Finish();
   PrintOutcome(outcome, options.sweep);
@@ -141,8 +136,6 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->required()
       ->type_name("DIR");
   AddSharingOptions(*command, *options);
-  AddSetting(*command, "build-cache", options->settings);
-  AddSetting(*command, "build-cache-size", options->settings);
   CLI::Option* dry = command->add_flag(
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");

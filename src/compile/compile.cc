@@ -132,13 +132,9 @@ void NoteUnlitInsides(const SceneDescription& description,
 void FindTrees(const CompileOptions& options, CompiledScene& scene) {
   const AccelOptions accel = {.quality = options.build,
                               .leaf_triangles = options.leaf_triangles};
-  FoundTree tree = FindTree(scene.geometry, accel, options.trees);
+  FoundTree tree = FindTree(scene.geometry, accel, options.known_tree);
   scene.accel = std::move(tree.accel);
   if (options.tree_report != nullptr) *options.tree_report = tree.report;
-  const auto where = std::make_shared<const std::string>("--build-cache");
-  for (const std::string& problem : tree.problems) {
-    scene.notes.push_back({{where, 0, 0}, problem});
-  }
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ struct CompileOptions {
   int leaf_triangles = kLeafTriangles;  // as in AccelOptions
   /// As in PlaceShapes.
   std::uint64_t copied_triangles = 0;
-  TreeSource trees;  // where those over shapes may be, instead of being built
-  TreeReport* tree_report = nullptr;  // what came of that; may be null
+  const KnownTree* known_tree = nullptr;  // may be of the same shapes; may be null
+  TreeReport* tree_report = nullptr;      // filled in; may be null
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the

@@ -1,4 +1,4 @@
-// Arrays that nobody changes any more, in memory of their own or in that of a file.
+// Arrays that nobody changes any more.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,10 @@ class SharedArray {
   /// Takes what a vector holds.
   SharedArray(AlignedVector<T> values) {  // NOLINT(google-explicit-constructor)
     const auto own = std::make_shared<const AlignedVector<T>>(std::move(values));
-    *this = SharedArray(own->data(), own->size(), own);
+    data_ = own->data();
+    size_ = own->size();
+    owner_ = own;
   }
-  /// `size` elements in memory that `owner` keeps; 64 bytes behind them can be read, as
-  /// behind those of an AlignedVector.
-  SharedArray(const T* data, std::size_t size, std::shared_ptr<const void> owner)
-      : data_(data), size_(size), owner_(std::move(owner)) {}
 
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }

@@ -141,29 +141,4 @@ std::string PercentErrorType::Right(const std::string&) const {
       low, high);
 }
 
-std::optional<std::uint64_t> BytesType::Read(const std::string& text) const {
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
-  std::optional<std::uint64_t> bytes = ParseNumber<std::uint64_t>(text.substr(0, digits));
-  std::string unit;  // "", "b", "k", "kb", "kib"
-  for (const char c : text.substr(digits)) {
-    if (c != ' ') unit += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  if (unit.ends_with('b')) unit.pop_back();
-  const bool binary = unit.size() == 2 && unit[1] == 'i';
-  if (binary) unit.pop_back();
-  constexpr std::string_view kPowers = "kmgtpe";
-  const std::size_t power = unit.empty() ? 0 : kPowers.find(unit) + 1;
-  if (!bytes || unit.size() > 1 || (power == 0 && !unit.empty())) return {};
-  const std::uint64_t factor = binary ? 1024 : 1000;
-  for (std::size_t i = 0; i < power; ++i) {
-    if (*bytes > std::numeric_limits<std::uint64_t>::max() / factor) return {};
-    *bytes *= factor;
-  }
-  return bytes;
-}
-
-std::string BytesType::Right(const std::string&) const {
-  return "a size: a whole number and a unit, below 16EiB, e.g. 500MB, 10GB or 16GiB";
-}
-
 }  // namespace lanelight

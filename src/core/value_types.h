@@ -88,13 +88,6 @@ struct WindowType {
   std::string Right(const std::string&) const;
 };
 
-/// Bytes, with a unit or without: "500MB", "16GiB".
-struct BytesType {
-  std::optional<std::uint64_t> Read(const std::string& text) const;
-  std::string Write(std::uint64_t bytes) const { return std::to_string(bytes); }
-  std::string Right(const std::string&) const;
-};
-
 /// A count from low to high, with a prefix of thousands or without: "10k", "1.5M", "2G".
 struct CountType {
   std::uint64_t low{}, high{};

@@ -5,13 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <vector>
 
 #include "src/core/error.h"
 #include "src/core/file_descriptor.h"
@@ -78,20 +76,30 @@ int CreateTemporary(const std::string& path, std::string& name) {
   return file;
 }
 
-void WriteAndRename(const std::string& path, const std::vector<std::string_view>& parts,
-                    bool flush) {
+void WriteAndRename(const std::string& path, std::string_view content) {
   std::string temporary;
   FileDescriptor file(CreateTemporary(path, temporary));
   if (file.get() < 0) Fail(path, "cannot create", errno);
-  const bool complete =
-      std::all_of(parts.begin(), parts.end(),
-                  [&](std::string_view part) { return WriteAll(file.get(), part); }) &&
-      (!flush || fsync(file.get()) == 0) && file.Close() &&
-      rename(temporary.c_str(), path.c_str()) == 0;
+  const bool complete = WriteAll(file.get(), content) && fsync(file.get()) == 0 &&
+                        file.Close() && rename(temporary.c_str(), path.c_str()) == 0;
   if (complete) return;
   const int error = errno;
   unlink(temporary.c_str());
   Fail(path, "cannot write", error);
+}
+
+// Whether `name` is one that a temporary file of `start` may have, which is of
+// TemporaryStart.
+bool IsTemporaryOf(const std::string& name, const std::string& start) {
+  constexpr std::string_view kEnd = ".tmp";
+  if (!name.starts_with(start + ".") || !name.ends_with(kEnd)) return false;
+  if (name.size() <= start.size() + 1 + kEnd.size()) return false;
+  const std::string middle =
+      name.substr(start.size() + 1, name.size() - start.size() - 1 - kEnd.size());
+  const std::size_t dot = middle.find('.');
+  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
+         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
+         middle.find_first_not_of("0123456789") == dot;
 }
 
 }  // namespace
@@ -120,18 +128,6 @@ std::string TemporaryStart(const std::string& path) {
   return path.substr(0, end);
 }
 
-bool IsTemporaryOf(const std::string& name, const std::string& start) {
-  constexpr std::string_view kEnd = ".tmp";
-  if (!name.starts_with(start + ".") || !name.ends_with(kEnd)) return false;
-  if (name.size() <= start.size() + 1 + kEnd.size()) return false;
-  const std::string middle =
-      name.substr(start.size() + 1, name.size() - start.size() - 1 - kEnd.size());
-  const std::size_t dot = middle.find('.');
-  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
-         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
-         middle.find_first_not_of("0123456789") == dot;
-}
-
 void WriteFileAtomically(const std::string& path, std::string_view content) {
   if (IsPipe(path)) {
     throw InputError(path +
@@ -139,12 +135,8 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   }
   if (IsSpecialFile(path)) return WriteInPlace(path, content);
   const std::string file = LinkTarget(path);
-  WriteAndRename(file, {content}, true);
+  WriteAndRename(file, content);
   if (!SyncFolder(file)) Fail(file, "written, but its folder cannot be", errno);
-}
-
-void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts) {
-  WriteAndRename(path, parts, false);
 }
 
 void RemoveTemporaries(const std::string& path) {

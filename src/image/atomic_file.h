@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace lanelight {
 
@@ -15,10 +14,6 @@ namespace lanelight {
 /// replaced. Pipes and sockets are refused.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
-/// The same of content in parts, for a file that can be made again: it is not flushed to
-/// the disk, so that after a power failure it may be torn, and its reader has to tell.
-void WriteCacheFile(const std::string& path, const std::vector<std::string_view>& parts);
-
 /// The file that a symbolic link leads to, by whatever links, whether it exists or not;
 /// other paths as they are.
 std::string LinkTarget(const std::string& path);
@@ -26,9 +21,6 @@ std::string LinkTarget(const std::string& path);
 /// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
 /// `path`, or as much of it as leaves room for that.
 std::string TemporaryStart(const std::string& path);
-/// Whether `name` is one that a temporary file of `start` may have, which is of
-/// TemporaryStart.
-bool IsTemporaryOf(const std::string& name, const std::string& start);
 /// Removes the temporary files of `path` that killed processes have left. Only for a path
 /// that nobody is writing, or of which nothing is kept.
 void RemoveTemporaries(const std::string& path);

@@ -56,7 +56,7 @@ Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   CompileOptions compile = CompileOptionsOf(settings);
   compile.tree_report = &loaded.trees;
   job.scene = PrepareScene(description, compile);
-  job.settings.trees.known.reset();  // which may be all that keeps it
+  job.settings.known_tree.reset();  // which may be all that keeps it
   // Reports look for notes in one place.
   const std::vector<Note>& notes = job.scene.compiled->notes;
   description.notes.insert(description.notes.end(), notes.begin(), notes.end());

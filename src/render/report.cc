@@ -70,7 +70,7 @@ Json NotesJson(const Job& job) {
 // Where states were merged nobody had any.
 Json TreesJson(const TreeReport& trees) {
   if (trees.bytes == 0) return nullptr;
-  return {{"origin", Name(trees.origin)}, {"bytes", trees.bytes}};
+  return {{"origin", trees.Origin()}, {"bytes", trees.bytes}};
 }
 
 }  // namespace

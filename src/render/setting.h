@@ -41,8 +41,7 @@ struct SettingText {
   std::string meaning = "";  // what it does
   /// What there is without it, if RenderSettings do not say so.
   std::string otherwise = "";
-  const char* key = "";    // in JSON, unless it is the name with other dashes
-  const char* needs = "";  // another setting that must be there too
+  const char* key = "";  // in JSON, unless it is the name with other dashes
   /// Another setting, of which this one is a way to write the value: only one of the two
   /// may be given, and only the other one is told.
   const char* writes = "";
@@ -68,7 +67,6 @@ ValueForm FormOf(const NumberType<T>&) {
 inline ValueForm FormOf(const FlagType&) { return ValueForm::kFlag; }
 inline ValueForm FormOf(const SizeType&) { return ValueForm::kSize; }
 inline ValueForm FormOf(const WindowType&) { return ValueForm::kWindow; }
-inline ValueForm FormOf(const BytesType&) { return ValueForm::kInteger; }
 inline ValueForm FormOf(const CountType&) { return ValueForm::kInteger; }
 inline ValueForm FormOf(const SecondsType&) { return ValueForm::kNumber; }
 template <class Type>

@@ -46,7 +46,7 @@ std::vector<Setting> Amounts() {
                "Stop once the error is below X percent, at 95 % confidence: the root of "
                "the relative MSE, so that 1% is --target-relmse 0.0001. --spp and --time "
                "then are the most it may take",
-               "", "", "", "target-relmse"},
+               "", "", "target-relmse"},
               PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
       Declare({"target-relmse", "X", "Stop once the relative MSE is below X, likewise"},
               error, &S::target_relmse, kAmountFlag | kReported),
@@ -127,19 +127,6 @@ std::vector<Setting> Execution() {
                "How to build the trees over shapes, in less time or for faster rays",
                builds.Write(CompileOptions{}.build)},
               builds, &S::build, kEveryFlag | kReported),
-      Declare(
-          {"build-cache", "DIR",
-           "Keep the trees over shapes in files here, and map those that are there "
-           "instead of building"},
-          TextType{"the name of a directory"},
-          [](auto& s) -> auto& { return s.trees.folder.path; }, kEveryFlag),
-      Declare(
-          {"build-cache-size", "SIZE",
-           "Most that these files take together, 0: any number; those that were used "
-           "least recently go",
-           fmt::format("{}GB", kTreeFolderBytes / 1'000'000'000), "", "build-cache"},
-          BytesType{}, [](auto& s) -> auto& { return s.trees.folder.most_bytes; },
-          kEveryFlag),
       Declare(
           {"copied-triangles", "N",
            "Copy small instances into the world, as long as that makes at most so many "

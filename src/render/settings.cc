@@ -168,7 +168,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   options.build = settings.build.value_or(options.build);
   options.leaf_triangles = LeafTrianglesFor(SimdTarget(settings.target).lanes());
   options.copied_triangles = settings.copied_triangles;
-  options.trees = settings.trees;
+  options.known_tree = settings.known_tree.get();
   return options;
 }
 

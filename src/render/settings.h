@@ -55,7 +55,7 @@ struct RenderSettings {
   /// what none of them refuses.
   std::vector<Strategy> compared;
   std::optional<BuildQuality> build;                  // of the trees over shapes
-  TreeSource trees;                                   // where these may be found
+  std::shared_ptr<const KnownTree> known_tree;        // as in CompileOptions
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
   std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
   bool aov = false;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns the report's pages into one C++ file: embed_page.py PAGE_DIR OUTPUT.cc
+"""Turns the report's pages and plots into one C++ file: embed_page.py PAGE_DIR PYTHON_DIR OUTPUT.cc
 
 Makes each page of PAGE_DIR/page.html, with its styles and scripts in it, puts their hashes
 into the content security policy, and cuts the result at the line <!-- data -->. Standard
@@ -51,10 +51,8 @@ PAGES = {
 DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
 PIECE = 12000  # characters of one literal; compilers must take 65535
 
-HEADER = """// Written by src/report/embed_page.py from src/report/page/; not to be edited.
+HEADER = """// Written by src/report/embed_page.py; not to be edited.
 #include "src/report/page_text.h"
-
-#include "src/report/plot.h"
 
 namespace lanelight {
 """
@@ -123,24 +121,24 @@ def literal(name, text):
     return "\n".join(lines + ["  return text;", "}", ""])
 
 
-def plot_colors(page_dir):
-    """The colours of strategies in light pages, for plots that the program draws."""
-    light = (page_dir / "base.css").read_text(encoding="utf-8").split("}")[0]
-    colors = re.findall(r"--c\d: (#[0-9a-f]{6});", light)
-    if len(colors) != 8:
-        raise SystemExit(f"embed_page: base.css has {len(colors)} colours --c0 to --c7")
-    return ("\nstd::vector<std::string> PlotColors() {\n"
-            f"  return {{{', '.join(f'{chr(34)}{c}{chr(34)}' for c in colors)}}};\n}}\n")
+def plot_script(python_dir):
+    """lanelight_plot.py with the module that it imports in place of the import."""
+    script, draw = ((python_dir / f"lanelight_{name}.py").read_text(encoding="utf-8")
+                    for name in ("plot", "draw"))
+    whole, count = re.subn(r"(?m)^from lanelight_draw import .*\n", lambda _: draw, script)
+    if count != 1:
+        raise SystemExit("embed_page: lanelight_plot.py imports lanelight_draw not once")
+    return whole
 
 
 def main():
-    page_dir, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    page_dir, python_dir, output = map(pathlib.Path, sys.argv[1:])
     body = HEADER
     for name, page in PAGES.items():
         head, tail = assemble(page_dir, *page)
         body += "\n" + literal(f"{name}Head", head)
         body += "\n" + literal(f"{name}Tail", tail)
-    body += plot_colors(page_dir)
+    body += "\n" + literal("PlotScript", plot_script(python_dir))
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 
 

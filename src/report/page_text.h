@@ -1,5 +1,6 @@
-// The fixed parts of the report's pages, around their data. Their definitions are made
-// from src/report/page/ by embed_page.py when the library is built.
+// The fixed parts of the report's pages, around their data, and the script of plots.
+// Their definitions are made from src/report/page/ and python/ by embed_page.py when the
+// library is built.
 #pragma once
 
 #include <string>
@@ -26,5 +27,7 @@ std::string StressPageTail();
 
 std::string LivePageHead();  // and of `lanelight live`
 std::string LivePageTail();
+
+std::string PlotScript();  // python/lanelight_plot.py in one piece, for python3 -c
 
 }  // namespace lanelight

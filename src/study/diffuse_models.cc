@@ -44,7 +44,7 @@ void SceneRunner::RunDiffuseModels() {
     settings.scattering = model.scattering;
     settings.spp = MostSamples();
     settings.transport = SettingsInForce(job_).transport;
-    settings.trees.known = TreesOf(*job_.scene.compiled);
+    settings.known_tree = TreesOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
     if (Stopped()) return;

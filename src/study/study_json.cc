@@ -181,7 +181,7 @@ Json SceneJson(const SceneStudy& study, const StudyOptions& options) {
                     {"build", runs.build_seconds},
                     {"trees", runs.trees.seconds},
                     {"reference", runs.reference.seconds}};
-  out["trees"] = Name(runs.trees.origin);
+  out["trees"] = runs.trees.Origin();
   out["notes"] = runs.notes;
   out["differs"] = Text(runs.differs);
   out["reference"] = ReferenceJson(runs, analysis);

@@ -36,9 +36,8 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 
 // Leaves no job, and failure_, if that is not possible.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
-  settings.trees.folder = build_cache_;
   const std::string trees = TreeKeyOf(cell.values);
-  if (job_ && trees == tree_key_) settings.trees.known = TreesOf(*job_->scene.compiled);
+  if (job_ && trees == tree_key_) settings.known_tree = TreesOf(*job_->scene.compiled);
   tree_key_ = trees;
   job_.reset();  // before there is another in memory
   failure_.clear();

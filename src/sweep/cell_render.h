@@ -18,16 +18,11 @@ namespace lanelight {
 /// the shapes are others.
 class CellRenderer {
  public:
-  /// `sweep` must outlive the object. Trees over shapes are looked for in `build_cache`,
-  /// if that has a path (src/accel/tree_source.h). No scene may read of `outputs`.
-  explicit CellRenderer(const Sweep& sweep, TreeFolder build_cache = {},
-                        OutputPaths outputs = {})
-      : sweep_(sweep),
-        build_cache_(std::move(build_cache)),
-        outputs_(std::move(outputs)) {}
+  /// `sweep` must outlive the object. No scene may read of `outputs`.
+  explicit CellRenderer(const Sweep& sweep, OutputPaths outputs = {})
+      : sweep_(sweep), outputs_(std::move(outputs)) {}
 
-  /// The scene as the cell wants it, with its strategy and amount. Throws InputError, and
-  /// Interrupted as FindTree does.
+  /// The scene as the cell wants it, with its strategy and amount. Throws InputError.
   Job Prepare(const SweepCell& cell);
 
   /// Renders into image.exr (and image.png) of `folder`, an existing directory. The
@@ -44,7 +39,6 @@ class CellRenderer {
   void Compile(const SweepCell& cell, RenderSettings settings);
 
   const Sweep& sweep_;
-  TreeFolder build_cache_;
   OutputPaths outputs_;
   std::optional<Job> job_;     // of the last cell, with the scene's own strategy
   std::string key_, failure_;  // of job_; why there is none

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "src/core/interrupted.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/pilot.h"
 #include "src/sweep/sweep_folder.h"
@@ -30,12 +29,8 @@ std::string StrategyOf(const SweepCell& cell) {
 
 class Predictor {
  public:
-  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop,
-            const TreeFolder& build_cache)
-      : sweep_(sweep),
-        folder_(std::move(folder)),
-        stop_(stop),
-        renderer_(sweep, build_cache) {}
+  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
+      : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
 
   SweepPrediction Predict(std::size_t most_pilots);
 
@@ -94,8 +89,6 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
       pilots_[{c.scene, c.strategy}] =
           RenderPilot(job, kPilotSeconds, sweep_.settings.render.image.half);
       ++out.pilots;
-    } catch (const Interrupted&) {
-      break;
     } catch (const std::exception& error) {
       failures_[{c.scene, c.strategy}] = error.what();
     }
@@ -179,8 +172,8 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
 }  // namespace
 
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
-                        const std::atomic<bool>& stop, const TreeFolder& build_cache) {
-  return Predictor(sweep, SweepFolder(out, sweep), stop, build_cache)
+                        const std::atomic<bool>& stop) {
+  return Predictor(sweep, SweepFolder(out, sweep), stop)
       .Predict(static_cast<std::size_t>(most_pilots));
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "src/accel/tree_folder.h"
 #include "src/sweep/sweep_file.h"
 
 namespace lanelight {
@@ -27,10 +26,8 @@ struct SweepPrediction {
 /// that are spread over the image. Where there are fewer pilots than combinations, a
 /// strategy is taken to cost by what factor it did on other scenes. Seconds of loading
 /// and building count once per scene, for its first cell. Ends early once `stop` is set.
-/// `build_cache` as in SweepOptions.
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
-                        const std::atomic<bool>& stop,
-                        const TreeFolder& build_cache = {});
+                        const std::atomic<bool>& stop);
 
 /// A table of the cells, and the sums.
 std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction);

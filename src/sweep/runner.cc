@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "src/core/file_lock.h"
-#include "src/core/interrupted.h"
 #include "src/render/memory.h"
 #include "src/sweep/cell_render.h"
 #include "src/sweep/results.h"
@@ -30,7 +29,7 @@ class Runner {
         hooks_(hooks),
         folder_(folder),
         claims_(folder.File("claims")),
-        renderer_(sweep, options.build_cache, folder.Outputs()) {}
+        renderer_(sweep, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome);
 
@@ -200,9 +199,6 @@ void Runner::RenderCell(std::size_t i) {
     ++rendered_;
   } catch (const WouldOverwrite&) {
     throw;
-  } catch (const Interrupted&) {  // while another process built trees
-    known_[i] = Known::kMissing;
-    interrupted_ = true;
   } catch (const std::bad_alloc&) {
     Fail(i, "error: " + OutOfMemoryText());
   } catch (const std::exception& error) {

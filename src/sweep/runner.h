@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "src/accel/tree_folder.h"
 #include "src/render/parts.h"
 #include "src/sweep/sweep_file.h"
 #include "src/run/run.h"
@@ -19,8 +18,7 @@ struct SweepOptions {
   /// part.count.
   Part part = {};
   bool wait = false;  // for cells that other processes render, and do them if those die
-  bool table_only = false;      // render nothing
-  TreeFolder build_cache = {};  // of trees over shapes
+  bool table_only = false;  // render nothing
 };
 
 struct SweepProgress {

@@ -101,10 +101,6 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                                         "1",
                                         "--build",
                                         "fast",
-                                        "--build-cache",
-                                        directory / "a cache",
-                                        "--build-cache-size",
-                                        "1MiB",
                                         "--scattering",
                                         "uniform",
                                         "--copied-triangles",
@@ -119,9 +115,7 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                       "--strategy directions="));
   CHECK_THAT(r.out,
              Contains(" --max-depth 3 --scattering uniform --wavefront 512 --build fast "
-                      "--build-cache '" +
-                      (directory / "a cache") +
-                      "' --build-cache-size 1048576 --copied-triangles 0 --threads 1\n"));
+                      "--copied-triangles 0 --threads 1\n"));
 }
 
 TEST_CASE("advise refuses flags that make no sense", "[cli]") {

@@ -155,8 +155,8 @@ TEST_CASE("a flag that does not say it is found", "[cli]") {
       "  -h,--help                   Print this\n"
       "  --spp N                     Samples; default: 16\n"
       "  --seed S                    Seed of the random numbers\n"
-      "  --build-cache-size SIZE Needs: --build-cache\n"
-      "                              Most that these take\n"
+      "  --pilots N Needs: --dry-run\n"
+      "                              Most short renders\n"
       "  --all Excludes: --list      Every choice\n"
       "  --json [FILE]               Write a report\n"
       "  --writer NAME               Writer of the report\n"
@@ -165,7 +165,7 @@ TEST_CASE("a flag that does not say it is found", "[cli]") {
   CHECK(WithoutDefault(help) ==
         "CASE TEXT ...: Cases\n"
         "--seed S: Seed of the random numbers\n"
-        "--build-cache-size SIZE Needs: --build-cache: Most that these take\n"
+        "--pilots N Needs: --dry-run: Most short renders\n"
         "--writer NAME: Writer of the report\n");
 }
 

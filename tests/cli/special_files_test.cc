@@ -110,25 +110,4 @@ TEST_CASE("images, states and sweeps are files", "[cli][special_files]") {
   }
 }
 
-TEST_CASE("trees of --build-cache are files, or made anew", "[cli][special_files]") {
-  const TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), cache = directory / "cache";
-  const std::vector<std::string> arguments = {
-      "render", scene, "-o", directory / "o.exr", "--build-cache", cache};
-  REQUIRE(RunLanelight(arguments).exit_code == kExitGood);
-  for (const Kind& kind : kKinds) {
-    int trees = 0;
-    for (const auto& entry : fs::directory_iterator(cache)) {
-      if (entry.path().extension() != ".tree") continue;
-      Make(directory, "cache/" + entry.path().filename().string(), kind);
-      ++trees;
-    }
-    CHECK(trees > 0);
-    const ProcessResult r = RunLanelight(arguments);
-    INFO(kind.name << ": " << r.err);
-    CHECK(r.exit_code == kExitGood);
-    CHECK_THAT(r.err, Contains(kind.said));
-  }
-}
-
 }  // namespace lanelight::special_files

@@ -90,27 +90,6 @@ TEST_CASE("study: two processes make one study", "[cli]") {
   CHECK((json == whole));
 }
 
-TEST_CASE("study: the trees of one study are mapped by the next", "[cli]") {
-  TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory);
-  std::vector<Json> studies;
-  for (const char* out : {"cold", "warm"}) {
-    std::vector<std::string> arguments = StudyOf(scene, directory / out);
-    arguments.insert(arguments.end(), {"--build-cache", directory / "cache"});
-    const ProcessResult r = RunLanelight(arguments);
-    INFO(r.err);
-    REQUIRE(r.exit_code == kExitGood);
-    CHECK_THAT(r.err, !Contains("cache"));
-    studies.push_back(ReadJson(directory / out + "/study.json"));
-    RemoveTimings(studies.back());
-  }
-  CHECK(studies[0]["scenes"][0]["trees"] == "built");
-  CHECK(studies[1]["scenes"][0]["trees"] == "mapped");
-  for (Json& study : studies) study["scenes"][0].erase("trees");
-  INFO(Json::diff(studies[0], studies[1]).dump(1));
-  CHECK((studies[0] == studies[1]));
-}
-
 TEST_CASE("study: Ctrl-C reports what is finished", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);

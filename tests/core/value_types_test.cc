@@ -68,23 +68,6 @@ TEST_CASE("sizes and windows are read whole", "[core]") {
   CHECK(ParseNumbers<int>("3//16", '/').empty());
 }
 
-TEST_CASE("sizes in bytes have decimal and binary units", "[core]") {
-  const BytesType bytes;
-  CHECK(ReadValue(bytes, "0") == 0);
-  CHECK(ReadValue(bytes, "010") == 10);
-  CHECK(ReadValue(bytes, "12B") == 12);
-  CHECK(ReadValue(bytes, "500MB") == 500'000'000);
-  CHECK(ReadValue(bytes, "500m") == 500'000'000);
-  CHECK(ReadValue(bytes, "10 gb") == 10'000'000'000);
-  CHECK(ReadValue(bytes, "16GiB") == std::uint64_t{16} << 30);
-  CHECK(ReadValue(bytes, "15EiB") == std::uint64_t{15} << 60);
-  for (const char* text : {"16EiB", "18446744073709551616", "-1", "1.5GB", "5 apples",
-                           "GB", "1iB", "1kk", "1ib", ""}) {
-    INFO(text);
-    CHECK_THAT(RefusalOf(bytes, text), Contains("below 16EiB"));
-  }
-}
-
 TEST_CASE("counts have prefixes", "[core]") {
   const CountType count{1, 20'000'000'000};
   CHECK(ReadValue(count, "256") == 256);

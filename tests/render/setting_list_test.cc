@@ -35,8 +35,6 @@ std::map<std::string, std::string> OtherTexts() {
           {"png", "true"},
           {"wavefront", "512"},
           {"build", "fast"},
-          {"build-cache", "/tmp/x y"},
-          {"build-cache-size", "500"},
           {"copied-triangles", "0"},
           {"threads", "2"},
           {"simd", AvailableTargets().back()},
@@ -143,8 +141,8 @@ TEST_CASE("what changes pixels, and only that, makes another render", "[render]"
     RenderSettings settings = small;
     if (name == "crop") {
       settings.crop = {1, 1, 2, 2};
-    } else if (name == "build-cache" || name == "simd") {
-      continue;  // is made; is chosen for the process
+    } else if (name == "simd") {
+      continue;  // is chosen for the process
     } else {
       setting.read(settings, text);
     }

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Draws the synthetic study and a made-up bench: plot_test.py REPORT.html LANELIGHT
+"""Draws the synthetic study, a bench and a sweep: plot_test.py REPORT.html LANELIGHT
 
-Reads the SVG files as XML, and looks whether markers lie where the numbers are on the axes
-that the ticks say. Standard library only.
+Compares what the figures of python/lanelight_plot.py hold with the numbers of the JSON.
 """
 
 import csv
 import json
-import math
+import os
 import pathlib
 import re
 import shutil
@@ -16,9 +15,18 @@ import sys
 import tempfile
 import xml.etree.ElementTree as xml
 
+try:
+    import matplotlib
+except ImportError:
+    print("no matplotlib")
+    sys.exit(77)
+
 REPORT, LANELIGHT = sys.argv[1:]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = pathlib.Path(tempfile.mkdtemp())
-NS = "{http://www.w3.org/2000/svg}"
+sys.path.insert(0, str(ROOT / "python"))
+import lanelight_draw
+import lanelight_plot
 
 
 def require(condition, *what):
@@ -26,9 +34,9 @@ def require(condition, *what):
         raise SystemExit(" ".join(str(part) for part in what))
 
 
-def run(*arguments, good=True, **options):
+def run(*arguments, good=True, **variables):
     done = subprocess.run([LANELIGHT, "plot", *map(str, arguments)], capture_output=True,
-                          text=True, check=False, **options)
+                          text=True, check=False, env={**os.environ, **variables})
     require((done.returncode == 0) == good, arguments, done.returncode, done.stderr)
     return done.stdout + done.stderr
 
@@ -40,101 +48,71 @@ def write_study():
     return json.loads(text)
 
 
-def place_of(root, kind, coordinate, log):
-    """Pixels of a value, by the two outermost ticks."""
-    ticks = [(float(t.get("data-value")), float(t.get(coordinate)))
-             for t in root.iter(f"{NS}text") if t.get("class") == kind]
-    require(len(ticks) >= 2, "too few ticks", kind, ticks)
-    f = math.log if log else float
-    (v0, p0), (v1, p1) = min(ticks), max(ticks)
-    return lambda v: p0 + (f(v) - f(v0)) / (f(v1) - f(v0)) * (p1 - p0)
+def drawn(plot, panel=0):
+    """Markers (series, x, y) and ends of intervals that matplotlib has, as lists."""
+    axes = lanelight_plot.draw(plot).axes[panel]
+    names, rows = list(plot.panels[panel].series), not plot.panels[panel].x
+    lines = [line for line in axes.get_lines() if line.get_marker() in list("os^Dv")]
+    points = [(names[int(y)] if rows else line.get_label(), float(x), float(y))
+              for line in lines for x, y in zip(line.get_xdata(), line.get_ydata())]
+    ends = [tuple(segment[:, 0 if rows else 1]) for bars in axes.collections
+            for segment in bars.get_segments()]
+    return points, ends
 
 
-def points(root):
-    for path in root.iter(f"{NS}path"):
-        if path.get("class") != "point":
-            continue
-        x, y = map(float, re.findall(r"[-\d.]+", path.get("transform")))
-        yield path.get("data-series"), float(path.get("data-x")), \
-            float(path.get("data-y")), x, y
-
-
-def bars(root):
-    return [{name: float(line.get(name)) for name in ("x1", "y1", "x2", "y2")}
-            for line in root.iter(f"{NS}line") if line.get("class") == "bar"]
-
-
-def draw(figure, *arguments):
-    out = FOLDER / f"{figure}.svg"
-    run(FOLDER / "study.json", "--figure", figure, "-o", out, *arguments)
-    return xml.parse(out).getroot()
-
-
-def check_curves(scene, figure, error, time):
-    root = draw(figure, "--scene", scene["name"])
-    x_at = place_of(root, "tick-x", "x", True)
-    y_at = place_of(root, "tick-y", "y", True)
+def check_curves(study, scene, figure, error, time):
     wanted = {}
     for s in scene["strategies"]:
         for level in s["levels"]:
             x = level["cpu_seconds"]["value"] if time else level["spp"]
             wanted[s["name"], x] = level[error]
-    drawn = list(points(root))
-    require(len({name for name, *_ in drawn}) == 6, "curves of", {d[0] for d in drawn})
-    for name, x, y, px, py in drawn:
-        require(wanted[name, x]["value"] == y, figure, name, x, y)
-        # Texts are four pixels lower than their ticks.
-        require(abs(px - x_at(x)) < 0.1 and abs(py - (y_at(y) - 4)) < 0.1, figure, name, x,
-                y, px, py)
-    require(len(bars(root)) == len(drawn), len(bars(root)), "error bars of", len(drawn))
-    for bar, (name, x, *_) in zip(bars(root), drawn):
-        for end, place in ("low", bar["y1"]), ("high", bar["y2"]):
-            at = y_at(wanted[name, x][end]) - 4
-            require(abs(place - at) < 0.1, figure, name, x, end, place, at)
-    text = " ".join(t.text for t in root.iter(f"{NS}text"))
-    require(scene["name"] in text and "intervals" in text, "no title or source:", text)
+    plot = lanelight_plot.make(study, figure, scene["name"])
+    points, ends = drawn(plot)
+    require(len({name for name, *_ in points}) == 6, "curves of", {p[0] for p in points})
+    require(len(ends) == len(points), len(ends), "intervals of", len(points))
+    for (name, x, y), (low, high) in zip(points, ends):
+        interval = wanted[name, x]
+        require((interval["value"], interval["low"], interval["high"]) == (y, low, high),
+                figure, name, x, y, low, high)
+    require(scene["name"] in plot.title and "intervals" in plot.source, plot)
 
 
-def check_rows(scene):
-    root = draw("efficiency", "--scene", scene["name"])
-    x_at = place_of(root, "tick-x", "x", True)
+def check_rows(study, scene):
+    points, ends = drawn(lanelight_plot.make(study, "efficiency", scene["name"]))
     order = [scene["strategies"][i] for i in scene["ranking"]]
-    drawn = list(points(root))
-    require([d[0] for d in drawn] == [s["name"] for s in order], "not the ranking", drawn)
-    for s, (_, _, value, px, _) in zip(order, drawn):
-        require(value == s["efficiency"]["value"], s["name"], value)
-        require(abs(px - x_at(value)) < 0.1, s["name"], px, x_at(value))
-    with_bars = [s["efficiency"] for s in order if s["efficiency"]["low"] is not None]
-    require(len(bars(root)) == len(with_bars), len(bars(root)), len(with_bars))
-    for bar, efficiency in zip(bars(root), with_bars):
-        for end, place in ("low", bar["x1"]), ("high", bar["x2"]):
-            require(abs(place - x_at(efficiency[end])) < 0.1, end, place, efficiency)
+    require([(p[0], p[1]) for p in points]
+            == [(s["name"], s["efficiency"]["value"]) for s in order], "not the ranking", points)
+    require(ends == [(e["low"], e["high"]) for e in (s["efficiency"] for s in order)
+                     if e["low"] is not None], "intervals", ends)
 
 
-def check_figure_8(scene):
-    root = draw("8", "--scene", scene["name"])
-    slopes = [s["order"]["value"] for s in scene["strategies"] if s["order"]]
-    texts = [t.text for t in root.iter(f"{NS}text")]
-    require("slope" in texts and "RMSE" in texts, texts)
-    found = {d[2] for d in points(root)}
-    require(found & set(slopes), "no slopes beside the curves")
+def check_figure_8(study, scene):
+    plot = lanelight_plot.make(study, "8", scene["name"])
+    slopes = {s["order"]["value"] for s in scene["strategies"] if s["order"]}
+    require({x for _, x, _ in drawn(plot, 1)[0]} & slopes, "no slopes beside the curves")
     run(FOLDER / "study.json", "--figure", "8", "--scene", scene["name"], "-o",
         FOLDER / "8.csv")
     rows = list(csv.DictReader((FOLDER / "8.csv").open(encoding="utf-8")))
-    require({float(r["value"]) for r in rows} == found, "CSV and SVG differ")
+    found = {p.value for panel in plot.panels for _, s in panel.series.values() for p in s}
+    require({float(r["value"]) for r in rows} == found, "CSV and plot differ")
     require({r["quantity"] for r in rows} == {"RMSE", "slope"}, rows[0])
 
 
 def check_bench():
     rate = {"value": 2e6, "low": 1.9e6, "high": 2.2e6}
-    row = {"scene": "a<b & \"c\"", "target": "AVX2", "threads": 1, "samples_per_second": rate}
+    row = {"scene": "a<b & \"$c$\"", "target": "AVX2", "threads": 1, "samples_per_second": rate}
     bench = {"schema": 1, "program": "lanelight", "confidence": 0.95,
              "machine": {"text": "none"}, "rows": [row, {**row, "threads": 2}]}
     file, out = FOLDER / "bench.json", FOLDER / "rate.svg"
     file.write_text(json.dumps(bench))
     run(file, "--figure", "rate", "-o", out)
-    names = [d[0] for d in points(xml.parse(out).getroot())]
-    require(names == ['a<b & "c", AVX2, 1 thread', 'a<b & "c", AVX2, 2 threads'], names)
+    texts = [t.text for t in xml.parse(out).getroot().iter("{http://www.w3.org/2000/svg}text")]
+    for name in ('a<b & "$c$", AVX2, 1 thread', 'a<b & "$c$", AVX2, 2 threads', "Throughput",
+                 "2×10⁶", "95 % intervals of the median; lanelight; none"):
+        require(name in texts, name, "is not in", texts)
+    before = out.read_bytes()
+    run(file, "--figure", "rate", "-o", out)
+    require(out.read_bytes() == before, "two drawings of the same differ")
 
 
 def check_sweep():
@@ -175,14 +153,12 @@ def check_sweep():
         "roulette": [("q, spp 16", .1, 10), ("q, spp 16", .5, 2),
                      ("q, spp 4", .1, 10), ("q, spp 4", .5, 2)]}
     for figure, expected in wanted.items():
-        run(file, "--figure", figure, "-o", out)
-        root = xml.parse(out).getroot()
-        require([d[:3] for d in points(root)] == expected, figure, list(points(root)))
-        # Bars go as far as both ends are known.
-        require(bool(bars(root)) == (figure == "roulette"), figure, bars(root))
+        points, ends = drawn(lanelight_plot.make(sweep, figure))
+        require(points == expected, figure, points)
+        # Intervals are drawn where both ends are known.
+        require(bool(ends) == (figure == "roulette"), figure, ends)
     for figure, rows in ("efficiency", 4), ("rate", 6):
-        run(file, "--figure", figure, "-o", out)
-        require(len(list(points(xml.parse(out).getroot()))) == rows, figure)
+        require(len(drawn(lanelight_plot.make(sweep, figure))[0]) == rows, figure)
     said = run(file, "--figure", "nothing", "-o", out, good=False)
     require('unknown figure "nothing"' in said, said)
     file.write_text(json.dumps({**sweep, "axes": [1]}))
@@ -214,28 +190,40 @@ def check_errors(scene):
     require(not out.exists(), "an error left a file")
 
 
-def check_png(scene):
+def check_programs(scene):
     file, out = FOLDER / "study.json", FOLDER / "8.png"
-    arguments = (file, "--figure", "8", "-o", out, "--scene", scene["name"])
-    said = run(*arguments, good=False, env={"PATH": "/nowhere"})
-    require("librsvg2-bin" in said and not out.exists(), said)
-    if shutil.which("rsvg-convert"):
-        run(*arguments)
-        require(out.read_bytes()[:4] == b"\x89PNG", "no PNG")
+    arguments = (file, "--figure", "8", "--scene", scene["name"], "-o")
+    said = run(*arguments, out, good=False, PATH="/nowhere")
+    require("install python3-matplotlib" in said and not out.exists(), said)
+    without = FOLDER / "without"
+    without.mkdir()
+    (without / "matplotlib.py").write_text("raise ImportError('not here')")
+    said = run(*arguments, out, good=False, PYTHONPATH=str(without))
+    require("install python3-matplotlib" in said and not out.exists(), said)
+    run(*arguments, FOLDER / "without.csv", PYTHONPATH=str(without))
+    run(*arguments, out)
+    require(out.read_bytes()[:4] == b"\x89PNG", "no PNG")
+
+
+def check_colors():
+    style = (ROOT / "src/report/page/base.css").read_text(encoding="utf-8").split("}")[0]
+    pages = re.findall(r"--c\d: (#[0-9a-f]{6});", style)
+    require(pages == lanelight_draw.COLORS, pages, "in pages,", lanelight_draw.COLORS)
 
 
 def main():
     study = write_study()
     scene = study["scenes"][0]
     require("efficiency" in run(FOLDER / "study.json", "--list"), "not listed")
-    check_curves(scene, "samples", "relmse", False)
-    check_curves(scene, "time", "relmse", True)
-    check_rows(scene)
-    check_figure_8(scene)
+    check_curves(study, scene, "samples", "relmse", False)
+    check_curves(study, scene, "time", "relmse", True)
+    check_rows(study, scene)
+    check_figure_8(study, scene)
     check_bench()
     check_sweep()
     check_errors(scene)
-    check_png(scene)
+    check_programs(scene)
+    check_colors()
     shutil.rmtree(FOLDER)
 
 

@@ -108,6 +108,26 @@ spp = [1, 2]
   }
 }
 
+TEST_CASE("sweep: cells of the same shapes share one BVH", "[sweep][cli]") {
+  const TempDirectory directory;
+  WriteSphereScene(directory);
+  const std::string file = WriteText(directory / "sweep.toml", R"([grid]
+scene = "sphere.pbrt"
+resolution = ["16x12", "24x18"]
+max-depth = [1, 2]
+spp = 2
+)");
+  const std::string out = directory / "out";
+  REQUIRE(Sweep(file, out).exit_code == kExitGood);
+  std::map<std::string, int> origins;
+  for (const std::string& name : DoneCells(out)) {
+    const Json report = ReadJson(out + "/cells/" + name + "/report.json");
+    CHECK(report["seconds"]["trees"] <= report["seconds"]["build"]);
+    ++origins[report["trees"]["origin"]];
+  }
+  CHECK(origins == std::map<std::string, int>{{"built", 1}, {"shared", 3}});
+}
+
 TEST_CASE("sweep: a dry run predicts and renders nothing", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
