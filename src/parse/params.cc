@@ -27,10 +27,17 @@ ParamSet::ParamSet(std::string object, SourceLocation where, ParamList own,
       inherited_(std::move(inherited)),
       notes_(notes) {}
 
+std::string ParamSet::About(const Param& param, const std::string& message) const {
+  return fmt::format("{}, in {} of {}", message, Quoted(Typed(param.type, param.name)),
+                     object_);
+}
+
 void ParamSet::Fail(const Param& param, const std::string& message) const {
-  throw InputError(param.where,
-                   fmt::format("{}, in {} of {}", message,
-                               Quoted(Typed(param.type, param.name)), object_));
+  throw InputError(param.where, About(param, message));
+}
+
+void ParamSet::Warn(const Param& param, const std::string& message) const {
+  notes_->push_back({param.where, About(param, message), false, true});
 }
 
 const Param* ParamSet::Find(std::string_view name,

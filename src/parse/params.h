@@ -106,8 +106,11 @@ class ParamSet {
 
   /// InputError at a parameter: `<message>, in "type name" of <object>`.
   [[noreturn]] void Fail(const Param& param, const std::string& message) const;
+  /// The same as a warning, where pbrt-v4 goes on.
+  void Warn(const Param& param, const std::string& message) const;
 
  private:
+  std::string About(const Param& param, const std::string& message) const;
   void NoteIgnored(std::string_view name, const std::string& why, bool changes_image);
   const Param* Single(std::string_view name, ParamType type);
   void CheckLimits(const Param& param, Limits limits) const;
