@@ -131,7 +131,7 @@ std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
 std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params) {
   const TriangleMesh control = ReadFaces(params, 3);
   const int levels = SubdivisionLevels(params, control.indices.size() / 3);
-  params.Choice<bool>("scheme", {{"loop", true}});
+  params.Choice<bool>("scheme", {{"loop", true}}, "loop");
   const std::string problem = SubdivisionProblem(control);
   if (!problem.empty()) {
     throw InputError(params.where(), fmt::format("{} cannot be subdivided: {}",

@@ -126,10 +126,16 @@ Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
 }
 
 std::size_t ParamSet::ChoiceOf(std::string_view name,
-                               const std::vector<std::string>& choices) {
+                               const std::vector<std::string>& choices,
+                               const char* unknown) {
   const Param* param = Single(name, ParamType::kString);
   if (param == nullptr) return 0;
-  const auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
+  auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
+  if (it == choices.end() && unknown != nullptr) {
+    Warn(*param, fmt::format("unknown value {}; {} counts, as in pbrt-v4",
+                             Quoted(param->strings[0]), Quoted(unknown)));
+    it = std::find(choices.begin(), choices.end(), unknown);
+  }
   if (it == choices.end()) {
     ThrowUnknown(param->where,
                  fmt::format("value of \"string {}\" of {}:", name, object_),
