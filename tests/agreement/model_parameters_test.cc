@@ -2,7 +2,6 @@
 // defaults, as in parameters_test.cc.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "src/image/image.h"
 #include "tests/agreement/parameter_rows.h"
@@ -11,11 +10,10 @@
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const std::string kDepth1 = "Integrator \"path\" \"integer maxdepth\" 1 ";
 
 // Unpolarised reflectance of a dielectric.
-double FresnelAt(double cosine, double eta) {
+double FibreFresnel(double cosine, double eta) {
   const double t = std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
   const double s = (cosine - eta * t) / (cosine + eta * t);
   const double p = (eta * cosine - t) / (eta * cosine + t);
@@ -25,7 +23,7 @@ double FresnelAt(double cosine, double eta) {
 // What a fibre met at h across its width sends back of an even light: the lobes of Chiang
 // et al. (2016) integrate to 1, so that only their weights count.
 double HairAlbedo(double h, double eta, double sigma_a) {
-  const double f = FresnelAt(std::sqrt(1 - h * h), eta);
+  const double f = FibreFresnel(std::sqrt(1 - h * h), eta);
   const double through = std::exp(-2 * sigma_a * std::sqrt(1 - h * h / (eta * eta)));
   return f + (1 - f) * (1 - f) * through / (1 - f * through);
 }
@@ -50,7 +48,7 @@ std::string Strand(const std::string& parameters) {
          " Translate 0 -0.3 0 Shape \"curve\" \"float width\" 2 " + kAlongX;
 }
 // Grey curves before a white sky, met at u = 0.55 and 0.2 aside of the middle.
-std::string Curve(const std::string& parameters, const std::string& before = "") {
+std::string GreyCurve(const std::string& parameters, const std::string& before = "") {
   return Sky(1) + kDiffuse + before + " Shape \"curve\" " + parameters;
 }
 
@@ -80,24 +78,26 @@ std::vector<Row> CurveRows() {
   const std::string sun =
       "LightSource \"distant\" \"point3 from\" [ 0 0 1 ] \"point3 to\" [ 0 0 0 ] ";
   return {
-      {"curve, default width", Curve(kAlongX), Grey(0.5)},
-      {"curve width", Curve(std::string(kAlongX) + "\"float width\" 0.38"), Grey(1)},
+      {"curve, default width", GreyCurve(kAlongX), Grey(0.5)},
+      {"curve width", GreyCurve(std::string(kAlongX) + "\"float width\" 0.38"), Grey(1)},
       {"curve width0",
-       Curve(std::string(kAlongX) + "\"float width0\" 0.8 \"float width1\" 0"), Grey(1)},
-      {"curve width1",
-       Curve(std::string(kAlongX) + "\"float width0\" 0 \"float width1\" 0.8"),
-       Grey(0.5)},
-      {"curve, default basis", Curve(spline, "Translate 2 0 0"), Grey(0.5)},
-      {"curve basis", Curve(spline + "\"string basis\" \"bspline\"", "Translate 2 0 0"),
+       GreyCurve(std::string(kAlongX) + "\"float width0\" 0.8 \"float width1\" 0"),
        Grey(1)},
-      {"curve degree",
-       Curve("\"integer degree\" 2 \"float width\" 1 \"point3 P\" [ -1 0 0  0 0 0  1 0 0 "
-             "]"),
+      {"curve width1",
+       GreyCurve(std::string(kAlongX) + "\"float width0\" 0 \"float width1\" 0.8"),
        Grey(0.5)},
-      {"curve type ribbon, N", Curve(ribbon + "\"normal N\" [ 0 0 1  0 0 1 ]"),
+      {"curve, default basis", GreyCurve(spline, "Translate 2 0 0"), Grey(0.5)},
+      {"curve basis",
+       GreyCurve(spline + "\"string basis\" \"bspline\"", "Translate 2 0 0"), Grey(1)},
+      {"curve degree",
+       GreyCurve(
+           "\"integer degree\" 2 \"float width\" 1 \"point3 P\" [ -1 0 0  0 0 0  1 0 0 "
+           "]"),
+       Grey(0.5)},
+      {"curve type ribbon, N", GreyCurve(ribbon + "\"normal N\" [ 0 0 1  0 0 1 ]"),
        Grey(0.5)},
       {"curve type ribbon, N turned away",
-       Curve(ribbon + "\"normal N\" [ 0 0.95 0.3122  0 0.95 0.3122 ]"), Grey(1)},
+       GreyCurve(ribbon + "\"normal N\" [ 0 0.95 0.3122  0 0.95 0.3122 ]"), Grey(1)},
       {"curve type flat",
        sun + kDiffuse + "Translate 0 -0.3 0 Shape \"curve\" \"float width\" 2 " + kAlongX,
        Grey(0.5 / kPi)},
@@ -107,7 +107,8 @@ std::vector<Row> CurveRows() {
            kAlongX + "\"string type\" \"cylinder\"",
        Grey(0.5 / kPi * std::sqrt(0.5)), "", 2e-3},
       {"curve, stretched",
-       Curve(std::string(kAlongX) + "\"float width\" 0.15", "Scale 1 3 1"), Grey(0.5)}};
+       GreyCurve(std::string(kAlongX) + "\"float width\" 0.15", "Scale 1 3 1"),
+       Grey(0.5)}};
 }
 
 std::vector<Row> CoatRows() {

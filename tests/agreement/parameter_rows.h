@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/core/pi.h"
 #include "tests/agreement/agreement.h"
 #include "tests/parse/parse_text.h"
 

@@ -2,14 +2,11 @@
 // that a closed form shows. Each scene fills the image with one radiance.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "tests/agreement/parameter_rows.h"
 
 namespace lanelight::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Black, so that nothing comes through from below.
 constexpr const char* kBlack =
