@@ -5,7 +5,7 @@
 
 #include "hwy/cache_control.h"
 
-#include "kernels/intersect/curve-inl.h"
+#include "kernels/intersect/curve_space-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "src/compiled/scene.h"
 #include "src/geometry/ribbon.h"
@@ -38,9 +38,12 @@ HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
   if (geometry.curves[at.curve].type != static_cast<uint32_t>(CurveType::kRibbon)) {
     return true;
   }
-  float n[3];
+  float n[3], own[3] = {d[0], d[1], d[2]};
   RibbonNormal(geometry.ribbons[at.curve], AlongCurve(at), n);
-  const float cosine = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+  if (!geometry.curve_spaces.empty()) {
+    InCurveSpace(geometry.curve_spaces[at.curve], d, own);
+  }
+  const float cosine = n[0] * own[0] + n[1] * own[1] + n[2] * own[2];
   return share <= cosine * cosine;
 }
 
@@ -80,7 +83,10 @@ HWY_INLINE void TraceCurves(const CompiledScene& scene, const float o[3],
   const auto leaf = [&](uint32_t index) HWY_ATTR {
     const CurveBlock& block = blocks[index];
     for (int i = 0; i < kBvhWidth; i += Lanes8()) {
-      const SeenPieces<V8> seen = SeePieces(block, i, ray);
+      const SeenPieces<V8> seen =
+          geometry.curve_spaces.empty()
+              ? SeePieces(block, i, ray)
+              : SeeInSpaces(CurveMaps(geometry, block), block, i, ray);
       const M8 may = MayMeet(seen, hn::Set(d8, best.t));
       if (hn::AllFalse(d8, may)) continue;
       ForEachNearest(

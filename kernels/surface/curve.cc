@@ -100,6 +100,25 @@ HWY_INLINE V3 AcrossCurve(V3 n, V3 along) {
   return IfThenElse(usable, Normalize(flat), FrameFromNormal(along).s);
 }
 
+// The space where curves are met; see CurveSpace.
+struct CurveSpaceLanes {
+  V3 object[3], scene[3];  // rows of the maps to there and back
+
+  HWY_INLINE CurveSpaceLanes(const Geometry& geometry, VI index) {
+    const RecordWords words(geometry.curve_spaces.data(), index);
+    for (std::size_t a = 0; a < 3; ++a) {
+      object[a] = words.F3(offsetof(CurveSpace, object_from_scene) + 12 * a);
+      scene[a] = words.F3(offsetof(CurveSpace, scene_from_object) + 12 * a);
+    }
+  }
+  HWY_INLINE static V3 Map(const V3 rows[3], V3 v) {
+    return {Dot(rows[0], v), Dot(rows[1], v), Dot(rows[2], v)};
+  }
+  HWY_INLINE V3 NormalToScene(V3 n) const {
+    return MulAdd(object[0], n.x, MulAdd(object[1], n.y, Mul(object[2], n.z)));
+  }
+};
+
 HWY_INLINE void StoreCurveCoordinates(const PathColumns& path, const StoreSlots& slots,
                                       VF u, VF v) {
   if (path.uv_u == nullptr) return;
@@ -107,14 +126,13 @@ HWY_INLINE void StoreCurveCoordinates(const PathColumns& path, const StoreSlots&
   Scatter(v, path.uv_v, slots);
 }
 
-HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
-  const PathColumns& path = wave.path;
-  const Geometry& geometry = wave.scene->geometry;
-  const VI first = hn::Set(DI(), static_cast<int32_t>(geometry.ranges.curves));
-  const VI index = hn::Sub(Gather(path.prim, slots), first);
-  const CurveLanes curve = LoadCurves(geometry, index, Gather(path.b1, slots));
-  const CurvePlaces at = PlaceCurves(path, slots, curve);
-  const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
+// What is seen in the space of the curves: widths, normals, coordinates across.
+struct CurveFaces {
+  V3 n, bitangent;
+  VF width, aside;
+};
+HWY_INLINE CurveFaces FaceCurves(const Geometry& geometry, VI index,
+                                 const CurveLanes& curve, const CurvePlaces& at, V3 d) {
   const V3 along = Normalize(at.tangent);
   const V3 own = RibbonNormals(geometry, index, curve, -d);
   const V3 face = AcrossCurve(own, along);
@@ -133,16 +151,42 @@ HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
   // Half a turn from side to side.
   const VF turn = hn::IfThenElseZero(curve.cylinder, hn::Mul(Splat(0.5f), aside));
   const SinCosPair a = SinCos2Pi(turn);
-  const V3 n = MulAdd(face, a.cos, Mul(side, a.sin));
-  SurfaceLanes surface{.p = at.p, .n = n, .error = Splat(0), .material = curve.material};
-  surface.error = RoundingError(at.p, n, width);
+  return {MulAdd(face, a.cos, Mul(side, a.sin)),
+          Mul(MulAdd(side, a.cos, Mul(face, hn::Neg(a.sin))), width), width, aside};
+}
+
+// The same in the scene.
+HWY_INLINE CurveFaces FaceStretchedCurves(const Geometry& geometry, VI index,
+                                          const CurveLanes& curve, CurvePlaces at, V3 d) {
+  const CurveSpaceLanes space(geometry, index);
+  at.aside = space.Map(space.object, at.aside);
+  at.tangent = space.Map(space.object, at.tangent);
+  CurveFaces faces =
+      FaceCurves(geometry, index, curve, at, Normalize(space.Map(space.object, d)));
+  faces.n = Normalize(space.NormalToScene(faces.n));
+  faces.bitangent = space.Map(space.scene, faces.bitangent);
+  return faces;
+}
+
+HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
+  const PathColumns& path = wave.path;
+  const Geometry& geometry = wave.scene->geometry;
+  const VI first = hn::Set(DI(), static_cast<int32_t>(geometry.ranges.curves));
+  const VI index = hn::Sub(Gather(path.prim, slots), first);
+  const CurveLanes curve = LoadCurves(geometry, index, Gather(path.b1, slots));
+  const CurvePlaces at = PlaceCurves(path, slots, curve);
+  const V3 d = Gather3(path.d_x, path.d_y, path.d_z, slots);
+  const CurveFaces faces = geometry.curve_spaces.empty()
+                               ? FaceCurves(geometry, index, curve, at, d)
+                               : FaceStretchedCurves(geometry, index, curve, at, d);
+  SurfaceLanes surface{
+      .p = at.p, .n = faces.n, .error = Splat(0), .material = curve.material};
+  surface.error = RoundingError(at.p, faces.n, faces.width);
   StoreSurface(path, slots, surface);
-  StoreCurveCoordinates(path, slots, curve.u, hn::Add(aside, Splat(0.5f)));
+  StoreCurveCoordinates(path, slots, curve.u, hn::Add(faces.aside, Splat(0.5f)));
   if (path.tg_x == nullptr) return;
   Scatter3(at.tangent, path.tg_x, path.tg_y, path.tg_z, slots);
-  if (path.tv_x == nullptr) return;
-  StoreBitangent(path, slots, Mul(MulAdd(side, a.cos, Mul(face, hn::Neg(a.sin))), width),
-                 n);
+  if (path.tv_x != nullptr) StoreBitangent(path, slots, faces.bitangent, faces.n);
 }
 
 Stage SurfaceCurveStage() {

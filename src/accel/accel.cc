@@ -123,8 +123,7 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
                               RoundBlocks(disk_blocks, geometry.disks, first), nodes);
   }
   AlignedVector<CurveBlock> curve_blocks;
-  const std::vector<CurvePiece> pieces =
-      PiecesOf(geometry.curves, geometry.ranges.curves);
+  const std::vector<CurvePiece> pieces = PiecesOf(geometry, geometry.ranges.curves);
   if (!pieces.empty()) {
     const auto count = static_cast<std::uint32_t>(pieces.size());
     accel.curves = BuildShapes(ItemsOf(pieces, 0, count, 0), LeafLimit(), options.quality,

@@ -20,6 +20,29 @@ Vec3d PointOf(const CurveRecord& curve, int k) {
   return {curve.p[k][0], curve.p[k][1], curve.p[k][2]};
 }
 
+// The curve in the space where it is met, but for a shift.
+CurveRecord InOwnSpace(const Geometry& g, std::size_t index) {
+  CurveRecord curve = g.curves[index];
+  if (g.curve_spaces.empty()) return curve;
+  const float* m = g.curve_spaces[index].object_from_scene;
+  for (auto& p : curve.p) {
+    const float x = p[0], y = p[1], z = p[2];
+    for (int a = 0; a < 3; ++a) p[a] = m[3 * a] * x + m[3 * a + 1] * y + m[3 * a + 2] * z;
+  }
+  return curve;
+}
+
+// Half the extent along each axis of the scene of a ball around a point of the piece.
+void SetReach(const Geometry& g, std::size_t index, CurvePiece& piece) {
+  const float radius = std::max(piece.radius[0], piece.radius[1]);
+  for (int a = 0; a < 3; ++a) {
+    piece.reach[a] = radius;
+    if (g.curve_spaces.empty()) continue;
+    const float* row = &g.curve_spaces[index].scene_from_object[3 * a];
+    piece.reach[a] *= std::hypot(row[0], row[1], row[2]) * (1 + 1e-6f);
+  }
+}
+
 // Pieces are 2^this.
 int HalvingsOf(const CurveRecord& curve) {
   double length = 0, bend = 0;
@@ -81,12 +104,12 @@ bool HasNumbers(const CurveRecord& curve) {
 
 }  // namespace
 
-std::vector<CurvePiece> PiecesOf(const AlignedVector<CurveRecord>& curves,
-                                 std::uint32_t first_id) {
+std::vector<CurvePiece> PiecesOf(const Geometry& geometry, std::uint32_t first_id) {
+  const AlignedVector<CurveRecord>& curves = geometry.curves;
   std::vector<std::uint32_t> begin(curves.size() + 1, 0);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const bool there = HasNumbers(curves[i]);
-    begin[i + 1] = begin[i] + (there ? 1u << HalvingsOf(curves[i]) : 0);
+    begin[i + 1] = begin[i] + (there ? 1u << HalvingsOf(InOwnSpace(geometry, i)) : 0);
   }
   std::vector<CurvePiece> pieces(begin.back());
   ParallelForRange(curves.size(), kCurveGrain, [&](std::size_t from, std::size_t to) {
@@ -96,6 +119,7 @@ std::vector<CurvePiece> PiecesOf(const AlignedVector<CurveRecord>& curves,
       for (std::uint32_t k = 0; k < count; ++k) {
         CurvePiece& piece = pieces[begin[i] + k];
         piece = PieceOf(curves[i], k, halvings);
+        SetReach(geometry, i, piece);
         piece.prim = first_id + static_cast<std::uint32_t>(i);
       }
     }
@@ -104,12 +128,11 @@ std::vector<CurvePiece> PiecesOf(const AlignedVector<CurveRecord>& curves,
 }
 
 AccelBox BoxOf(const CurvePiece& piece) {
-  const float radius = std::max(piece.radius[0], piece.radius[1]);
   AccelBox box;
   for (const auto& p : piece.p) {
     for (int a = 0; a < 3; ++a) {
-      box.lo[a] = std::min(box.lo[a], std::nextafter(p[a] - radius, -INFINITY));
-      box.hi[a] = std::max(box.hi[a], std::nextafter(p[a] + radius, INFINITY));
+      box.lo[a] = std::min(box.lo[a], std::nextafter(p[a] - piece.reach[a], -INFINITY));
+      box.hi[a] = std::max(box.hi[a], std::nextafter(p[a] + piece.reach[a], INFINITY));
     }
   }
   return box;

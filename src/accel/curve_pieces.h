@@ -14,13 +14,13 @@ namespace lanelight {
 struct CurvePiece {
   float p[4][3];
   float radius[2];
+  float reach[3];  // half the widest width along the axes of the scene
   std::uint32_t part, prim;
 };
 
 /// Pieces of curve i have prim first_id + i. Curves with numbers that are not finite are
 /// left out.
-std::vector<CurvePiece> PiecesOf(const AlignedVector<CurveRecord>& curves,
-                                 std::uint32_t first_id);
+std::vector<CurvePiece> PiecesOf(const Geometry& geometry, std::uint32_t first_id);
 
 /// The box of its points, widened on all sides and rounded outwards.
 AccelBox BoxOf(const CurvePiece& piece);

@@ -70,6 +70,9 @@ void AddShapes(const Geometry& g, KeyText& text) {
     for (const auto& point : r.p) to = Copy(point, to);
     Copy(r.width, to);
   });
+  text.AddFloats(g.curve_spaces, 18, [](const CurveSpace& r, float* to) {
+    Copy(r.scene_from_object, Copy(r.object_from_scene, to));
+  });
   text.AddFloats(g.instances, 24, [](const InstanceRecord& r, float* to) {
     Copy(r.scene_from_object, Copy(r.object_from_scene, to));
   });

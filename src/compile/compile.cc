@@ -173,7 +173,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   SpectrumRows* const spectra = rows ? &*rows : nullptr;
   CompiledMaterials materials =
       CompileMaterials(description, UsedMaterials(placement), options, spectra);
-  scene.media = CompileMedia(description, placement, materials);
+  scene.media = CompileMedia(description, placement, materials, scene.notes);
   scene.features = MaterialFeatures(materials.table, placement);
   const GeometryOptions geometry_options = {
       .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||

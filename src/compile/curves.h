@@ -11,9 +11,8 @@ namespace lanelight {
 /// The box of the points of all curves of a shape, widened by half their width.
 Box CurveBox(const Shape& shape, const Transform& transform);
 
-/// Appends the curves of a shape. Throws InputError where the transform stretches
-/// directions differently, so that widths would depend on where they are seen from, and
-/// beyond kMostCurves.
+/// Appends the curves of a shape. Throws InputError beyond kMostCurves, and where the
+/// transform flattens them so far that float32 overflows.
 void AddCurves(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
                Geometry& geometry);
 

@@ -103,4 +103,20 @@ void StoreAperture(const Camera& camera, LensSystem& lenses) {
   for (float& v : lenses.aperture) v = static_cast<float>(v * scale);
 }
 
+double ApertureReach(const LensSystem& lenses) {
+  if (lenses.aperture.empty()) return 1;
+  const int n = lenses.aperture_size;
+  double reach = 0;
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      if (lenses.aperture[static_cast<std::size_t>(row * n + column)] == 0) continue;
+      // A texel counts up to the middles of its neighbours.
+      const double x = std::abs(2 * column + 1.0 - n) + 2;
+      const double y = std::abs(2 * row + 1.0 - n) + 2;
+      reach = std::max(reach, std::hypot(x, y) / n);
+    }
+  }
+  return reach;
+}
+
 }  // namespace lanelight

@@ -10,4 +10,8 @@ namespace lanelight {
 /// Throws InputError at the camera for a file that is not a square image or is black.
 void StoreAperture(const Camera& camera, LensSystem& lenses);
 
+/// Distance from the axis beyond which the picture, looked up bilinearly, is black; in
+/// units of the stop's radius. 1 without a picture.
+double ApertureReach(const LensSystem& lenses);
+
 }  // namespace lanelight

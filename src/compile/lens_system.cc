@@ -53,7 +53,7 @@ bool PassSurface(const LensElement& e, LensPath& ray) {
 }
 
 // Through all surfaces, from lower to higher z. False where the ray is stopped: beside an
-// aperture, all taken for circles, or by total reflection.
+// aperture or by total reflection.
 bool TraceElements(std::span<const LensElement> elements, LensPath& ray) {
   return std::all_of(elements.begin(), elements.end(), [&](const LensElement& e) {
     return e.radius == 0 ? PassStop(e, ray) : PassSurface(e, ray);
@@ -140,6 +140,14 @@ struct Bounds {
   }
 };
 
+// Stops as circles that hold all that the picture of the aperture lets through.
+void HoldPicture(const LensSystem& lenses, std::vector<LensElement>& elements) {
+  const double reach = ApertureReach(lenses);
+  for (LensElement& e : elements) {
+    if (e.radius == 0) e.aperture *= reach;
+  }
+}
+
 // Points of a grid over `within` that rays from the ring's film points come through.
 Bounds Passing(const std::vector<LensElement>& elements, double r0, double r1,
                const Bounds& within) {
@@ -182,6 +190,8 @@ LensSystem CompileLenses(const Camera& camera, double unit) {
                             static_cast<float>(e.eta_ratio),
                             static_cast<float>(e.aperture)});
   }
+  StoreAperture(camera, out);
+  HoldPicture(out, elements);
   const double ring = camera.film_diagonal / 2 / kRings;
   out.pupils.resize(kRings);
   ParallelFor(kRings, [&](std::size_t i) {
@@ -193,7 +203,6 @@ LensSystem CompileLenses(const Camera& camera, double unit) {
   out.rings_per_mm = static_cast<float>(1 / ring);
   out.rear = static_cast<float>(elements.front().z);
   out.scene_from_mm = static_cast<float>(unit / kMillimetres);
-  StoreAperture(camera, out);
   return out;
 }
 

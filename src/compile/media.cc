@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "src/compile/material_row.h"
+#include "src/compile/medium_cost.h"
 #include "src/compile/medium_grid.h"
 #include "src/compile/range.h"
 #include "src/compile/relief.h"
@@ -26,7 +27,10 @@ class MediumBuilder {
   std::int32_t Use(Index medium);
   void SetAlbedo(const Medium& m, MediumRecord& record);
   void AddSpectra(const Medium& m, MediumRecord& record);
-  MediumTable Finish() { return std::move(table_); }
+  MediumTable Finish(const Placement& placement, std::vector<Note>& notes) {
+    NoteDenseMedia(d_, placement, table_, index_, notes);
+    return std::move(table_);
+  }
 
  private:
   const SceneDescription& d_;
@@ -166,7 +170,7 @@ std::int32_t MediumBuilder::Use(Index medium) {
 }  // namespace
 
 MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
-                         CompiledMaterials& materials) {
+                         CompiledMaterials& materials, std::vector<Note>& notes) {
   MediumBuilder builder(d, placement.frame, materials);
   const std::int32_t camera = builder.Use(d.camera.medium);
   std::vector<MediumSides> sides;
@@ -179,7 +183,7 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
     sides.push_back(
         {builder.Use(media.inside), builder.Use(media.outside), passes ? 1u : 0u, 0});
   });
-  MediumTable table = builder.Finish();
+  MediumTable table = builder.Finish(placement, notes);
   table.camera = camera;
   table.sides.assign(sides.begin(), sides.end());
   DropUnusedReliefs(materials.table);  // phase functions have none

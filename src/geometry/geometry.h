@@ -121,6 +121,16 @@ struct RibbonRecord {
 };
 static_assert(sizeof(RibbonRecord) == 32);
 
+/// Space in which a curve is met: that of its object, whose axes the scene stretches or
+/// mirrors. 3x3 maps of directions, row by row, with determinants of 1 or -1; identities
+/// for curves whose transform keeps shapes. Widths and ribbon normals are in this space.
+struct CurveSpace {
+  float object_from_scene[9];
+  float scene_from_object[9];
+  float pad[2];
+};
+static_assert(sizeof(CurveSpace) == 80);
+
 /// Instance record: 24 words, row-major 3x4 affine maps.
 struct InstanceRecord {
   float object_from_scene[12];
@@ -140,7 +150,8 @@ struct Geometry {
   AlignedVector<PlaneRecord> planes;
   AlignedVector<LargeSphereRecord> large_spheres;
   AlignedVector<CurveRecord> curves;
-  AlignedVector<RibbonRecord> ribbons;  // one for each curve; empty without ribbons
+  AlignedVector<RibbonRecord> ribbons;     // one for each curve; empty without ribbons
+  AlignedVector<CurveSpace> curve_spaces;  // one for each; empty if all are identities
   AlignedVector<InstanceRecord> instances;
   /// Of the first instances, which move; what `instances` has of them is where the
   /// shutter opens. Empty where none moves.

@@ -11,6 +11,7 @@
 #include <boost/beast/websocket.hpp>
 #include <deque>
 #include <memory>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -60,7 +61,8 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 
 /// What all connections share. One thread.
 struct Hall {
-  int connections = 0;  // before what ends them
+  // Before what ends them; of each address of a client.
+  std::map<asio::ip::address, int> connections;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};

@@ -18,10 +18,13 @@ constexpr std::size_t kLongestHead = 8192;
 // One request: the page, a socket, or a refusal.
 class Visitor : public std::enable_shared_from_this<Visitor> {
  public:
-  Visitor(tcp::socket&& socket, Hall& hall) : stream_(std::move(socket)), hall_(hall) {
-    ++hall_.connections;
+  Visitor(tcp::socket&& socket, const asio::ip::address& client, Hall& hall)
+      : stream_(std::move(socket)), client_(client), hall_(hall) {
+    ++hall_.connections[client_];
   }
-  ~Visitor() { --hall_.connections; }
+  ~Visitor() {
+    if (--hall_.connections[client_] == 0) hall_.connections.erase(client_);
+  }
 
   void Start() {
     stream_.expires_after(std::chrono::seconds(10));
@@ -38,6 +41,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   void Reply(unsigned status, const char* type, std::string body);
 
   beast::tcp_stream stream_;
+  asio::ip::address client_;
   Hall& hall_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
@@ -87,8 +91,11 @@ void Visitor::Reply(unsigned status, const char* type, std::string body) {
 void AcceptNext(Hall& hall) {
   hall.acceptor.async_accept([&hall](error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && hall.connections < kMostConnections) {
-      std::make_shared<Visitor>(std::move(socket), hall)->Start();
+    error_code gone;
+    const asio::ip::address client =
+        error ? asio::ip::address() : socket.remote_endpoint(gone).address();
+    if (!error && !gone && MayConnect(hall.connections, client)) {
+      std::make_shared<Visitor>(std::move(socket), client, hall)->Start();
     }
     AcceptNext(hall);
   });

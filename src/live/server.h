@@ -14,6 +14,19 @@ namespace lanelight::live {
 /// Sockets at once, and pages that are being fetched.
 inline constexpr int kMostPages = 8;
 inline constexpr int kMostConnections = 32;
+/// Of these, from one address: others get in while one client holds on to all it can.
+inline constexpr int kMostFromOne = kMostConnections / 2;
+
+/// Whether a client may connect, given how many connections each address has.
+template <typename Counts, typename Address>
+bool MayConnect(const Counts& connections, const Address& client) {
+  int all = 0, own = 0;
+  for (const auto& [address, count] : connections) {
+    all += count;
+    if (address == client) own = count;
+  }
+  return all < kMostConnections && own < kMostFromOne;
+}
 
 class Server {
  public:

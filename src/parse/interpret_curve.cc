@@ -91,10 +91,11 @@ std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params) {
   const Basis basis = params.Choice<Basis>(
       "basis", {{"bezier", Basis::kBezier}, {"bspline", Basis::kBspline}});
   const int degree = params.Integer("degree", 3, {2, 3});
-  const CurveType type =
-      params.Choice<CurveType>("type", {{"flat", CurveType::kFlat},
-                                        {"cylinder", CurveType::kCylinder},
-                                        {"ribbon", CurveType::kRibbon}});
+  const CurveType type = params.Choice<CurveType>("type",
+                                                  {{"flat", CurveType::kFlat},
+                                                   {"cylinder", CurveType::kCylinder},
+                                                   {"ribbon", CurveType::kRibbon}},
+                                                  "cylinder");
   params.Integer("splitdepth", 3, {0, 30});  // pieces are chosen by what curves are like
   params.Need("P", ParamType::kPoint3);
   const PointList points = PointsOf(params, "P", ParamType::kPoint3);

@@ -1,6 +1,7 @@
 // Film: its size, its part that is rendered, and what it makes of light.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/core/suggest.h"
 #include "src/image/color_spaces.h"
@@ -19,27 +20,40 @@ const std::vector<std::string> kCameras = {
     "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
     "sony_ilce_9"};
 
-// cropwindow: part of the image, 0 to 1; pixels x0 <= x < x1 as ceil(x0 * width).
+// Four numbers, or null: pbrt-v4 goes on without others.
+const Param* Window(ParamSet& params, std::string_view name, ParamType type) {
+  const Param* param = params.Find(name, {type});
+  if (param == nullptr || param->numbers.size() == 4) return param;
+  params.Warn(*param, fmt::format("{} numbers; it takes 4 (x0 x1 y0 y1); the window is "
+                                  "ignored, as in pbrt-v4",
+                                  param->numbers.size()));
+  return nullptr;
+}
+
+// cropwindow: part of the image, 0 to 1; pixels x0 <= x < x1 as ceil(x0 * width). Numbers
+// of an axis may stand in either order.
 void ReadCrop(ParamSet& params, Film* film) {
-  const Param* part = NumberArray(params, "cropwindow", ParamType::kFloat, 4);
-  const Param* pixels = NumberArray(params, "pixelbounds", ParamType::kInteger, 4);
+  const Param* part = Window(params, "cropwindow", ParamType::kFloat);
+  const Param* pixels = Window(params, "pixelbounds", ParamType::kInteger);
   if (part == nullptr && pixels == nullptr) return;
   if (part != nullptr && pixels != nullptr) {
-    params.Fail(*part, "cropwindow and pixelbounds exclude each other");
+    params.Warn(*pixels, "cropwindow counts instead, as in pbrt-v4");
   }
   const Param& param = part != nullptr ? *part : *pixels;
   int crop[4];
+  bool outside = false;
   for (int i = 0; i < 4; ++i) {
     const int side = i < 2 ? film->width : film->height;
-    const double low = 0, high = part != nullptr ? 1 : side;
-    const double value = param.numbers[i];
-    if (value < low || value > high) {
-      params.Fail(param,
-                  fmt::format("the value {} is outside {} to {}", value, low, high));
-    }
+    const double most = part != nullptr ? 1 : side;
+    const double value = std::clamp(param.numbers[i], 0.0, most);
+    outside = outside || value != param.numbers[i];
     crop[i] = static_cast<int>(part != nullptr ? std::ceil(value * side) : value);
   }
-  if (crop[0] >= crop[1] || crop[2] >= crop[3]) {
+  if (outside) params.Warn(param, "the window goes beyond the image, and is clamped");
+  for (int i = 0; i < 4; i += 2) {
+    if (crop[i] > crop[i + 1]) std::swap(crop[i], crop[i + 1]);
+  }
+  if (crop[0] == crop[1] || crop[2] == crop[3]) {
     params.Fail(param, "no pixel is left; it takes x0 x1 y0 y1 with x0 < x1, y0 < y1");
   }
   std::copy(crop, crop + 4, film->crop);

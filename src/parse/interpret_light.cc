@@ -58,10 +58,20 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
   ReadDirection(params, light);
   light->cone_angle = params.Float("coneangle", 30, {1e-6, 180});
   light->cone_delta = params.Float("conedeltaangle", 5, {0, 180});
+  // The falloff of pbrt-v4 begins at the cosine of their difference, of either sign.
+  const double begins = std::abs(light->cone_angle - light->cone_delta);
+  if (begins > light->cone_angle) {
+    throw InputError(params.where(),
+                     fmt::format("conedeltaangle {} of the spot light is more than twice "
+                                 "its coneangle {}",
+                                 light->cone_delta, light->cone_angle));
+  }
   if (light->cone_delta > light->cone_angle) {
-    throw InputError(params.where(), fmt::format("conedeltaangle {} of the spot light is "
-                                                 "larger than its coneangle {}",
-                                                 light->cone_delta, light->cone_angle));
+    light->cone_delta = light->cone_angle - begins;
+    state.AddWarning(params.where(),
+                     fmt::format("conedeltaangle of the spot light is larger than its "
+                                 "coneangle; {} counts, as in pbrt-v4",
+                                 light->cone_delta));
   }
   double scale = params.Float("scale", 1, kNotNegative);
   const double power = Target(params, "power");

@@ -17,22 +17,26 @@ std::vector<Vec3d> Triples(const Param* param) {
   return out;
 }
 
-void CheckCount(const ParamSet& params, const Param* param, std::size_t found,
-                std::size_t vertices) {
-  if (param == nullptr || found == vertices) return;
-  params.Fail(*param, fmt::format("{} values for {} vertices", found, vertices));
+// Values that are not one for each vertex are discarded with a warning, as in pbrt-v4.
+template <typename T>
+void KeepOneEach(const ParamSet& params, const Param* param, std::size_t vertices,
+                 std::vector<T>& values) {
+  if (param == nullptr || values.size() == vertices) return;
+  params.Warn(*param, fmt::format("{} values for {} vertices; discarded", values.size(),
+                                  vertices));
+  values.clear();
 }
 
 // N and uv, where there are any.
 void ReadAttributes(ParamSet& params, TriangleMesh& mesh) {
   const Param* n = params.Find("N", {ParamType::kNormal});
   mesh.normals = Triples(n);
-  CheckCount(params, n, mesh.normals.size(), mesh.positions.size());
+  KeepOneEach(params, n, mesh.positions.size(), mesh.normals);
   if (const Param* uv = params.Find("uv", {ParamType::kPoint2})) {
     for (std::size_t i = 0; i < uv->numbers.size(); i += 2) {
       mesh.uvs.push_back({uv->numbers[i], uv->numbers[i + 1]});
     }
-    CheckCount(params, uv, mesh.uvs.size(), mesh.positions.size());
+    KeepOneEach(params, uv, mesh.positions.size(), mesh.uvs);
   }
 }
 
@@ -52,12 +56,18 @@ TriangleMesh ReadFaces(ParamSet& params, std::size_t corners) {
     for (std::uint32_t i = 0; i < corners; ++i) mesh.indices.push_back(i);
     return mesh;
   }
-  if (indices->numbers.size() % corners != 0) {
-    params.Fail(*indices, fmt::format("{} indices; they come in groups of {}",
-                                      indices->numbers.size(), corners));
+  // As in pbrt-v4.
+  const std::size_t given = indices->numbers.size(), excess = given % corners;
+  if (given < corners) {
+    params.Fail(*indices, fmt::format("{} indices; a face takes {}", given, corners));
   }
-  mesh.indices.reserve(indices->numbers.size());
-  for (std::size_t i = 0; i < indices->numbers.size(); ++i) {
+  if (excess != 0) {
+    params.Warn(*indices, fmt::format("{} indices; they come in groups of {}; the last "
+                                      "{} discarded",
+                                      given, corners, excess));
+  }
+  mesh.indices.reserve(given - excess);
+  for (std::size_t i = 0; i < given - excess; ++i) {
     const double index = indices->numbers[i];
     if (index < 0 || index >= static_cast<double>(mesh.positions.size())) {
       params.Fail(*indices,
@@ -121,7 +131,7 @@ std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
 std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params) {
   const TriangleMesh control = ReadFaces(params, 3);
   const int levels = SubdivisionLevels(params, control.indices.size() / 3);
-  params.Choice<bool>("scheme", {{"loop", true}});
+  params.Choice<bool>("scheme", {{"loop", true}}, "loop");
   const std::string problem = SubdivisionProblem(control);
   if (!problem.empty()) {
     throw InputError(params.where(), fmt::format("{} cannot be subdivided: {}",

@@ -27,11 +27,12 @@ ColorValue Operand(ParseState& state, ParamSet& params, std::string_view name,
 }
 
 void ReadMapping(ParamSet& params, UvMapping* mapping) {
-  mapping->kind =
-      params.Choice<MappingKind>("mapping", {{"uv", MappingKind::kUv},
-                                             {"spherical", MappingKind::kSpherical},
-                                             {"cylindrical", MappingKind::kCylindrical},
-                                             {"planar", MappingKind::kPlanar}});
+  mapping->kind = params.Choice<MappingKind>("mapping",
+                                             {{"uv", MappingKind::kUv},
+                                              {"spherical", MappingKind::kSpherical},
+                                              {"cylindrical", MappingKind::kCylindrical},
+                                              {"planar", MappingKind::kPlanar}},
+                                             "uv");
   // All are read whatever the mapping: pbrt takes no notice of the others.
   mapping->su = params.Float("uscale", 1, Limits());
   mapping->sv = params.Float("vscale", 1, Limits());
@@ -79,12 +80,13 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
                {"clamp", WrapMode::kClamp},
                {"black", WrapMode::kBlack},
                {"octahedralsphere", WrapMode::kOctahedralSphere}});
-  texture->filter =
-      params.Choice<ImageFilter>("filter", {{"bilinear", ImageFilter::kBilinear},
-                                            {"point", ImageFilter::kPoint},
-                                            {"trilinear", ImageFilter::kTrilinear},
-                                            {"ewa", ImageFilter::kEwa},
-                                            {"EWA", ImageFilter::kEwa}});
+  texture->filter = params.Choice<ImageFilter>("filter",
+                                               {{"bilinear", ImageFilter::kBilinear},
+                                                {"point", ImageFilter::kPoint},
+                                                {"trilinear", ImageFilter::kTrilinear},
+                                                {"ewa", ImageFilter::kEwa},
+                                                {"EWA", ImageFilter::kEwa}},
+                                               "ewa");
   // Footprints of no extent: pbrt then interpolates in the finest image.
   if (state.unfiltered_images && texture->filter >= ImageFilter::kTrilinear) {
     texture->filter = ImageFilter::kBilinear;

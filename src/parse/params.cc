@@ -27,10 +27,17 @@ ParamSet::ParamSet(std::string object, SourceLocation where, ParamList own,
       inherited_(std::move(inherited)),
       notes_(notes) {}
 
+std::string ParamSet::About(const Param& param, const std::string& message) const {
+  return fmt::format("{}, in {} of {}", message, Quoted(Typed(param.type, param.name)),
+                     object_);
+}
+
 void ParamSet::Fail(const Param& param, const std::string& message) const {
-  throw InputError(param.where,
-                   fmt::format("{}, in {} of {}", message,
-                               Quoted(Typed(param.type, param.name)), object_));
+  throw InputError(param.where, About(param, message));
+}
+
+void ParamSet::Warn(const Param& param, const std::string& message) const {
+  notes_->push_back({param.where, About(param, message), false, true});
 }
 
 const Param* ParamSet::Find(std::string_view name,
@@ -119,10 +126,16 @@ Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
 }
 
 std::size_t ParamSet::ChoiceOf(std::string_view name,
-                               const std::vector<std::string>& choices) {
+                               const std::vector<std::string>& choices,
+                               const char* unknown) {
   const Param* param = Single(name, ParamType::kString);
   if (param == nullptr) return 0;
-  const auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
+  auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
+  if (it == choices.end() && unknown != nullptr) {
+    Warn(*param, fmt::format("unknown value {}; {} counts, as in pbrt-v4",
+                             Quoted(param->strings[0]), Quoted(unknown)));
+    it = std::find(choices.begin(), choices.end(), unknown);
+  }
   if (it == choices.end()) {
     ThrowUnknown(param->where,
                  fmt::format("value of \"string {}\" of {}:", name, object_),

@@ -86,13 +86,15 @@ class ParamSet {
   std::string String(std::string_view name, const std::string& absent);
   Vec3d Point3(std::string_view name, Vec3d absent);
 
-  /// What a string out of `choices` means. The first choice is the default.
+  /// What a string out of `choices` means. The first choice is the default. Others are an
+  /// InputError, or where pbrt-v4 goes on, a warning: then `unknown` is what counts.
   template <typename T>
   T Choice(std::string_view name,
-           std::initializer_list<std::pair<const char*, T>> choices) {
+           std::initializer_list<std::pair<const char*, T>> choices,
+           const char* unknown = nullptr) {
     std::vector<std::string> names;
     for (const auto& choice : choices) names.emplace_back(choice.first);
-    return choices.begin()[ChoiceOf(name, names)].second;
+    return choices.begin()[ChoiceOf(name, names, unknown)].second;
   }
 
   /// Accepts the parameter whatever its type, notes that it has no effect, and `why`.
@@ -106,13 +108,17 @@ class ParamSet {
 
   /// InputError at a parameter: `<message>, in "type name" of <object>`.
   [[noreturn]] void Fail(const Param& param, const std::string& message) const;
+  /// The same as a warning, where pbrt-v4 goes on.
+  void Warn(const Param& param, const std::string& message) const;
 
  private:
+  std::string About(const Param& param, const std::string& message) const;
   void NoteIgnored(std::string_view name, const std::string& why, bool changes_image);
   const Param* Single(std::string_view name, ParamType type);
   void CheckLimits(const Param& param, Limits limits) const;
   // The position of a string in `choices`; 0 if it is not given.
-  std::size_t ChoiceOf(std::string_view name, const std::vector<std::string>& choices);
+  std::size_t ChoiceOf(std::string_view name, const std::vector<std::string>& choices,
+                       const char* unknown);
 
   std::string object_;
   SourceLocation where_;

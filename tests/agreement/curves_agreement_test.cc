@@ -1,7 +1,9 @@
 // Curves and hair: the wavefront against the scalar reference, and what scenes without
 // them are spared.
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "src/core/pi.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
@@ -61,6 +63,24 @@ SceneDescription TypesOfCurves() {
   return b.Build();
 }
 
+// The same, each stretched, sheared or mirrored, beside hair that is.
+SceneDescription StretchedCurves() {
+  SceneDescription scene = TypesOfCurves();
+  Transform::Matrix shear{
+      {{1, 0.4, 0, 0}, {0, 1, -0.3, 0}, {0.2, 0, 1, 0}, {0, 0, 0, 1}}};
+  const Transform stretches[] = {
+      Transform::Scale({1.3, 0.5, 1.1}), Transform(shear), Transform::Scale({-1, 1, 1}),
+      Transform::Rotate(30, {1, 2, 0}) * Transform::Scale({0.6, 2, -0.8})};
+  std::size_t next = 0;
+  for (Shape& shape : scene.shapes) {
+    if (shape.kind != ShapeKind::kCurves) continue;
+    shape.world_from_object = shape.world_from_object * stretches[next++ % 4];
+  }
+  Transform& instance = scene.instances[0].world_from_object;
+  instance = instance * Transform::Scale({1, 1.7, 0.6});
+  return scene;
+}
+
 // Strands of hair in front of each other, of all ways to colour it.
 SceneDescription Hairs() {
   SceneBuilder b = Ground(12, 6, 5);
@@ -92,6 +112,53 @@ void CheckCurves(const SceneDescription& scene, std::uint64_t spp, int reference
 
 TEST_CASE("wavefront agrees on curves of every type", "[agreement][curves]") {
   CheckCurves(TypesOfCurves(), 8192, 2000);
+}
+
+TEST_CASE("wavefront agrees on stretched curves", "[agreement][curves]") {
+  CheckCurves(StretchedCurves(), 8192, 2000);
+  SceneDescription hairs = Hairs();
+  for (Shape& shape : hairs.shapes) {
+    if (shape.kind != ShapeKind::kCurves) continue;
+    shape.world_from_object = shape.world_from_object * Transform::Scale({-1, 1.6, 0.5});
+  }
+  CheckCurves(hairs, 8192, 2000);
+}
+
+TEST_CASE("a stretched curve is as wide as its object's space says", "[curves]") {
+  // Along x, seen from z = 5: a ray of slope s passes the middle line, in the space of
+  // the object, at 5 (s / 3) / sqrt(1 + (s / 3)^2), which is at most half the width.
+  SceneBuilder b(1, 1);
+  b.Depth(0).Perspective({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 20);
+  b.AddEnvironment(Grey(1));
+  Shape& shape = AddCurve(b, b.AddDiffuse(Grey(0.5)), CurveType::kFlat, 0.2, {});
+  shape.world_from_object = Transform::Scale({-40, 3, 1});
+  Curve& curve = shape.curves->front();
+  for (int k = 0; k < 4; ++k) curve.p[k] = {k / 1.5 - 1, 0, 0};
+  curve.width[1] = 0.2;
+  const double slope = 3 * 0.1 / std::sqrt(25 - 0.01);
+  const double seen = 1 - slope / std::tan(10 * kPi / 180);
+  const auto known = stat::KnownImage(1, 1, [&](int, int) { return Grey(seen); });
+  const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 1 << 18), known,
+                                         {4, 1e-6, kFloatTolerance, 1e-7});
+  INFO(result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < 0.01);
+}
+
+TEST_CASE("a curve that is all but flattened is rendered or refused",
+          "[agreement][curves]") {
+  SceneDescription scene = Hairs();
+  for (const auto& [flat, fails] : {std::pair{1e-4, false}, std::pair{1e-25, true}}) {
+    for (Shape& shape : scene.shapes) {
+      if (shape.kind != ShapeKind::kCurves) continue;
+      shape.world_from_object = Transform::Scale({1, flat, 1});
+    }
+    if (fails) {
+      CHECK_THROWS_WITH(RenderWavefront(scene, 1), Catch::Contains("flattens"));
+    } else {
+      RenderWavefront(scene, 16);
+    }
+  }
 }
 
 TEST_CASE("wavefront agrees on strands of hair", "[agreement][curves]") {
@@ -127,11 +194,14 @@ TEST_CASE("scenes without curves have nothing of them", "[agreement][curves]") {
   const CompiledScene room = CompileScene(SmallRoom(8, 3));
   CHECK(room.accel.curve_blocks.size() == 0);
   CHECK(room.accel.curves.root == kEmptyRef);
-  CHECK(room.geometry.curves.capacity() + room.geometry.ribbons.capacity() == 0);
+  CHECK(room.geometry.curves.capacity() + room.geometry.ribbons.capacity() +
+            room.geometry.curve_spaces.capacity() ==
+        0);
   CHECK_FALSE(room.features.HasAny({Feature::kCurves, Feature::kHair}));
   const CompiledScene hair = CompileScene(Hairs());
   CHECK(hair.accel.curve_blocks.size() >= 2);
   CHECK(hair.geometry.ribbons.empty());
+  CHECK(hair.geometry.curve_spaces.empty());
   CHECK(hair.features.HasAll(
       {Feature::kCurves, Feature::kHair, Feature::kTangents, Feature::kUv}));
 }

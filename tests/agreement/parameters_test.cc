@@ -2,63 +2,21 @@
 // that a closed form shows. Each scene fills the image with one radiance.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
-#include "tests/agreement/agreement.h"
-#include "tests/parse/parse_text.h"
+#include "tests/agreement/parameter_rows.h"
 
 namespace lanelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-struct Row {
-  const char* parameter;
-  std::string world;
-  Rgb expected;
-  std::string before = "";  // in front of WorldBegin
-  double tolerance = 1e-3;  // relative; pixels have a size
-};
-
-// A square of 0.02 about (0.1, 0.2), seen from above.
-constexpr const char* kHead = R"(
-LookAt 0.1 0.2 5  0.1 0.2 0  0 1 0
-Camera "orthographic" "float screenwindow" [ -0.01 0.01 -0.01 0.01 ]
-Film "rgb" "integer xresolution" 4 "integer yresolution" 4
-PixelFilter "box"
-)";
-
-constexpr const char* kSky = "LightSource \"infinite\" ";
-constexpr const char* kFloor = "Shape \"disk\" \"float radius\" 100 ";
-constexpr const char* kDiffuse = "Material \"diffuse\" ";
 // Black, so that nothing comes through from below.
 constexpr const char* kBlack =
     "AttributeBegin Translate 0 0 -1 Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ] "
     "Shape \"disk\" \"float radius\" 1000 AttributeEnd ";
 
-std::string Sky(double radiance) {
-  return fmt::format("{} \"rgb L\" [ {} {} {} ] ", kSky, radiance, radiance, radiance);
-}
-std::string Lit(const std::string& light) {
-  return "LightSource " + light + " " + kDiffuse + kFloor;
-}
-// A material on a floor under a sky of radiance 1, above and below.
-std::string Under(const std::string& material) {
-  return Sky(1) + "Material " + material + " " + kFloor;
-}
 std::string Glass(const std::string& material) { return kBlack + Under(material); }
 std::string Emitter(const std::string& parameters, const std::string& shape) {
   return "AreaLightSource \"diffuse\" " + parameters + " " + kDiffuse +
          "\"rgb reflectance\" [ 0 0 0 ] " + shape;
-}
-// On a square from -1 to 1 at this height, seen at (u, v) = (0.55, 0.6).
-std::string Textured(const std::string& texture, double z = 0) {
-  return Sky(1) + "Texture \"t\" \"spectrum\" " + texture +
-         fmt::format(
-             " Translate 0 0 {} Material \"diffuse\" \"texture reflectance\" "
-             "\"t\" Shape \"bilinearmesh\" \"point3 P\" "
-             "[ -1 -1 0  1 -1 0  -1 1 0  1 1 0 ]",
-             z);
 }
 // A slab of a medium that fills 1 of the sight, before a sky.
 std::string Slab(const std::string& medium, double sky) {
@@ -304,30 +262,6 @@ std::vector<Row> OtherRows() {
        "Camera \"perspective\" \"float screenwindow\" [ 0.49 0.51 -0.01 0.01 ] "},
       {"maxdepth 0: nothing but emission", sky + kDiffuse + kFloor, Grey(0),
        "Integrator \"path\" \"integer maxdepth\" 0 "}};
-}
-
-bool IsGrey(Rgb c) { return c.x == c.y && c.y == c.z; }
-
-void Check(const Row& row, Transport transport) {
-  INFO(row.parameter << (transport == Transport::kSpectral ? ", spectral" : ""));
-  SceneDescription scene = ParseText(kHead + row.before + "WorldBegin\n" + row.world);
-  scene.integrator.transport = transport;
-  const auto image = RenderWavefront(scene, 1 << 15);
-  const auto known =
-      stat::KnownImage(image.width, image.height, [&](int, int) { return row.expected; });
-  const auto result = stat::CompareMeans(image, known, {4, 1e-6, row.tolerance, 1e-6});
-  INFO(result.ToString());
-  CHECK(result.same);
-  if (row.expected.x > 0) CHECK(result.detectable_bias < 0.05);
-}
-
-// Grey ones by wavelength as well: colours are not exact there, nor is the black of
-// textures.
-void CheckRows(const std::vector<Row>& rows) {
-  for (const Row& row : rows) {
-    Check(row, Transport::kRgb);
-    if (IsGrey(row.expected) && row.expected.x > 0) Check(row, Transport::kSpectral);
-  }
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 // What an interruption leaves behind: an image that exists is replaced by one without
 // holes or not at all.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "src/cli/exit_codes.h"
@@ -94,6 +97,69 @@ TEST_CASE("an interruption after the first pass leaves an image without holes", 
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) CHECK(image.At(x, y, samples) > 0);
   }
+}
+
+TEST_CASE("an interrupted advise keeps the image", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  REQUIRE(RunLanelight({"render", scene, "-o", exr, "--spp", "4"}).exit_code ==
+          kExitGood);
+  const std::string before = BytesOf(exr);
+  const ProcessResult r = InterruptAt(
+      "rendering", SIGINT,
+      {"advise", scene, "-o", exr, "--time", "1", "--resolution", "6000x4000"});
+  INFO(r.err);
+  CHECK(r.exit_code == kExitInterrupted);
+  CHECK(BytesOf(exr) == before);
+  CHECK_THAT(r.err, Contains("keep.partial.exr") && Contains("is as it was"));
+}
+
+TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), out = directory / "out";
+  const std::string sweep =
+      WriteText(directory / "sweep.toml",
+                fmt::format("[grid]\nscene = \"{}\"\nspp = 1\n"
+                            "resolution = \"6000x4000\"\n",
+                            std::filesystem::path(scene).filename().string()));
+  const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
+      {"1 of 1", {"sweep", sweep, "--out", out + "/sweep"}},
+      {"study",
+       {"study", scene, "--out", out + "/study", "--resolution", "6000x4000", "--spp",
+        "1", "--strategies", "default;points=independent"}}};
+  std::filesystem::create_directory(out);
+  for (const auto& [trigger, arguments] : commands) {
+    const ProcessResult r = InterruptAt(trigger, SIGINT, arguments);
+    INFO(arguments[0] << ": " << r.err);
+    CHECK(r.exit_code == kExitInterrupted);
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    INFO(entry.path());
+    CHECK(entry.path().extension() != ".exr");
+  }
+}
+
+TEST_CASE("images of a sweep that do not fit on the disk are kept elsewhere", "[cli]") {
+  TempDirectory directory, elsewhere;
+  const std::string scene = WriteSphereScene(directory), out = directory / "out";
+  const std::string sweep =
+      WriteText(directory / "sweep.toml",
+                fmt::format("[grid]\nscene = \"{}\"\nspp = [1, 2]\n",
+                            std::filesystem::path(scene).filename().string()));
+  REQUIRE(RunLanelight({"sweep", sweep, "--out", out}).exit_code == kExitGood);
+  std::map<std::string, std::string> before;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    if (entry.path().extension() == ".exr") before[entry.path()] = BytesOf(entry.path());
+    if (entry.path().filename() == "report.json") std::filesystem::remove(entry.path());
+  }
+  REQUIRE(before.size() == 2);
+  ProcessOptions full;
+  full.file_size_limit = 256;  // less than any image has
+  full.temp_directory = elsewhere.path();
+  const ProcessResult r = RunLanelight({"sweep", sweep, "--out", out}, full);
+  INFO(r.err);
+  CHECK(r.exit_code == kExitBadInput);
+  for (const auto& [path, bytes] : before) CHECK(BytesOf(path) == bytes);
 }
 
 }  // namespace lanelight

@@ -258,7 +258,7 @@ TEST_CASE("curves with numbers that are not finite are left out", "[intersect][c
 
 TEST_CASE("pieces of curves cover them", "[accel][curves]") {
   const Geometry g = RandomCurves(200, 5).Records();
-  const std::vector<CurvePiece> pieces = PiecesOf(g.curves, 7);
+  const std::vector<CurvePiece> pieces = PiecesOf(g, 7);
   std::size_t begin = 0;
   for (std::uint32_t i = 0; i < g.curves.size(); ++i) {
     const std::size_t count = std::size_t{1} << (pieces.at(begin).part >> 24);

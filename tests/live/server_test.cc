@@ -7,7 +7,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <map>
 #include <thread>
+#include <vector>
 
 #include "src/core/error.h"
 #include "tests/live/live_scene.h"
@@ -42,8 +45,13 @@ class RunningServer {
   std::thread thread_;
 };
 
-int Connect(std::uint32_t address, std::uint16_t port) {
+// From the client's address, unless that is 0.
+int Connect(std::uint32_t address, std::uint16_t port, std::uint32_t client = 0) {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in from = {};
+  from.sin_family = AF_INET;
+  from.sin_addr.s_addr = htonl(client);
+  if (client != 0) bind(fd, reinterpret_cast<sockaddr*>(&from), sizeof(from));
   sockaddr_in to = {};
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
@@ -58,8 +66,9 @@ int Connect(std::uint32_t address, std::uint16_t port) {
 // What comes back until the connection ends, or `most` bytes; `then` is sent after the
 // first of it.
 std::string Request(const RunningServer& server, const std::string& text,
-                    std::size_t most = 1 << 22, const std::string& then = "") {
-  const int fd = Connect(INADDR_LOOPBACK, server.port);
+                    std::size_t most = 1 << 22, const std::string& then = "",
+                    std::uint32_t client = 0) {
+  const int fd = Connect(INADDR_LOOPBACK, server.port, client);
   REQUIRE(fd >= 0);
   REQUIRE(send(fd, text.data(), text.size(), MSG_NOSIGNAL) ==
           static_cast<ssize_t>(text.size()));
@@ -122,6 +131,38 @@ TEST_CASE("what is no request ends with its connection alone", "[live]") {
       Request(server, UpgradeText(server, "http://" + server.host), 1 << 22, frame);
   CHECK_THAT(hung_up, Catch::Contains("101"));
   CHECK(Request(server, GetText(server.path, server.host)).rfind("HTTP/1.1 200", 0) == 0);
+}
+
+TEST_CASE("one client cannot keep others out", "[live]") {
+  const RunningServer server;
+  // Half-open requests from 127.0.0.1: half of all connections, however many it asks for.
+  std::vector<int> open;
+  for (int i = 0; i < 2 * kMostConnections; ++i) {
+    open.push_back(Connect(INADDR_LOOPBACK, server.port));
+    REQUIRE(send(open.back(), "GET /", 5, MSG_NOSIGNAL) == 5);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  int refused = 0;
+  for (const int fd : open) {
+    char byte;
+    refused += recv(fd, &byte, 1, MSG_DONTWAIT) == 0 || errno == ECONNRESET;
+  }
+  CHECK(refused == 2 * kMostConnections - kMostFromOne);
+  // 127.0.0.2 of the same machine.
+  const std::string page = Request(server, GetText(server.path, server.host), 1 << 22, "",
+                                   INADDR_LOOPBACK + 1);
+  CHECK(page.rfind("HTTP/1.1 200", 0) == 0);
+  for (const int fd : open) close(fd);
+}
+
+TEST_CASE("connections are limited in all, and from one address", "[live]") {
+  std::map<int, int> connections = {{1, kMostFromOne - 1}};
+  CHECK(MayConnect(connections, 1));
+  connections[1] = kMostFromOne;
+  CHECK_FALSE(MayConnect(connections, 1));
+  CHECK(MayConnect(connections, 2));
+  connections[2] = kMostFromOne;
+  CHECK_FALSE(MayConnect(connections, 3));
 }
 
 TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",

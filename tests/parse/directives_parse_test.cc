@@ -1,4 +1,5 @@
 // Transforms, blocks, objects, attributes, includes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -274,6 +275,61 @@ TEST_CASE("without access to files nothing is opened", "[parse]") {
     CAPTURE(text);
     CHECK(WorldError(text).find("files may not be read here") != std::string::npos);
   }
+}
+
+TEST_CASE("windows of the film are sorted, clamped or ignored as in pbrt-v4", "[parse]") {
+  struct Case {
+    const char* window;
+    const char* warning;
+    int crop[4];
+  };
+  const Case cases[] = {
+      {"\"float cropwindow\" [ 0.75 0.25 0 1 ]", "", {2, 6, 0, 8}},
+      {"\"float cropwindow\" [ -1 0.5 0 1.5 ]", "is clamped", {0, 4, 0, 8}},
+      {"\"integer pixelbounds\" [ 4 99 0 4 ]", "is clamped", {4, 8, 0, 4}},
+      {"\"integer pixelbounds\" [ 4 2 0 4 ]", "", {2, 4, 0, 4}},
+      {"\"float cropwindow\" [ 0 1 0 0.5 ] \"integer pixelbounds\" [ 0 1 0 1 ]",
+       "cropwindow counts",
+       {0, 8, 0, 4}},
+      {"\"integer pixelbounds\" [ 0 4 ]", "is ignored", {0, 0, 0, 0}},
+      {"\"float cropwindow\" [ 0 1 0 ]", "is ignored", {0, 0, 0, 0}}};
+  for (const Case& c : cases) {
+    CAPTURE(c.window);
+    const SceneDescription scene = ParseText(fmt::format(
+        "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 {}\n"
+        "WorldBegin",
+        c.window));
+    CHECK(std::equal(c.crop, c.crop + 4, scene.film.crop));
+    CHECK(std::any_of(scene.notes.begin(), scene.notes.end(),
+                      [](const Note& n) { return n.warning; }) == (*c.warning != 0));
+    CHECK(HasNote(scene, c.warning) == (*c.warning != 0));
+  }
+}
+
+TEST_CASE("values that pbrt-v4 replaces are warned of", "[parse]") {
+  const auto warned = [](const std::string& text, const std::string& counts) {
+    const SceneDescription scene = ParseWorld(text);
+    CAPTURE(text);
+    CHECK(HasWarning(scene, counts + " counts, as in pbrt-v4"));
+    return scene;
+  };
+  const std::string points = "\"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ]";
+  CHECK(warned("Shape \"curve\" \"string type\" \"round\" " + points, "\"cylinder\"")
+            .shapes.at(0)
+            .curves->at(0)
+            .type == CurveType::kCylinder);
+  CHECK(warned("Texture \"t\" \"spectrum\" \"dots\" \"string mapping\" \"conical\"",
+               "\"uv\"")
+            .textures.at(0)
+            .mapping.kind == MappingKind::kUv);
+  warned(
+      "Shape \"loopsubdiv\" \"integer indices\" [ 0 1 2 ] \"point3 P\" [ 0 0 0  1 0 0  "
+      "0 1 0 ] \"string scheme\" \"catmark\"",
+      "\"loop\"");
+  CHECK(warned("LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 30",
+               "10")
+            .lights.at(0)
+            .cone_delta == 10);
 }
 
 }  // namespace

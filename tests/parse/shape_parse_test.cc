@@ -99,6 +99,32 @@ TEST_CASE("flat bilinear patches become two triangles", "[parse]") {
   CHECK(two.mesh->uvs.back() == std::array<double, 2>{0, 2});
 }
 
+TEST_CASE("values of a mesh that are not one per vertex are discarded with a warning",
+          "[parse]") {
+  const auto warned = [](const std::string& text, const std::string& words) {
+    const SceneDescription scene = ParseWorld("Shape " + text);
+    CAPTURE(text);
+    CHECK(HasWarning(scene, words));
+    CHECK(scene.notes.front().where.line == 2);
+    return *scene.shapes.at(0).mesh;
+  };
+  const std::string triangle = R"("trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] )";
+  const std::string patch = R"("bilinearmesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 1 1 0 ] )";
+  CHECK(warned(triangle + R"("point2 uv" [ 0 0 1 0 1 1 0 1 ])", "4 values for 3 vertices")
+            .uvs.empty());
+  CHECK(warned(triangle + R"("normal N" [ 0 0 1 0 1 0 ])", "2 values for 3 vertices")
+            .normals.empty());
+  const TriangleMesh plain = *ParseShape(patch).mesh;
+  CHECK(warned(patch + R"("point2 uv" [ 5 5 1 0 ])", "\"point2 uv\" of shape").uvs ==
+        plain.uvs);
+  CHECK(warned(patch + R"("normal N" [ 0 1 1 ])", "1 values for 4 vertices").normals ==
+        plain.normals);
+  CHECK(warned(triangle + R"("integer indices" [ 0 1 2 0 1 ])", "the last 2 discarded")
+            .indices.size() == 3);
+  CHECK_THAT(WorldError("Shape " + triangle + R"("integer indices" [ 0 1 ])"),
+             Catch::Contains("a face takes 3"));
+}
+
 TEST_CASE("quads are split along the diagonal that stays inside", "[parse]") {
   const QuadSplit convex = SplitQuad({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}});
   CHECK(convex.is_flat);

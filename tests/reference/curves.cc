@@ -132,17 +132,6 @@ void Search::Look(const Bezier& b, double u0, double u1, int depth) {
 
 }  // namespace
 
-Curve CurveInWorld(const Curve& curve, const Transform& world_from_object,
-                   double normal_sign) {
-  Curve out = curve;
-  const double scale = std::cbrt(std::abs(world_from_object.Determinant3()));
-  for (Vec3d& p : out.p) p = world_from_object.Point(p);
-  for (double& width : out.width) width *= scale;
-  if (curve.type != CurveType::kRibbon) return out;
-  for (Vec3d& n : out.normal) n = normal_sign * Normalize(world_from_object.Normal(n));
-  return out;
-}
-
 int IntersectCurve(const Curve& curve, const Ray& ray, Hit& nearest) {
   const Frame across = MakeFrame(ray.d);
   Bezier seen;
@@ -173,6 +162,43 @@ SurfacePoint DescribeCurve(const Curve& curve, const Ray& ray, const Hit& hit) {
   const double angle = curve.type == CurveType::kCylinder ? (out.v - 0.5) * kPi : 0;
   out.ng = out.ns = std::cos(angle) * frame.x + std::sin(angle) * right;
   out.dpdv = width * (std::cos(angle) * right - std::sin(angle) * frame.x);
+  return out;
+}
+
+namespace {
+
+// The ray in the space of the curve, and how much longer it is there.
+double ToObject(const Primitive& primitive, Ray& ray) {
+  const Vec3d d = primitive.object_from_world.Vector(ray.d);
+  ray.o = primitive.object_from_world.Point(ray.o);
+  ray.d = Normalize(d);
+  return Length(d);
+}
+
+}  // namespace
+
+int IntersectPlacedCurve(const Primitive& primitive, const Ray& ray, Hit& nearest) {
+  Ray own = ray;
+  const double longer = ToObject(primitive, own);
+  Hit hit = nearest;
+  hit.t *= longer;
+  const int found = IntersectCurve(primitive.curve, own, hit);
+  if (found > 0) {
+    nearest = hit;
+    nearest.t /= longer;
+  }
+  return found;
+}
+
+SurfacePoint DescribePlacedCurve(const Primitive& primitive, const Ray& ray, Hit hit) {
+  Ray own = ray;
+  const double t = hit.t;
+  hit.t *= ToObject(primitive, own);
+  SurfacePoint out = DescribeCurve(primitive.curve, own, hit);
+  out.p = ray.o + t * ray.d;
+  out.ng = out.ns = Normalize(primitive.object_from_world.Transposed().Vector(out.ng));
+  out.dpdu = primitive.world_from_object.Vector(out.dpdu);
+  out.dpdv = primitive.world_from_object.Vector(out.dpdv);
   return out;
 }
 

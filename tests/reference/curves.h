@@ -1,18 +1,20 @@
-// Curves of the reference tracer: cubic Bezier curves in world space, cut in halves until
-// a piece has one place that is nearest to the ray at most, which is then bisected.
+// Curves of the reference tracer: cubic Bezier curves in the space of their object, cut
+// in halves until a piece has one place that is nearest to the ray at most, which is then
+// bisected.
 #pragma once
 
 #include "tests/reference/geometry.h"
 
 namespace lanelight::reference {
 
-/// The curve in the world; widths under a transform that keeps shapes.
-Curve CurveInWorld(const Curve& curve, const Transform& world_from_object,
-                   double normal_sign);
-
-/// The nearest hit: 1 and its distance, with b1 = place along the curve; or 0.
+/// The nearest hit: 1 and its distance, with b1 = place along the curve; or 0. All in the
+/// space of the object, with a unit direction.
 int IntersectCurve(const Curve& curve, const Ray& ray, Hit& nearest);
 
 SurfacePoint DescribeCurve(const Curve& curve, const Ray& ray, const Hit& hit);
+
+/// The same in the world, for a primitive with a curve.
+int IntersectPlacedCurve(const Primitive& primitive, const Ray& ray, Hit& nearest);
+SurfacePoint DescribePlacedCurve(const Primitive& primitive, const Ray& ray, Hit hit);
 
 }  // namespace lanelight::reference

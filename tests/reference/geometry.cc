@@ -92,11 +92,14 @@ void Geometry::AddCurves(const Shape& shape, const Transform& world_from_object)
   Primitive out;
   out.kind = shape.kind;
   out.material = shape.material;
+  out.world_from_object = world_from_object;
+  out.object_from_world = world_from_object.Inverse();
   const bool turned =
       shape.reverse_orientation != shape.world_from_object.SwapsHandedness();
   for (const Curve& curve : *shape.curves) {
     out.face = num_faces_++;
-    out.curve = CurveInWorld(curve, world_from_object, turned ? -1 : 1);
+    out.curve = curve;
+    for (Vec3d& n : out.curve.normal) n = (turned ? -1. : 1.) * n;
     primitives_.push_back(out);
   }
 }

@@ -1,6 +1,6 @@
 // Brute-force geometry of the reference tracer: every instance is flattened, triangles
-// are in world space, and spheres, disks, cylinders and planes are intersected in their
-// own object space (an affine map keeps the ray parameter), so no record, bound or
+// are in world space, and spheres, disks, cylinders, planes and curves are intersected in
+// their own object space (an affine map keeps the ray parameter), so no record, bound or
 // tessellation of the renderer is used.
 #pragma once
 
@@ -41,11 +41,11 @@ struct Primitive {
   std::array<std::array<double, 2>, 3> uv = {{{0, 0}, {1, 0}, {1, 1}}};
   Vec3d face_normal;     // unit, on the outer side
   double mesh_side = 0;  // SurfacePoint
-  // kSphere, kDisk, kCylinder, kPlane: in object space.
+  // kSphere, kDisk, kCylinder, kPlane, kCurves: in object space.
   Transform world_from_object, object_from_world;
   double radius = 1, inner_radius = 0, height = 0;
   double z_min = -1, z_max = 1, phi_max = 0;  // of what is there; radians
-  Curve curve;                                // kCurves: in the world
+  Curve curve;                                // kCurves: in object space
 };
 
 struct Ray {

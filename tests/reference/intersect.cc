@@ -178,7 +178,7 @@ int IntersectPrimitive(const Primitive& primitive, const Ray& ray, bool origin_o
     return origin_on_it ? 0 : IntersectTriangle(primitive, ray, hits[0]);
   }
   if (primitive.kind == ShapeKind::kCurves) {
-    return IntersectCurve(primitive.curve, ray, hits[0]);
+    return IntersectPlacedCurve(primitive, ray, hits[0]);
   }
   const Vec3d o = primitive.object_from_world.Point(ray.o);
   const Vec3d d = primitive.object_from_world.Vector(ray.d);
@@ -200,7 +200,7 @@ SurfacePoint Geometry::Describe(const Ray& ray, const Hit& hit) const {
   const Primitive& primitive = primitives_[hit.primitive];
   if (primitive.kind == ShapeKind::kMesh) return DescribeTriangle(primitive, hit);
   if (primitive.kind == ShapeKind::kCurves) {
-    return DescribeCurve(primitive.curve, ray, hit);
+    return DescribePlacedCurve(primitive, ray, hit);
   }
   return DescribeQuadric(primitive,
                          primitive.object_from_world.Point(ray.o + hit.t * ray.d));
