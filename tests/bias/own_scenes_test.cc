@@ -32,14 +32,14 @@ std::vector<std::filesystem::path> OwnScenes(bool with_long) {
 TEST_CASE("own scenes: no strategy is biased in any tile", "[bias]") {
   const BiasPower power =
       CheckSceneBias(OwnScenes(false), BiasCoverage::kRotating, ScreeningRounds());
-  CHECK(power.choices() > 40);
+  CHECK(power.choices() > 30);
   power.Check(0.03, 0.003);
 }
 
 TEST_CASE("own scenes: no choice is biased in any tile, at length", "[bias][slow]") {
   const BiasPower power =
       CheckSceneBias(OwnScenes(true), BiasCoverage::kEveryChoice, LongRounds());
-  CHECK(power.choices() > 40);
+  CHECK(power.choices() > 30);
   power.Check(0.02, 0.002);
 }
 

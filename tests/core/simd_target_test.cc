@@ -28,7 +28,8 @@ TEST_CASE("every available SIMD target is found by its name", "[simd]") {
 }
 
 TEST_CASE("an unknown SIMD target is refused", "[simd]") {
-  CHECK_THROWS_WITH(SimdTarget("AVX9000"), Catch::Contains("targets of this machine are"));
+  CHECK_THROWS_WITH(SimdTarget("AVX9000"),
+                    Catch::Contains("targets of this machine are"));
 }
 
 }  // namespace lanelight
