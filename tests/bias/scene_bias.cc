@@ -14,16 +14,16 @@ const char* const kBase = "decide=none";
 
 // Strategies whose rays nearly never meet the lamps of a scene, or the lobes of its coats
 // of roughness 0.001: all renders miss the same light, so that they seem to agree on too
-// dark an image. (In a corner of coffee, uniform directions reach 0.868 of the right value
-// with 1024 samples and 0.927 with 65536.)
+// dark an image. (In a corner of coffee, uniform directions reach 0.868 of the right
+// value with 1024 samples and 0.927 with 65536.)
 struct Blind {
   const char* scene;  // part of its path
   const char* choice;
 };
 constexpr Blind kBlind[] = {
-    {"/blinds.", "directions=bsdf"},     {"/blinds.", "directions=uniform"},
-    {"/tiny-light.", "directions=bsdf"}, {"/tiny-light.", "directions=uniform"},
-    {"/coffee/", "directions=light"},    {"/coffee/", "directions=uniform"},
+    {"/blinds.", "directions=bsdf"},      {"/blinds.", "directions=uniform"},
+    {"/tiny-light.", "directions=bsdf"},  {"/tiny-light.", "directions=uniform"},
+    {"/coffee/", "directions=light"},     {"/coffee/", "directions=uniform"},
     {"/spaceship/", "directions=uniform"}};
 
 bool IsBlind(const std::string& file, const std::string& strategy) {
@@ -114,7 +114,8 @@ BiasPower CheckSceneBias(const std::vector<std::filesystem::path>& files,
                                 ? EveryChoice()
                                 : Rotating(test.scene(), i, files.size());
     for (const std::string& strategy : strategies) {
-      if (!Accepts(test.scene(), strategy) || IsBlind(files[i].string(), strategy)) continue;
+      if (!Accepts(test.scene(), strategy) || IsBlind(files[i].string(), strategy))
+        continue;
       const BiasVerdict verdict = test.Compare(strategy);
       if (verdict.identical || !verdict.IsTelling()) continue;
       INFO(files[i] << ", " << strategy << ": " << verdict.worst);
