@@ -135,7 +135,7 @@ def log_ratio(base, other):
 
 def jackknife_half_width(base, other):
     """Of a 95 % interval of log_ratio, rounds being the observations: what all blocks of
-    a render share (a bad guide, a slow minute) shows only between rounds."""
+    a render share (a bad pilot, a slow minute) shows only between rounds."""
     n = len(base)
     whole = log_ratio(base, other)
     pseudo = [n * whole - (n - 1) * log_ratio(base[:i] + base[i + 1:],

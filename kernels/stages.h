@@ -65,7 +65,6 @@ namespace lanelight {
   X(Gbuffer)                                   \
   X(Vertices)                                  \
   X(RecordVertex)                              \
-  X(RecordStart)                               \
   X(UnsplitBefore)                             \
   X(AdjointRoulette)                           \
   X(EfficiencyRoulette)                        \
@@ -79,7 +78,6 @@ namespace lanelight {
   X(LatticeBounce)                             \
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
-  X(GuideProposals)                            \
   X(RecordReuse)                               \
   X(Route)                                     \
   X(ChooseGlass)                               \
@@ -120,7 +118,6 @@ namespace lanelight {
   X(RecordReuseLight)                          \
   X(RecordDecision)                            \
   X(UnsplitDecision)                           \
-  X(RecordRay)                                 \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
   X(LuminanceRoulette)                         \
@@ -128,7 +125,6 @@ namespace lanelight {
   X(UnsplitPath)                               \
   X(EnterMedia)                                \
   X(PassInterfaces)                            \
-  X(RecordRays)                                \
   X(Accumulate)                                \
   X(Pack)                                      \
   X(ReuseSplit)                                \

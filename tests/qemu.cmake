@@ -18,8 +18,8 @@ set(long
   cli/study_command_test cli/target_test compile/materials_test
   compile/medium_emission_test compile/nested_test compile/tessellate_test
   control/regression_render_test control/regression_test
-  directions/uniform_test estimate/estimate_test generate/lenses_test guide/mixture_test
-  guide/unbiased_test image/accumulator_test image/long_sums_test
+  directions/uniform_test estimate/estimate_test generate/lenses_test
+  image/accumulator_test image/long_sums_test
   lights/emission_images_test lights/image_lights_test lights/portal_test
   lights/projected_test media/agreement_test media/coloured_test media/distances_test
   media/varying_test parse/format_test points/convergence_test

@@ -7,7 +7,6 @@
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
 //     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
-//     static VF EtaScale(const Params&, V3 wo, V3 wi);  with Eval and kRefracts
 //     static BsdfValue EvalShared(const Params&, V3 wo, V3 wi);  of the lobes that are
 //     wide
 //                                 enough to serve others (kernels/reuse/), if not of all

@@ -88,11 +88,6 @@ struct DielectricRoughBsdf : PlainBsdf {
     return hn::Div(hn::Add(d, d), hn::Add(zo, so));
   }
 
-  /// What Sample would say of wi.
-  LANELIGHT_INLINE static VF EtaScale(const Params& m, V3 wo, V3 wi) {
-    return hn::IfThenElse(SameSide(wo, wi), Splat(1.0f), Sqr(RelativeIndex(m.eta, wo)));
-  }
-
   LANELIGHT_LONG_BSDF_CALL static BsdfValue Eval(const Params& m, V3 wo_any, V3 wi_any) {
     const VF zero = hn::Zero(DF()), side = hn::CopySign(Splat(1.0f), wo_any.z);
     const V3 wo = Mul(wo_any, side), wi = Mul(wi_any, side);

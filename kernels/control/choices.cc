@@ -1,13 +1,11 @@
 // control=regression: the first two choices of a path between lobes.
 //   function    phi ~ 1[u < p] - p, u the number that chooses, p the probability of the
 //               first lobe (of glass: its Fresnel reflectance)
-//   unbiased    E[phi] = 0 for every p that is known before u is drawn. Where somebody
-//   else
-//               than the material decides (directions=uniform, a guide) p is not the
-//               probability, but u is as uniform: less is explained
+//   unbiased    E[phi] = 0 for every p that is known before u is drawn. Where the
+//               material does not decide (directions=uniform) p is not the probability,
+//               but u is as uniform: less is explained
 //   variance    if the lobes bring A and B, all of p (1 - p) (A - B)^2 goes away: what
-//   the
-//               camera sees of clear glass is little else than noise of this kind
+//               the camera sees of clear glass is little else than noise of this kind
 //   cost        a Fresnel term per event with a choice; none without such materials
 #include "kernels/simd/each_target-inl.h"
 

@@ -12,27 +12,22 @@
 #define LANELIGHT_DIRECTIONS_MATERIAL_INL_H_
 
 #include "kernels/bsdf/bsdf-inl.h"
-#include "src/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// A proposal of the next direction is made for a batch of paths and their shading frame.
-/// It has two members, with the measure of solid angle:
+/// A proposal of the next direction has two members, with the measure of solid angle:
 ///   Sample  a direction, what it weighs, and its density
 ///   Pdf     the density with which Sample would find wi, given that of the material
-/// `u`: the points of the bounce. kScales: eta_scale of samples has factors besides those
-/// of refraction.
+/// `u`: the points of the bounce.
 struct MaterialProposal {
-  static constexpr bool kScales = false;
   static constexpr bool kIsUniform = false;
-  LANELIGHT_INLINE MaterialProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
-  LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                     const BsdfPoints& u) const {
+  LANELIGHT_INLINE static BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                            const BsdfPoints& u) {
     return Bsdf::Sample(material, wo, u);
   }
   template <class Bsdf>
-  LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3, V3, VF material_pdf) const {
+  LANELIGHT_INLINE static VF Pdf(V3, V3, VF material_pdf) {
     return material_pdf;
   }
 };

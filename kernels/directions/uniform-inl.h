@@ -14,7 +14,6 @@
 
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
-#include "src/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -39,12 +38,10 @@ EvaluateUniformDirection(const typename Bsdf::Params& material, V3 wo, VF u0, VF
 
 /// A proposal as in material-inl.h.
 struct UniformProposal {
-  static constexpr bool kScales = false;
   static constexpr bool kIsUniform = true;
-  LANELIGHT_INLINE UniformProposal(const Wave&, const Frame&, const Slots&) {}
   template <class Bsdf>
-  LANELIGHT_INLINE BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
-                                     const BsdfPoints& u) const {
+  LANELIGHT_INLINE static BsdfSample Sample(const typename Bsdf::Params& material, V3 wo,
+                                            const BsdfPoints& u) {
     if constexpr (!Bsdf::kHasDelta) {
       return EvaluateUniformDirection<Bsdf>(material, wo, u.u0, u.u1);
     } else {
@@ -61,7 +58,7 @@ struct UniformProposal {
     }
   }
   template <class Bsdf>
-  LANELIGHT_INLINE VF Pdf(const typename Bsdf::Params&, V3 wo, V3 wi, VF) const {
+  LANELIGHT_INLINE static VF Pdf(V3 wo, V3 wi, VF) {
     const VF pdf = PdfUniformHemisphere();
     if constexpr (Bsdf::kTransmits) return hn::Mul(pdf, Splat(0.5f));
     return hn::IfThenElseZero(SameSide(wo, wi), pdf);

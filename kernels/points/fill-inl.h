@@ -135,9 +135,6 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
           Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette,
                                      nullptr);
         }
-        if (p.u_guide != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kGuide, p.u_guide, nullptr);
-        }
         if (p.u_shadow != nullptr) {
           Draw<Policy, kPlain, true>(run, drawer, Dimension::kShadow, p.u_shadow,
                                      nullptr);

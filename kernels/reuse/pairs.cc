@@ -10,9 +10,9 @@
 //               squared, p_k in area measure at y, V whether x and y see each other:
 //               one sample of each of N techniques by the balance heuristic
 //               of a glossy y more than that: kernels/reuse/glossy.cc
-//   density     what material, mixture with a guide, or uniform directions say; less the
-//               probability of a mirror's lobe. A path that finds y by such a lobe, or no
-//               y at all, offers nothing. Roulette is not played between x and y
+//   density     what material or uniform directions say; less the probability of a
+//               mirror's lobe. A path that finds y by such a lobe, or no y at all, offers
+//               nothing. Roulette is not played between x and y
 //   partition   y seen on its other side, by geometric or shading normal, is another
 //               point; paths whose first vertices come after different numbers of events
 //               are apart, as their suffixes may be cut at different lengths
@@ -81,7 +81,6 @@ struct Receivers {
   VI depth;
   Frame frame;
   typename Bsdf::Params material;
-  Proposal proposal;
 
   HWY_INLINE Receivers(const SurfaceReader<Bsdf>& from, VI slots)
       : reader(from),
@@ -92,8 +91,7 @@ struct Receivers {
         p_error(Gather(path().p_error, records)),
         depth(Gather(path().depth, records)),
         frame(reader.ShadingFrame(ng, records)),
-        material(Bsdf::Load(reader.Inputs(records))),
-        proposal(reader.wave, frame, records) {
+        material(Bsdf::Load(reader.Inputs(records))) {
     wo = frame.ToLocal(-Gather3(path().d_x, path().d_y, path().d_z, records));
   }
   HWY_INLINE const PathColumns& path() const { return reader.wave.path; }
@@ -102,7 +100,7 @@ struct Receivers {
   HWY_INLINE BsdfValue Value(V3 wi) const {
     const V3 local = frame.ToLocal(wi);
     const BsdfValue value = Bsdf::Eval(material, wo, local);
-    VF pdf = proposal.template Pdf<Bsdf>(material, wo, local, value.pdf);
+    VF pdf = Proposal::template Pdf<Bsdf>(wo, local, value.pdf);
     // A coin decides between mirrors and uniform directions (directions/uniform-inl.h).
     if constexpr (Bsdf::kHasDelta && Proposal::kIsUniform) {
       pdf = hn::Mul(pdf, Splat(0.5f));
@@ -224,9 +222,6 @@ Stage ReusePairsStage() {
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {
-            if (features.Has(Feature::kGuided)) {
-              return ConnectPairs<GuidedProposal>;
-            }
             return features.Has(Feature::kUniformDirections)
                        ? ConnectPairs<UniformProposal>
                        : ConnectPairs<MaterialProposal>;

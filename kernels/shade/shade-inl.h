@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "kernels/directions/guided-inl.h"
 #include "kernels/directions/lighting-inl.h"
 #include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
@@ -140,15 +139,15 @@ struct Shader : SurfaceReader<Bsdf> {
   HWY_INLINE explicit Shader(Wave& w) : SurfaceReader<Bsdf>(w) {}
 
   /// Next-event estimation: what the sampled light would add if nothing is in between.
-  HWY_INLINE void SampleLight(const Material& material, const Proposal& proposal,
-                              const ShadedPoint& at, const StoreSlots& slots, MF valid) {
+  HWY_INLINE void SampleLight(const Material& material, const ShadedPoint& at,
+                              const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 light = Gather3(path.ls_r, path.ls_g, path.ls_b, slots);
     const V3 wi = at.frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
     const BsdfValue value = Bsdf::Eval(material, at.wo, wi);
     V3 carried = Mul(Mul(at.beta, value.f_cos), light);
     if constexpr (Lighting::kWeighs) {
-      const VF pdf = proposal.template Pdf<Bsdf>(material, at.wo, wi, value.pdf);
+      const VF pdf = Proposal::template Pdf<Bsdf>(at.wo, wi, value.pdf);
       carried =
           Mul(carried, Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
@@ -157,13 +156,13 @@ struct Shader : SurfaceReader<Bsdf> {
   }
 
   /// Scatters the path: new ray, throughput and density; returns the paths that go on.
-  HWY_INLINE MF Bounce(const Material& material, const Proposal& proposal,
-                       const ShadedPoint& at, const StoreSlots& slots) {
+  HWY_INLINE MF Bounce(const Material& material, const ShadedPoint& at,
+                       const StoreSlots& slots) {
     const PathColumns& path = wave.path;
     BsdfPoints u = {hn::Zero(DF()), Gather(path.u_bsdf_0, slots),
                     Gather(path.u_bsdf_1, slots)};
     if (path.u_lobe != nullptr) u.lobe = Gather(path.u_lobe, slots);
-    const BsdfSample sample = proposal.template Sample<Bsdf>(material, at.wo, u);
+    const BsdfSample sample = Proposal::template Sample<Bsdf>(material, at.wo, u);
     const V3 d = Renormalize(at.frame.FromLocal(sample.wi));
     const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     const V3 o = OffsetOrigin(p, at.ng, Gather(path.p_error, slots), d);
@@ -173,7 +172,7 @@ struct Shader : SurfaceReader<Bsdf> {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
     }
-    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or somebody keeps records
+    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or somebody else asks
       Scatter(sample.pdf, path.bsdf_pdf, slots);
     }
     if constexpr (Lighting::kWeighs && !Bsdf::kSpecular) {
@@ -190,7 +189,7 @@ struct Shader : SurfaceReader<Bsdf> {
     Scatter3(d, path.d_x, path.d_y, path.d_z, slots);
     Scatter3(carried, path.beta_r, path.beta_g, path.beta_b, slots);
     Scatter(Splat(std::numeric_limits<float>::infinity()), path.t, slots);
-    if constexpr (Bsdf::kRefracts || Proposal::kScales) {
+    if constexpr (Bsdf::kRefracts) {
       Scatter(hn::Mul(Gather(path.eta_scale, slots), sample.eta_scale), path.eta_scale,
               slots);
     }
@@ -206,12 +205,11 @@ struct Shader : SurfaceReader<Bsdf> {
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const Material material = Bsdf::Load(this->Inputs(slots));
-    const Proposal proposal(wave, frame, slots);
     const ShadedPoint at = {frame, wo, ng, beta};
     if constexpr (!Bsdf::kSpecular) {
-      if (path.sh_r != nullptr) SampleLight(material, proposal, at, slots, valid);
+      if (path.sh_r != nullptr) SampleLight(material, at, slots, valid);
     }
-    const MF alive = Bounce(material, proposal, at, slots);
+    const MF alive = Bounce(material, at, slots);
     Push(wave.queue(QueueId::kScattered), slots, hn::And(valid, alive));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(alive, valid));
   }
@@ -228,7 +226,7 @@ void ShadeKernel(Wave& wave) {
 
 /// The kernel of this target for the features of a scene. Only the pairs of policies that
 /// a plan can need are instantiated: uniform directions take light samples of what no ray
-/// can hit, and nothing to weigh them against; a guide has nothing to say to mirrors.
+/// can hit, and nothing to weigh them against.
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
@@ -236,13 +234,6 @@ StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kWalks) == Bsdf::kStochastic);
   static_assert(HasTrait(kKind, kEvenSides) == Bsdf::kEvenSides);
   static_assert(HasTrait(kKind, kFibre) == Bsdf::kFibre);
-  if constexpr (!Bsdf::kSpecular) {
-    if (features.Has(Feature::kGuided)) {
-      return features.Has(Feature::kMis)
-                 ? ShadeKernel<Bsdf, kKind, GuidedProposal, MisLighting>
-                 : ShadeKernel<Bsdf, kKind, GuidedProposal, UnweightedLighting>;
-    }
-  }
   if (features.Has(Feature::kMis)) {
     return ShadeKernel<Bsdf, kKind, MaterialProposal, MisLighting>;
   }
@@ -258,8 +249,7 @@ StageFn ResolveShade(const FeatureSet& features) {
 template <class Bsdf, ShadeKind kKind>
 Stage ShadeStage(const char* name, const char* meaning) {
   using namespace fields;
-  const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1,
-                           Field::u_guide};
+  const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
   // Who the path is: its random walks inside a coat have numbers of their own.
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth,
                              Field::material};
@@ -272,8 +262,8 @@ Stage ShadeStage(const char* name, const char* meaning) {
           .input = ShadeQueue(kKind),
           .needs = {ShadeFeature(kKind), Feature::kScatters},
           .reads = identity | direction | kThroughput | kPoint | kNormal | kTangent |
-                   kParameters | points | kGuideProposal | kLightSample | across |
-                   spectra | FieldSet{Field::eta_scale},
+                   kParameters | points | kLightSample | across | spectra |
+                   FieldSet{Field::eta_scale},
           .writes = kRay | kThroughput | kShadow | kStartNormal | history,
           .resolve = ResolveShade<Bsdf, kKind>};
 }

@@ -148,8 +148,8 @@ class Adviser {
     return true;
   }
 
-  // Roulette and guiding are changes of the plan, which is what a pair is known by
-  // (StrategyTrial); all else is prepared with the scene.
+  // Roulette is a change of the plan, which is what a pair is known by (StrategyTrial);
+  // all else is prepared with the scene.
   PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
     Strategy prepared = candidate.strategy;
     const Strategy usual;
@@ -158,7 +158,6 @@ class Adviser {
     prepared.floor = usual.floor;
     prepared.first = usual.first;
     prepared.scale = usual.scale;
-    prepared.guiding = usual.guiding;
     return WithStrategy(job_.scene, prepared);
   }
 

@@ -38,9 +38,8 @@ struct Advice {
 
 /// What changes it tries, beside the scene's own strategy.
 inline constexpr const char* kTriedByAdvice =
-    "roulette, light selection and path reuse; not samplers, guiding or other keys, "
-    "which "
-    "`lanelight study` compares";
+    "roulette, light selection and path reuse; not samplers or other keys, "
+    "which `lanelight study` compares";
 
 /// An efficiency of which a trial has seen too little to state an interval: its ends are
 /// more than kMostUncertain apart.

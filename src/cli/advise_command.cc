@@ -129,7 +129,7 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   AddSceneOptions(*command, options->scene);
   command->footer(
       "\nTries the scene's own strategy (or --strategy), and changes of the default in\n"
-      "roulette, light selection and path reuse; not samplers, guiding or other keys,\n"
+      "roulette, light selection and path reuse; not samplers or other keys,\n"
       "which `lanelight study` compares. All are tried on the same pixels, by variance\n"
       "times counted work: the same advice each time, for a scene, its settings and\n"
       "--seed. What is not clearly better is not advised. Without -o only the advice is\n"

@@ -196,7 +196,7 @@ void AddCompareCommand(CLI::App& root, Command& chosen) {
       "docs/compare.md says what all measures mean.\n"
       "\nExamples:\n"
       "  lanelight compare box.exr converged.exr --reference --max-relmse 0.01\n"
-      "  lanelight compare mis.exr guided.exr converged.exr --html compare.html");
+      "  lanelight compare mis.exr resampled.exr converged.exr --html compare.html");
   command->callback(
       [options, &chosen] { chosen = [options] { return Compare(*options); }; });
 }

@@ -65,9 +65,8 @@ inline FieldSet FirstVertexFields(bool fibres, bool measured) {
   return (fibres ? FieldSet{Field::uv_v} : FieldSet{}) |
          (measured ? FieldSet{Field::wavelength} : FieldSet{}) | kThroughput | kPoint |
          kNormal | kTangent | kParameters |
-         FieldSet{Field::pixel, Field::sample,   Field::depth,
-                  Field::d_x,   Field::d_y,      Field::d_z,
-                  Field::prim,  Field::material, Field::guide_cell};
+         FieldSet{Field::pixel, Field::sample, Field::depth, Field::d_x,
+                  Field::d_y,   Field::d_z,    Field::prim,  Field::material};
 }
 
 /// What is kept of a second vertex that is glossy, of what there is: of its material.

@@ -41,8 +41,6 @@ constexpr FeatureSet Union(FeatureSet a, FeatureSet b) {
   Union(LANELIGHT_OWN_##own(k##name##ShadowRoulette), FeatureSet also),
 #define LANELIGHT_ROW_OF_Distances(name, own, also, ...) \
   Union(LANELIGHT_OWN_##own(k##name##Distances), FeatureSet also),
-#define LANELIGHT_ROW_OF_Guiding(name, own, also, ...) \
-  Union(LANELIGHT_OWN_##own(k##name##Guiding), FeatureSet also),
 #define LANELIGHT_ROW_OF_Reuse(name, own, also, ...) \
   Union(LANELIGHT_OWN_##own(k##name##Reuse), FeatureSet also),
 #define LANELIGHT_ROW_OF_Decide(name, own, also, ...) \
@@ -58,7 +56,6 @@ LANELIGHT_TURNS_ON(LightPoints, LANELIGHT_LIGHT_POINTS)
 LANELIGHT_TURNS_ON(LightCandidates, LANELIGHT_LIGHT_CANDIDATE_CHOICES)
 LANELIGHT_TURNS_ON(ShadowRoulette, LANELIGHT_SHADOW_ROULETTES)
 LANELIGHT_TURNS_ON(Distances, LANELIGHT_DISTANCES)
-LANELIGHT_TURNS_ON(Guiding, LANELIGHT_GUIDINGS)
 LANELIGHT_TURNS_ON(Reuse, LANELIGHT_REUSES)
 LANELIGHT_TURNS_ON(Decide, LANELIGHT_DECISIONS)
 

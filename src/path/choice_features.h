@@ -17,7 +17,6 @@ FeatureSet TurnsOn(LightPoints choice);
 FeatureSet TurnsOn(LightCandidates choice);
 FeatureSet TurnsOn(ShadowRoulette choice);
 FeatureSet TurnsOn(Distances choice);
-FeatureSet TurnsOn(Guiding choice);
 FeatureSet TurnsOn(Reuse choice);
 FeatureSet TurnsOn(Decide choice);
 

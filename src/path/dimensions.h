@@ -19,9 +19,9 @@ enum class Dimension : std::uint32_t {
   kTime = 3,          // 1: when the shutter is open
   kWavelength = 4,    // 1: wavelengths of the path
   // 8 to 15: where a path goes
-  kBsdf = 8,     // 2: direction
-  kLobe = 9,     // 1: choice of lobe
-  kGuide = 10,   // 1: choice between guide and material
+  kBsdf = 8,  // 2: direction
+  kLobe = 9,  // 1: choice of lobe
+  // 10: free
   kMedium = 11,  // 2: distance in a medium, choice of channel
   // 16 to 23: light samples
   kLight = 16,      // 2: point on the light

@@ -95,11 +95,9 @@ namespace lanelight {
   X(kProjectedLights, "light-points=projected")                              \
   X(kProjectedHits, "light-points=projected, and hits weighed against it")   \
   X(kLightCandidates, "further candidates for each light sample")            \
-  X(kGuided, "a guide that proposes directions, from training passes")       \
   X(kReuse, "paths that serve the pixels of their block (reuse=block)")      \
   X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
   X(kDecides, "a strategy chosen by a pilot")                                \
-  X(kRecordsGuide, "a training pass that records what a guide learns from")  \
   X(kRecordsUnsplit, "a training pass that records what single paths bring")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.

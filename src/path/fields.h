@@ -66,9 +66,9 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, wavelength, ({kSpectral}), kPath, (), "number that chose the wavelengths of the path; below 0, or -0: glass has left one (src/compiled/spectra.h)") \
   X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular, and surfaces are rougher from there on") \
-  X(f32, bsdf_pdf, ({kMis, kRecordsGuide, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  X(f32, bsdf_pdf, ({kMis, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
-  X(f32, eta_scale, ({kRefraction, kGuided, kReuse}), kPath, (1.0f), "product of eta^2 of refractions, and of densities over the material's: undone by roulette") \
+  X(f32, eta_scale, ({kRefraction, kReuse}), kPath, (1.0f), "product of eta^2 of refractions: undone by roulette") \
   X(u32, reuse, ({kReuse}), kPath, (0u), "how far the path has come: ReuseState (src/path/block.h)") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
@@ -108,12 +108,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, u_select, ({kManyLights}), kBounce, (), "choice of light")                     \
   LANELIGHT_2(X, f32, u_light, ({kLights}), kBounce, (), "point on the light")          \
   X(f32, u_roulette, ({kRoulette}), kBounce, (), "survival")                            \
-  X(f32, u_guide, ({kGuided}), kBounce, (), "choice between guide and material")        \
   X(f32, u_shadow, ({kContributionShadowRoulette}), kBounce, (), "whether the shadow ray is traced") \
-  /* guide (src/prepare/guide.h) */                                                       \
-  X(u32, guide_cell, ({kGuided}), kBounce, (), "cell of the guide at the hit point")    \
-  LANELIGHT_XYZ(X, f32, guide, ({kGuided}), kBounce, (), "direction that the guide proposes, unit, scene") \
-  X(f32, guide_pdf, ({kGuided}), kBounce, (), "pdf_sa of that direction, by the guide alone") \
   /* media (src/compiled/media.h) */                                                      \
   X(u32, medium, ({kMedia}), kPath, (), "medium that the ray is in; 0xffffffff = none")  \
   LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
@@ -167,15 +162,6 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, decided_at, ({kRecordsUnsplit}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
   X(f32, unsplit, ({kRecordsUnsplit}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
   X(f32, unsplit_l, ({kRecordsUnsplit}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
-  /* training pass of a guide: the first rays of a path that scattered, by number */      \
-  LANELIGHT_4(X, f32, from_x, ({kRecordsGuide}), kPath, (0.0f), "where ray 0, 1, 2, 3 starts") \
-  LANELIGHT_4(X, f32, from_y, ({kRecordsGuide}), kPath, (0.0f), "where it starts")        \
-  LANELIGHT_4(X, f32, from_z, ({kRecordsGuide}), kPath, (0.0f), "where it starts")        \
-  LANELIGHT_4(X, u32, from_n, ({kRecordsGuide}), kPath, (0u), "normal there, on the side that the path sees: octahedral, 16 bits each") \
-  LANELIGHT_4(X, u32, toward, ({kRecordsGuide}), kPath, (0u), "direction of the ray, likewise") \
-  LANELIGHT_4(X, f32, sent_pdf, ({kRecordsGuide}), kPath, (0.0f), "pdf_sa of the ray; 0 = specular, or no such ray") \
-  LANELIGHT_4(X, f32, sent, ({kRecordsGuide}), kPath, (0.0f), "brightness of the throughput of the ray") \
-  LANELIGHT_4(X, f32, before, ({kRecordsGuide}), kPath, (0.0f), "brightness gathered before it") \
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \
   LANELIGHT_XYZ(X, f32, aov_n, ({kAov}), kPath, (0.0f), "shading normal")                 \
@@ -295,9 +281,9 @@ inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
                                          Field::coat_albedo_g,  Field::coat_albedo_b,
                                          Field::coat_g,         Field::eta};
 inline constexpr FieldSet kBouncePoints = {
-    Field::u_lobe,    Field::u_bsdf_0,    Field::u_bsdf_1,   Field::u_select,
-    Field::u_light_0, Field::u_light_1,   Field::u_roulette, Field::u_guide,
-    Field::u_shadow,  Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
+    Field::u_lobe,      Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
+    Field::u_light_0,   Field::u_light_1,  Field::u_roulette, Field::u_shadow,
+    Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
 /// Of the rest of a shadow ray that goes through interfaces.
 inline constexpr FieldSet kShadowRest = {
     Field::sh_o_x,  Field::sh_o_y,      Field::sh_o_z,     Field::sh_n_x,  Field::sh_n_y,
@@ -307,8 +293,6 @@ inline constexpr FieldSet kShadowRest = {
 inline constexpr FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Field::ls_z,
                                           Field::ls_distance, Field::ls_r,  Field::ls_g,
                                           Field::ls_b,        Field::ls_pdf};
-inline constexpr FieldSet kGuideProposal = {
-    Field::guide_cell, Field::guide_x, Field::guide_y, Field::guide_z, Field::guide_pdf};
 inline constexpr FieldSet kKeptSample = {
     Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
     Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,

@@ -118,13 +118,6 @@ void NotePaths(const Checked& c) {
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
     c.Note("decide=pilot", ": with reuse=block asked for it tries nothing else");
   }
-  if (s.guiding == Guiding::kNone) return;
-  const std::string guiding = std::string("guiding=") + Name(s.guiding);
-  if (s.directions == Directions::kUniform) {
-    c.Note(guiding, ": directions=uniform asks nobody");
-  } else if (!c.plan.Has(Feature::kGuided)) {
-    c.Note(guiding, ": nothing scatters, or mirrors and clear glass alone");
-  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct PlanOptions {
   /// that its samples depend on each other as those of a render do.
   bool own_points = false;
   /// Instead of the scene's: what a training tries, or has found to be better (roulette,
-  /// guiding, decide).
+  /// reuse, decide).
   std::optional<Strategy> strategy;
 };
 

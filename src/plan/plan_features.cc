@@ -24,16 +24,6 @@ void RemoveScattering(FeatureSet& f) {
             Feature::kDispersion});
 }
 
-// A surface follows directions that are not its own choice.
-bool CanGuide(const Strategy& strategy, const FeatureSet& f) {
-  FeatureSet kinds;
-  for (int k = 0; k < kNumShadeKinds; ++k) {
-    const auto kind = static_cast<ShadeKind>(k);
-    if (!HasTrait(kind, kSpecularOnly)) kinds.Add(ShadeFeature(kind));
-  }
-  return strategy.directions != Directions::kUniform && f.HasAny(kinds);
-}
-
 bool HasAnyOf(const FeatureSet& f, std::uint32_t shade_kinds) {
   FeatureSet kinds;
   for (int k = 0; k < kNumShadeKinds; ++k) {
@@ -113,7 +103,6 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
       f.Add(Feature::kOpaqueShadows);
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
-    if (CanGuide(strategy, f)) f.Add(TurnsOn(strategy.guiding));
     AddReuse(strategy, options, f);
     // What it compares serves no other pixels.
     if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));

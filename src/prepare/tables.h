@@ -3,7 +3,6 @@
 
 #include "src/core/aligned.h"
 #include "src/prepare/prepared_scene.h"
-#include "src/prepare/guide.h"
 #include "src/prepare/path_values.h"
 #include "src/prepare/shadow_worth.h"
 
@@ -11,7 +10,6 @@ namespace lanelight {
 
 struct StrategyTables {
   PathValues path_values;    // adjoint, efficiency: set by the pilot passes
-  Guide guide;               // guiding=radiance: knows nothing until trained
   ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a pilot pass
 };
 

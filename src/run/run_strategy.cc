@@ -58,7 +58,6 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
   TrainingOptions options;
   options.planned_samples = planned;
   options.keep_roulette = options_.keep_roulette;
-  if (options_.spp == 0 && !options_.samples_needed) options.seconds = options_.seconds;
   const bool together = group.ranks() > 1;
   options.stop = together ? ranks.stop() : options_.stop;
   options.ranks = together ? &ranks : nullptr;

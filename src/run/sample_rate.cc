@@ -17,8 +17,8 @@ constexpr std::uint64_t kSamples = 2048;
 
 std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
   // What has learned nothing yet cannot be rendered with.
-  pass.options = WithChanges(pass.scene, std::move(pass.options),
-                             "roulette=throughput,guiding=none,decide=none");
+  pass.options =
+      WithChanges(pass.scene, std::move(pass.options), "roulette=throughput,decide=none");
   const TrainingWork work = MakeTrainingWork(pass.scene, kSamples, 16);
   double rate = INFINITY;
   // The first pass warms up: memory is touched, code and scene are read. Of the others

@@ -120,11 +120,6 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
     "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
 
-#define LANELIGHT_GUIDINGS(X)                                                             \
-  X(None, PLAIN, ({}), "none", "", "directions by the material alone (default)", "f / p", "") \
-  X(Radiance, PLAIN, ({kGuided}), "radiance", "", "directions by the material or by the incident radiance that training passes have found; pilot passes", \
-    "f / (c p_guide + (1 - c) p_material)", "Vorba et al. 2014; Mueller, Gross and Novak 2017")
-
 #define LANELIGHT_REUSES(X)                                                               \
   X(None, PLAIN, ({}), "none", "", "a path serves its own pixel (default)", "f L / p", "") \
   X(Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile serve all their first ones", \
@@ -165,7 +160,6 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(EnvironmentPoints, environment, "environment", LANELIGHT_ENVIRONMENT_CHOICES)   \
   X(ShadowRoulette, shadow_roulette, "shadow-roulette", LANELIGHT_SHADOW_ROULETTES) \
   X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
-  X(Guiding, guiding, "guiding", LANELIGHT_GUIDINGS)                                \
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
   X(Decide, decide, "decide", LANELIGHT_DECISIONS)
 

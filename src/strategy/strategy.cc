@@ -61,8 +61,8 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.seen_lights));
   return text + LightText(s) +
-         fmt::format(",distances={},guiding={},reuse={},decide={}", Name(s.distances),
-                     Name(s.guiding), ReuseText(s), Name(s.decide));
+         fmt::format(",distances={},reuse={},decide={}", Name(s.distances), ReuseText(s),
+                     Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() {

@@ -47,7 +47,6 @@ struct Strategy {
   ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
   std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
   Distances distances = Distances::kExponential;
-  Guiding guiding = Guiding::kNone;
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
   BlockLayout block_layout = BlockLayout::kRandom;   // of kBlock

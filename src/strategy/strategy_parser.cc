@@ -24,8 +24,7 @@ constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
     "light-candidates=single,environment=plain,shadow-roulette=none,"
-    "distances=exponential,guiding=none,"
-    "reuse=none,decide=none";
+    "distances=exponential,reuse=none,decide=none";
 
 // Changes a strategy as a text says.
 class Parser {

@@ -79,9 +79,4 @@ void RankPasses::Exchange(const std::vector<std::size_t>& begins,
   if (sum.stopped > 0) stop_ = true;
 }
 
-std::uint64_t RankPasses::LeadersOf(std::uint64_t number) {
-  group_.Broadcast({reinterpret_cast<char*>(&number), sizeof(number)});
-  return number;
-}
-
 }  // namespace lanelight

@@ -32,8 +32,6 @@ class RankPasses {
   /// Collective: samples of all tasks, of which each rank has its own. Task t has those
   /// from begins[t] to begins[t + 1].
   void Exchange(const std::vector<std::size_t>& begins, TrainingSamples& samples);
-  /// Collective: what the leader says, who alone looks at the clock.
-  std::uint64_t LeadersOf(std::uint64_t number);
 
  private:
   struct Head;

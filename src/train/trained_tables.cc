@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "src/core/error.h"
-#include "src/train/guide_tables.h"
 
 namespace lanelight {
 namespace {
@@ -47,7 +45,6 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
          "inverse worth of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
   }
-  for (TrainedTable& table : TakeGuide(tables.guide)) trained.push_back(std::move(table));
   return trained;
 }
 
@@ -126,10 +123,6 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
 void PutTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
                  StrategyTables& tables) {
   PutPathValues(trained, pixels, tables.path_values);
-  // A pilot may have decided on a guide that the scene's strategy does not ask for.
-  if (!tables.guide.nodes.empty() || HasTable(trained, "guide_at")) {
-    PutGuide(trained, tables.guide);
-  }
   if (!HasTable(trained, kShadowWorth)) return;
   const std::vector<double>& shadow = TableOf(trained, kShadowWorth);
   CheckPixels(kShadowWorth, shadow.size(), pixels);
@@ -144,7 +137,6 @@ void CheckTrained(const Plan& plan, const StrategyTables& tables) {
   };
   check(Feature::kPathValues, tables.path_values.survive.empty(), kSurvive);
   check(Feature::kEfficiencyRoulette, tables.path_values.split.empty(), kSplit);
-  check(Feature::kGuided, tables.guide.nodes.empty(), "guide_at");
 }
 
 }  // namespace lanelight

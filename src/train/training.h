@@ -20,7 +20,6 @@ class RankPasses;  // src/train/rank_passes.h
 
 struct TrainingOptions {
   std::uint64_t planned_samples = 0;  // of the image
-  double seconds = 0;                 // that the run may take; 0: samples decide
   bool keep_roulette = false;         // even where another would be more efficient
   const std::atomic<bool>* stop = nullptr;
   RankPasses* ranks = nullptr;  // that train together (src/train/rank_passes.h)
@@ -42,12 +41,10 @@ struct TrainingContext {
   StrategyTables& tables;  // to be filled
 };
 
-// X(name, feature that asks for it), in the order in which they run: path values are
-// those of guided paths. Each is a function Train<name> in a file of its own. With
-// kDecides TrainDecision runs instead, which trains what it compares, and what it has
-// chosen.
+// X(name, feature that asks for it), in the order in which they run. Each is a function
+// Train<name> in a file of its own. With kDecides TrainDecision runs instead, which
+// trains what it compares, and what it has chosen.
 #define LANELIGHT_TRAININGS(X) \
-  X(Guide, kGuided)            \
   X(PathValues, kPathValues)   \
   X(ShadowWorth, kContributionShadowRoulette)
 

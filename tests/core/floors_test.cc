@@ -47,7 +47,6 @@ constexpr Floor kFloors[] = {
     {"kernels/surface",    "where a ray hit"},
     {"kernels/sort",       "paths into queues"},
     {"kernels/bsdf",       "materials, as policies"},
-    {"kernels/guide",      "where light comes from, as learned"},
     {"kernels/directions", "the next direction, and its weight"},
     {"kernels/lights",     "light samples, emission"},
     {"kernels/media",      "participating media"},

@@ -17,7 +17,7 @@ constexpr const char* kStrategies[] = {
     "directions=bsdf,seen-lights=paths",
     "light-points=solid-angle,light-candidates=resampled:4",
     "light-points=projected,directions=light",
-    "guiding=radiance,environment=compensated"};
+    "environment=compensated"};
 
 }  // namespace
 
@@ -25,7 +25,6 @@ stat::ImageEstimate RenderBy(const SceneDescription& scene, const char* strategy
   TestRender options;
   options.spp = 2048;
   options.strategy = strategy;
-  options.planned_samples = 4096;
   const Rendered render = RenderDescription(scene, options);
   CHECK(render.result.health.Total() == 0);
   return Estimate(render);

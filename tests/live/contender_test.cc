@@ -58,7 +58,7 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
   const std::atomic<bool> never{false};
   for (const char* changes :
        {"points=sobol", "pairs=antithetic,points=independent", "control=regression",
-        "guiding=radiance", "reuse=block", "roulette=efficiency"}) {
+        "reuse=block", "roulette=efficiency"}) {
     INFO(changes);
     const Strategy strategy = ChangedStrategy(changes);
     Contender contender(stage, MakeView(stage, stage.eye, 1), strategy);

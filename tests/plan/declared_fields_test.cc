@@ -48,8 +48,7 @@ class Checker {
     if (c.records && s.Splits()) {
       options.training = FeatureSet{Feature::kRecordsUnsplit};
     } else if (c.records) {
-      options.training = FeatureSet{Feature::kRecordsPaths, Feature::kRecordsGuide,
-                                    Feature::kOtherEvents};
+      options.training = FeatureSet{Feature::kRecordsPaths, Feature::kOtherEvents};
       options = WithChanges(scene_, options, "roulette=throughput");
     }
     plan_ = MakePlan(scene_, options);
@@ -246,7 +245,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol,reuse=block"},
-      {kAllStagesScene, "points=sobol,guiding=radiance", true},
+      {kAllStagesScene, "points=sobol", true},
       {kAllStagesScene, "roulette=adjoint", true},
       {kOtherStagesScene, "points=sobol"},
       {kOtherStagesScene, "directions=bsdf,pairs=antithetic"},

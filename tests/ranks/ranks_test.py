@@ -18,7 +18,7 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic",
-              "control=regression", "roulette=adjoint", "decide=pilot", "guiding=radiance"]
+              "control=regression", "roulette=adjoint", "decide=pilot"]
 INTERRUPTED = 6
 
 

@@ -57,7 +57,7 @@ TEST_CASE("two jobs of a scene render at the same time as one after the other",
   for (const Pair& pair :
        {Pair{"many-lights.pbrt", "light-selection=tree", "light-selection=uniform"},
         Pair{"sun-sky.pbrt", "environment=compensated", "directions=bsdf"},
-        Pair{"media.pbrt", "distances=equiangular", "guiding=radiance"}}) {
+        Pair{"media.pbrt", "distances=equiangular", "roulette=adjoint"}}) {
     INFO(pair.scene);
     const Job scene = SceneJob(pair.scene);
     const Job one = With(scene, pair.one), other = With(scene, pair.other);

@@ -25,7 +25,7 @@ std::map<std::string, std::string> OtherTexts() {
           {"crop", "1,2,30,40"},
           {"aov", "true"},
           {"gbuffer", "world"},
-          {"strategy", "roulette=none,guiding=none"},
+          {"strategy", "roulette=none,reuse=none"},
           {"sampler", "cmj"},
           {"transport", "spectral"},
           {"max-depth", "0"},

@@ -47,7 +47,6 @@ TEST_CASE("every proposal of directions finds second vertices as it says", "[reu
   CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:8");
   CheckSame(uniform, "points=sobol,directions=bsdf", "reuse=block:8");
   CheckSame(Room(), "points=sobol,directions=light", "reuse=block:8");
-  CheckSame(Room(), "points=sobol,guiding=radiance", "reuse=block:8");
   CheckSame(Room(), "points=sobol,light-candidates=resampled", "reuse=block:8");
 }
 

@@ -65,7 +65,8 @@ TEST_CASE("spectral reuse: blocks share the light of paths alone", "[reuse][spec
   CheckSame(SaturatedRoom(), "points=sobol", "reuse=block:16");
   CheckSame(SaturatedRoom(), "points=independent", "reuse=block:64");
   CheckSame(SaturatedRoom(), "points=halton,pairs=antithetic", "reuse=block:4:compact");
-  CheckSame(SaturatedRoom(), "points=sobol,guiding=radiance", "reuse=block:32:apart");
+  CheckSame(SaturatedRoom(), "points=sobol,light-candidates=resampled",
+            "reuse=block:32:apart");
 }
 
 TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {

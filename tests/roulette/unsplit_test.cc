@@ -6,8 +6,10 @@
 #include "src/plan/plan_features.h"
 #include "src/stat/hypothesis.h"
 #include "src/train/path_records.h"
+#include "src/train/training.h"
+#include "src/train/training_pass.h"
 #include "src/train/unsplit_variances.h"
-#include "tests/guide/prepared.h"
+#include "tests/reference/scenes.h"
 
 namespace lanelight::test {
 namespace {
@@ -32,6 +34,28 @@ SceneDescription TwoRooms(bool glass) {
 
 constexpr std::uint64_t kSamples = 1u << 17;
 
+// A scene with roulette=adjoint, and what its training finds.
+struct Prepared {
+  explicit Prepared(const SceneDescription& description)
+      : scene(PrepareScene(description, {})) {
+    Strategy s = scene.strategy;
+    ApplyStrategy("points=independent,roulette=adjoint", {}, s);
+    scene = WithStrategy(scene, s);
+    PlanOptions options;
+    options.max_depth = static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
+    plan = MakePlan(scene, options);
+    tables = MakeStrategyTables(scene);
+    TrainingOptions training;
+    training.planned_samples = 400'000;
+    Train({scene, plan, kSeed, training, tables});
+  }
+
+  static constexpr std::uint32_t kSeed = 11;
+  PreparedScene scene;
+  Plan plan;
+  StrategyTables tables;
+};
+
 double Brightness(const float channel[3], const Vec3f& c) {
   return channel[0] * c.x + channel[1] * c.y + channel[2] * c.z;
 }
@@ -53,7 +77,7 @@ TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
   PlanOptions options =
       WithChanges(room.scene, room.plan.options, std::string("roulette=") + roulette);
   options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
-  return RunTrainingPass({room.scene, options, &room.tables, room.run.seed},
+  return RunTrainingPass({room.scene, options, &room.tables, Prepared::kSeed},
                          MakeTrainingWork(room.scene, kSamples));
 }
 
@@ -79,8 +103,7 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
   // Each comparison of equal means fails by chance once in 100 000 runs.
   constexpr double kFalseAlarm = 1e-5;
   for (const bool glass : {false, true}) {
-    Prepared room(TwoRooms(glass), "roulette=adjoint");
-    room.TrainWith(400'000);
+    const Prepared room(TwoRooms(glass));
     const SplitMoments splits = MomentsOf(room, Pass(room, "adjoint", true));
     const SplitMoments plain = MomentsOf(room, Pass(room, "throughput", false));
     const MeanEstimate said = MeanOf(splits.unsplit), is = MeanOf(plain.own);
@@ -96,8 +119,7 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
 
 TEST_CASE("recording what paths would bring unsplit changes nothing of them",
           "[roulette]") {
-  Prepared room(TwoRooms(true), "roulette=adjoint");
-  room.TrainWith(400'000);
+  const Prepared room(TwoRooms(true));
   const TrainingSamples with = Pass(room, "adjoint", true),
                         without = Pass(room, "adjoint", false);
   CHECK(with.colors == without.colors);

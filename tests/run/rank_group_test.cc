@@ -34,7 +34,7 @@ TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic",
         "points=sobol,control=regression", "points=halton,roulette=adjoint",
-        "points=sobol,decide=pilot", "points=sobol,reuse=block:16", "guiding=radiance",
+        "points=sobol,decide=pilot", "points=sobol,reuse=block:16",
         "shadow-roulette=contribution"}) {
     Request request;
     request.strategy = strategy;

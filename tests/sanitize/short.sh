@@ -58,14 +58,12 @@ for scene in media cloud measured subsurface textured-layers image-lights; do
   render "$scene.pbrt" --resolution 41x33 --spp 3 --transport spectral
 done
 render cornell-box.pbrt --resolution 41x33 --spp 4 --transport spectral \
-  --strategy control=analytic
-render sun-sky.pbrt --resolution 41x33 --spp 4 --transport spectral \
-  --strategy control=ambient
+  --strategy control=regression
 sed 's/^Film "rgb"/Film "spectral"/' prism.pbrt > "$out/spectra.pbrt"
 render "$out/spectra.pbrt" --resolution 41x33 --spp 4
 # Media with what else there is to paths.
-render media.pbrt --resolution 40x30 --spp 4 --strategy guiding=radiance,pairs=antithetic
-# Paths that serve their block: tiles that are cut off, all kinds of materials, a guide.
+render media.pbrt --resolution 40x30 --spp 4 --strategy roulette=adjoint,pairs=antithetic
+# Paths that serve their block: tiles that are cut off, all kinds of materials.
 for layout in random compact apart; do
   render cornell-box.pbrt --resolution 81x61 --spp 5 --strategy "reuse=block:16:$layout"
 done
@@ -73,14 +71,13 @@ for scene in patterns glass textured-layers relief; do
   render "$scene.pbrt" --resolution 41x33 --spp 3 --strategy reuse=block
 done
 render cornell-box.pbrt --resolution 41x33 --spp 4 \
-  --strategy reuse=block,guiding=radiance,directions=mis
+  --strategy reuse=block,directions=mis
 render cornell-box.pbrt --resolution 41x33 --spp 4 --strategy reuse=block,directions=uniform
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
 # What learns before the image.
-for strategy in guiding=radiance guiding=radiance,roulette=adjoint \
-  shadow-roulette=contribution; do
+for strategy in roulette=adjoint shadow-roulette=contribution; do
   render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
 done
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot

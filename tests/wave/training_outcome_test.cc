@@ -7,15 +7,17 @@ namespace lanelight {
 
 TEST_CASE("every training's changes, notes and counts count", "[training]") {
   TrainingOutcome all;
-  TrainingOutcome guide, roulette, nothing;
-  guide.note = "7 cells";
-  guide.samples = 10, guide.rays = 100;
+  TrainingOutcome values, roulette, nothing;
+  values.note = "7 cells";
+  values.samples = 10, values.rays = 100;
   roulette.changes = "roulette=throughput";
   roulette.note = "too few samples";
   roulette.samples = 1, roulette.rays = 2;
   TrainingOutcome blocks;
   blocks.changes = "reuse=none";
-  for (const TrainingOutcome* one : {&guide, &roulette, &nothing, &blocks}) all.Add(*one);
+  for (const TrainingOutcome* one : {&values, &roulette, &nothing, &blocks}) {
+    all.Add(*one);
+  }
   CHECK(all.changes == "roulette=throughput,reuse=none");
   CHECK(all.note == "7 cells; too few samples");
   CHECK(all.samples == 11);

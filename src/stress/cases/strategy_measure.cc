@@ -72,8 +72,7 @@ bool FindsLightsByChance(const std::string& strategy) {
 }
 
 bool HasPilot(const std::string& strategy) {
-  return strategy == "roulette=adjoint" || strategy == "roulette=efficiency" ||
-         strategy == "guiding=radiance";
+  return strategy == "roulette=adjoint" || strategy == "roulette=efficiency";
 }
 
 std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort) {
