@@ -10,7 +10,7 @@ import math
 import random
 
 TILE = 16  # pixels on a side, of an ordinary tile
-TILES_PER_PART = 64  # wanted by src/wave/tiles.cc
+TILES_PER_PART = 64  # wanted by src/render/wave/tiles.cc
 
 
 class Scene:
@@ -46,7 +46,7 @@ class Scene:
     @functools.lru_cache(maxsize=None)
     def parts(self, count):
         """Share of the work of each of `count` parts: DealTiles of
-        src/wave/tiles.cc."""
+        src/render/wave/tiles.cc."""
         side = TILE
         while count > 1 and side > 1 and self.number(side) < TILES_PER_PART * count:
             side //= 2

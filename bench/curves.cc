@@ -12,7 +12,7 @@
 #include <string>
 
 #include "bench/recorded_rays.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/recorded_rays.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 namespace {

@@ -12,8 +12,8 @@
 #include "bench/cpu_clock.h"
 #include "kernels/probe/points_probe.h"
 #include "kernels/simd/target.h"
-#include "src/core/machine_info.h"
-#include "src/strategy/strategy.h"
+#include "src/base/core/machine_info.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::bench {
 namespace {

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "src/core/clock.h"
-#include "src/core/error.h"
-#include "src/core/machine_info.h"
-#include "src/core/parallel.h"
-#include "src/render/job.h"
+#include "src/base/core/clock.h"
+#include "src/base/core/error.h"
+#include "src/base/core/machine_info.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

@@ -13,9 +13,9 @@
 #include "bench/intersect/ray_sets.h"
 #include "bench/series.h"
 #include "kernels/stages.h"
-#include "src/core/error.h"
-#include "src/core/parallel.h"
-#include "src/render/job.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::bench {
 

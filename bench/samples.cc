@@ -10,10 +10,10 @@
 
 #include "bench/resident.h"
 #include "bench/series.h"
-#include "src/core/clock.h"
-#include "src/core/machine_info.h"
-#include "src/core/parallel.h"
-#include "src/render/job.h"
+#include "src/base/core/clock.h"
+#include "src/base/core/machine_info.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::bench {
 namespace {

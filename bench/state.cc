@@ -16,11 +16,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "src/core/clock.h"
-#include "src/core/error.h"
-#include "src/core/machine_info.h"
-#include "src/core/parallel.h"
-#include "src/state/state_file.h"
+#include "src/base/core/clock.h"
+#include "src/base/core/error.h"
+#include "src/base/core/machine_info.h"
+#include "src/base/core/parallel.h"
+#include "src/base/state/state_file.h"
 
 namespace lanelight {
 namespace {

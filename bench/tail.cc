@@ -15,11 +15,11 @@
 #include <stdexcept>
 
 #include "bench/series.h"
-#include "src/core/error.h"
-#include "src/core/parallel.h"
-#include "src/render/job.h"
-#include "src/render/machine_json.h"
-#include "src/wave/tiles.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/wave/tiles.h"
 
 namespace lanelight::bench {
 namespace {

@@ -20,7 +20,7 @@ if(GIT)
 endif()
 
 file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT [[
-#include "src/core/version.h"
+#include "src/base/core/version.h"
 
 namespace lanelight {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hwy/base.h"
-#include "src/accel/accel.h"
-#include "src/compiled/scene.h"
-#include "src/path/stage.h"
-#include "src/prepare/tables.h"
+#include "src/scene/accel/accel.h"
+#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/stage.h"
+#include "src/scene/prepare/tables.h"

@@ -1,10 +1,10 @@
 // The registry of stages: one line each, in the order of execution. The plan keeps those
-// that the scene needs (src/plan/plan.cc). A file in kernels/ with a stage and no
+// that the scene needs (src/render/plan/plan.cc). A file in kernels/ with a stage and no
 // line here fails tests/plan/registry_test.cc; a line without a file fails to link.
 #pragma once
 
 #include "kernels/simd/target.h"
-#include "src/path/stage.h"
+#include "src/vocabulary/path/stage.h"
 
 namespace lanelight {
 

@@ -5,7 +5,7 @@ import typing
 
 SPP, SECONDS = "samples per pixel", "processor time of one render"  # labels of x
 
-# The strategies' colours in the report pages (src/report/page/base.css).
+# The strategies' colours in the report pages (src/measure/report/page/base.css).
 COLORS = ["#0067b1", "#c84c00", "#007a55", "#a6357f", "#7a6200", "#4b3fa8", "#b3202c",
           "#4d5a66"]
 MARKERS = "os^Dv"

@@ -13,13 +13,13 @@
 #include "src/cli/completion.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
-#include "src/core/check.h"
-#include "src/core/error.h"
-#include "src/core/error_text.h"
-#include "src/core/suggest.h"
-#include "src/core/version.h"
-#include "src/ranks/ranks.h"
-#include "src/render/memory.h"
+#include "src/base/core/check.h"
+#include "src/base/core/error.h"
+#include "src/base/core/error_text.h"
+#include "src/base/core/suggest.h"
+#include "src/base/core/version.h"
+#include "src/render/ranks/ranks.h"
+#include "src/render/job/memory.h"
 
 namespace lanelight {
 namespace {

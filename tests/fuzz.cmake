@@ -23,21 +23,21 @@ endif()
 
 # A static library, so that only what the targets use is linked.
 file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
-  ${CMAKE_SOURCE_DIR}/src/core/*.cc ${CMAKE_SOURCE_DIR}/src/parse/*.cc
-  ${CMAKE_SOURCE_DIR}/src/image/*.cc ${CMAKE_SOURCE_DIR}/src/strategy/*.cc
-  ${CMAKE_SOURCE_DIR}/src/path/*.cc ${CMAKE_SOURCE_DIR}/src/compile/medium_*.cc
-  ${CMAKE_SOURCE_DIR}/src/compile/frame.cc
+  ${CMAKE_SOURCE_DIR}/src/base/core/*.cc ${CMAKE_SOURCE_DIR}/src/scene/parse/*.cc
+  ${CMAKE_SOURCE_DIR}/src/base/image/*.cc ${CMAKE_SOURCE_DIR}/src/vocabulary/strategy/*.cc
+  ${CMAKE_SOURCE_DIR}/src/vocabulary/path/*.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/medium_*.cc
+  ${CMAKE_SOURCE_DIR}/src/scene/compile/frame.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/reference/measured.cc)
 # It needs what the build writes of the version.
-list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/core/version.cc)
+list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/base/core/version.cc)
 set(FUZZ_FLAGS -O1 -gline-tables-only -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
 lanelight_unity(lanelight_fuzz_lib ${FUZZ_LIBRARY_SOURCES})
-set_source_files_properties(${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc
-  ${CMAKE_SOURCE_DIR}/src/image/nanovdb_file.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${CMAKE_SOURCE_DIR}/src/base/image/sparse_grid.cc
+  ${CMAKE_SOURCE_DIR}/src/base/image/nanovdb_file.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # It goes over many thousand values of each grid, and would take ten times as long.
-set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/image/sparse_grid.cc APPEND PROPERTY
+set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/base/image/sparse_grid.cc APPEND PROPERTY
   COMPILE_OPTIONS -O2 -fno-sanitize-coverage=trace-cmp)
 target_compile_options(lanelight_fuzz_lib PRIVATE ${FUZZ_FLAGS}
   -fsanitize=fuzzer-no-link,address,undefined)

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/core/error.h"
-#include "src/estimate/estimate.h"
-#include "src/study/options.h"
+#include "src/base/core/error.h"
+#include "src/render/estimate/estimate.h"
+#include "src/measure/study/options.h"
 
 namespace lanelight::bench {
 Calibration::Calibration(const CalibrateOptions& options)

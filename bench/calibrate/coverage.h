@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/stat/interval.h"
+#include "src/base/stat/interval.h"
 
 namespace lanelight::bench {
 

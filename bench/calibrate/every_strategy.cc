@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/calibrate/truth.h"
-#include "src/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::bench {
 namespace {

@@ -9,8 +9,8 @@ namespace lanelight::bench {
 inline constexpr const char* kDefaultName = "default";
 
 /// List 'A;B;...' of the default, every choice of every axis alone (in
-/// src/strategy/choices.h; with each argument that is a choice of its own), and every
-/// preset. What is the default under another name is listed once.
+/// src/vocabulary/strategy/choices.h; with each argument that is a choice of its own),
+/// and every preset. What is the default under another name is listed once.
 std::string EveryStrategy();
 
 }  // namespace lanelight::bench

@@ -24,8 +24,8 @@
 
 #include "bench/calibrate/calibration.h"
 #include "bench/calibrate/every_strategy.h"
-#include "src/core/error.h"
-#include "src/core/parallel.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
 
 namespace lanelight::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bench/calibrate/calibration.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 namespace {

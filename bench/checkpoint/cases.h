@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/checkpoint.h"
-#include "src/render/job.h"
+#include "src/render/job/checkpoint.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::bench {
 

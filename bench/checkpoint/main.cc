@@ -9,10 +9,10 @@
 
 #include "bench/checkpoint/cases.h"
 #include "kernels/simd/target.h"
-#include "src/core/error.h"
-#include "src/core/parallel.h"
-#include "src/render/machine_json.h"
-#include "src/render/report.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/report.h"
 
 namespace lanelight::bench {
 namespace {

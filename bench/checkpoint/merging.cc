@@ -7,8 +7,8 @@
 #include "bench/checkpoint/cases.h"
 #include "bench/resident.h"
 #include "bench/series.h"
-#include "src/core/clock.h"
-#include "src/render/merge.h"
+#include "src/base/core/clock.h"
+#include "src/render/job/merge.h"
 
 namespace lanelight::bench {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "bench/checkpoint/cases.h"
 #include "bench/series.h"
-#include "src/core/clock.h"
-#include "src/core/parallel.h"
-#include "src/render/identity.h"
+#include "src/base/core/clock.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/identity.h"
 
 namespace lanelight::bench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "bench/checkpoint/cases.h"
 #include "bench/series.h"
-#include "src/core/clock.h"
-#include "src/render/parts.h"
+#include "src/base/core/clock.h"
+#include "src/render/job/parts.h"
 
 namespace lanelight::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bench/checkpoint/cases.h"
-#include "src/path/sample_planes.h"
-#include "src/render/merge.h"
-#include "src/render/report.h"
+#include "src/vocabulary/path/sample_planes.h"
+#include "src/render/job/merge.h"
+#include "src/render/job/report.h"
 
 namespace lanelight::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "bench/intersect/build_clock.h"
 #include "bench/intersect/compare.h"
 #include "bench/intersect/counted_new.h"
-#include "src/core/parallel.h"
+#include "src/base/core/parallel.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::bench {

@@ -4,8 +4,8 @@
 
 #include "bench/intersect/build_clock.h"
 #include "bench/intersect/embree_scene.h"
-#include "src/core/machine.h"
-#include "src/core/parallel.h"
+#include "src/base/core/machine.h"
+#include "src/base/core/parallel.h"
 
 namespace lanelight::bench {
 namespace {

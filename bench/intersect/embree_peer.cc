@@ -3,8 +3,8 @@
 #include "bench/intersect/embree_calls.h"
 #include "bench/intersect/embree_scene.h"
 #include "bench/intersect/tracer.h"
-#include "src/core/error.h"
-#include "src/core/machine.h"
+#include "src/base/core/error.h"
+#include "src/base/core/machine.h"
 
 namespace lanelight::bench {
 namespace {

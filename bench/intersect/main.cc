@@ -10,8 +10,8 @@
 #include "bench/intersect/results.h"
 #include "bench/intersect/scene_rays.h"
 #include "tests/support/test_target.h"
-#include "src/core/parallel.h"
-#include "src/render/machine_json.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 namespace lanelight::bench {
 

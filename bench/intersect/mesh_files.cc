@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "bench/intersect/mesh.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "tests/support/test_target.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight::bench {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "src/core/error.h"
-#include "src/core/parallel.h"
-#include "src/render/job.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::bench {
 namespace {

@@ -51,7 +51,7 @@ STAGES = [
     ("accumulate", "Done", "Free"),
     ("pack", "Scattered", ""),
 ]
-# What the driver (src/wave/task_runner.cc) does between stages.
+# What the driver (src/render/wave/task_runner.cc) does between stages.
 DRIVER = [("Scattered", "Active", "the next wave"),
           ("Surface", "Vertex", "the same, unless media scatter as well")]
 
@@ -88,20 +88,20 @@ STREAMS = [
 CALLS = [
     ("src/main.cc", "main", "AddRenderCommand", "src/cli/render_command.cc"),
     ("src/cli/render_command.cc", "AddRenderCommand", "Render", "src/cli/render_command.cc"),
-    ("src/cli/render_command.cc", "Render", "PrepareJob", "src/render/job.cc"),
-    ("src/render/job.cc", "PrepareJob", "PrepareScene", "src/prepare/prepared_scene.cc"),
-    ("src/prepare/prepared_scene.cc", "PrepareScene", "CompileScene", "src/compile/compile.cc"),
-    ("src/render/job.cc", "PrepareJob", "MakePlan", "src/plan/plan.cc"),
-    ("src/cli/render_command.cc", "Render", "RenderToFiles", "src/render/render.cc"),
-    ("src/render/render.cc", "RenderToFiles", "Run", "src/run/run.cc"),
-    ("src/run/run.cc", "Run", "RunRound", "src/run/tasks.cc"),
-    ("src/run/tasks.cc", "RunRound", "TaskRunner::Run", "src/wave/task_runner.cc"),
-    ("src/wave/task_runner.cc", "TaskRunner::Run", "Drive", "src/wave/task_runner.cc"),
-    ("src/wave/task_runner.cc", "Drive", "kernel", "kernels/"),
-    ("src/run/tasks.cc", "RunRound", "TaskRunner::Merge", "src/wave/task_runner.cc"),
-    ("src/wave/task_runner.cc", "TaskRunner::Merge", "films.Add", "src/wave/films.cc"),
-    ("src/render/render.cc", "RenderToFiles", "WriteRendering", "src/render/render.cc"),
-    ("src/render/render.cc", "WriteRendering", "WriteExr", "src/image/exr_write.cc"),
+    ("src/cli/render_command.cc", "Render", "PrepareJob", "src/render/job/job.cc"),
+    ("src/render/job/job.cc", "PrepareJob", "PrepareScene", "src/scene/prepare/prepared_scene.cc"),
+    ("src/scene/prepare/prepared_scene.cc", "PrepareScene", "CompileScene", "src/scene/compile/compile.cc"),
+    ("src/render/job/job.cc", "PrepareJob", "MakePlan", "src/render/plan/plan.cc"),
+    ("src/cli/render_command.cc", "Render", "RenderToFiles", "src/render/job/render.cc"),
+    ("src/render/job/render.cc", "RenderToFiles", "Run", "src/render/run/run.cc"),
+    ("src/render/run/run.cc", "Run", "RunRound", "src/render/run/tasks.cc"),
+    ("src/render/run/tasks.cc", "RunRound", "TaskRunner::Run", "src/render/wave/task_runner.cc"),
+    ("src/render/wave/task_runner.cc", "TaskRunner::Run", "Drive", "src/render/wave/task_runner.cc"),
+    ("src/render/wave/task_runner.cc", "Drive", "kernel", "kernels/"),
+    ("src/render/run/tasks.cc", "RunRound", "TaskRunner::Merge", "src/render/wave/task_runner.cc"),
+    ("src/render/wave/task_runner.cc", "TaskRunner::Merge", "films.Add", "src/render/wave/films.cc"),
+    ("src/render/job/render.cc", "RenderToFiles", "WriteRendering", "src/render/job/render.cc"),
+    ("src/render/job/render.cc", "WriteRendering", "WriteExr", "src/base/image/exr_write.cc"),
 ]
 
 

@@ -3,7 +3,7 @@
 #define LANELIGHT_ACCUMULATE_CHECK_INL_H_
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/wave.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

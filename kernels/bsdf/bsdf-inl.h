@@ -21,7 +21,7 @@
 #include "kernels/bsdf/random-inl.h"
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "src/compiled/materials.h"
+#include "src/scene/compiled/materials.h"
 
 // Eval and Sample are part of three kernels each. Long ones, whose lanes are full of
 // work, lose nothing by a call, and the compiler sees them once.

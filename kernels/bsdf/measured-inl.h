@@ -1,6 +1,6 @@
 // Measured reflectance (Dupuy and Jakob 2018, "An Adaptive Parameterization for Efficient
-// Material Acquisition and Rendering"); src/image/measured_reflectance.h says what f is.
-// Both sides of the surface reflect.
+// Material Acquisition and Rendering"); src/base/image/measured_reflectance.h says what f
+// is. Both sides of the surface reflect.
 //   sampling   a point s of the square by the luminance, taken by visible normals to a
 //              microfacet normal m, which reflects
 //   density    luminance(s) vndf(m) / (2 pi^2 sqrt(2 theta_m / pi) sin theta_m), of

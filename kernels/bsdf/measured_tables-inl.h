@@ -1,12 +1,12 @@
-// Bilinear functions of measured reflectance (src/compiled/measured.h), and the maps of
-// the unit square to itself that their integrals are, each linear between the slices
-// around a known direction.
+// Bilinear functions of measured reflectance (src/scene/compiled/measured.h), and the
+// maps of the unit square to itself that their integrals are, each linear between the
+// slices around a known direction.
 #ifndef LANELIGHT_BSDF_MEASURED_TABLES_INL_H_
 #define LANELIGHT_BSDF_MEASURED_TABLES_INL_H_
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
-#include "src/compiled/measured.h"
+#include "src/scene/compiled/measured.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -2,9 +2,9 @@
 // direction of a path, and linear in its first choices between lobes, fitted to samples
 // of the neighbourhood.
 //   estimator   f - c sum_j b_j phi_j(u), E[phi_j] = 0: the functions, the fit and what
-//               makes it unbiased are in src/image/regression_film.h. Here the numbers
-//               are kept: position in the pixel; direction and light point of the first
-//               event that is not specular (mirrors and clear glass have no use for
+//               makes it unbiased are in src/render/films/regression_film.h. Here the
+//               numbers are kept: position in the pixel; direction and light point of the
+//               first event that is not specular (mirrors and clear glass have no use for
 //               them); the first two choices (choices.cc)
 //   unbiased    a number is uniform whatever came before it in the path (a martingale),
 //   and
@@ -25,8 +25,8 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
-#include "src/compiled/scene.h"
-#include "src/path/first_numbers.h"
+#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/first_numbers.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -12,7 +12,7 @@
 #define LANELIGHT_DIRECTIONS_HEURISTIC_INL_H_
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/run_parameters.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -5,7 +5,7 @@
 #include "kernels/generate/filter-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/pixel-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

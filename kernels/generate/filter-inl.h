@@ -3,7 +3,7 @@
 #define LANELIGHT_GENERATE_FILTER_INL_H_
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/compiled/camera.h"
+#include "src/scene/compiled/camera.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -3,7 +3,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "src/prepare/path_values.h"
+#include "src/scene/prepare/path_values.h"
 
 LANELIGHT_BEGIN_KERNELS
 

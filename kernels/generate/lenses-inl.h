@@ -1,10 +1,10 @@
-// Rays through a lens system (src/compiled/camera.h, LensSystem), in millimetres from the
-// middle of the film, z towards the scene.
+// Rays through a lens system (src/scene/compiled/camera.h, LensSystem), in millimetres
+// from the middle of the film, z towards the scene.
 #ifndef LANELIGHT_GENERATE_LENSES_INL_H_
 #define LANELIGHT_GENERATE_LENSES_INL_H_
 
 #include "kernels/simd/records-inl.h"
-#include "src/compiled/camera.h"
+#include "src/scene/compiled/camera.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -9,7 +9,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/motion-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

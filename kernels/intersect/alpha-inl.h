@@ -7,7 +7,7 @@
 
 #include "kernels/texture/alpha-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

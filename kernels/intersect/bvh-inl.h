@@ -1,14 +1,15 @@
 // Traversal of the 8-wide BVH by one ray: the lanes are the children of a node.
 //
-// Boxes are grown by delta = margin + slack |o| (src/accel/accel.h), beyond what the
-// builder grew them by in proportion to the coordinates of each shape (src/accel/grow.h),
-// so that a node is never culled by rounding if it holds a hit nearer than, or as near
-// as, the best one: then the hit found does not depend on the order of traversal. In
-// parameters of the ray that growth is delta / |d|, so it goes into the constant term of
-// the slab test and costs nothing: near = lower / d - (o / d + delta / |d|). Compared
-// with Ize 2013, "Robust BVH Ray Traversal", whose growth is relative to t, this also
-// covers the rounding of the shape tests, which is relative to the coordinates. The slab
-// test itself errs by at most 5 u (|b| + |o|) / |d|, b the plane, u = 2^-24.
+// Boxes are grown by delta = margin + slack |o| (src/scene/accel/accel.h), beyond what
+// the builder grew them by in proportion to the coordinates of each shape
+// (src/scene/accel/grow.h), so that a node is never culled by rounding if it holds a hit
+// nearer than, or as near as, the best one: then the hit found does not depend on the
+// order of traversal. In parameters of the ray that growth is delta / |d|, so it goes
+// into the constant term of the slab test and costs nothing: near = lower / d - (o / d +
+// delta / |d|). Compared with Ize 2013, "Robust BVH Ray Traversal", whose growth is
+// relative to t, this also covers the rounding of the shape tests, which is relative to
+// the coordinates. The slab test itself errs by at most 5 u (|b| + |o|) / |d|, b the
+// plane, u = 2^-24.
 #ifndef LANELIGHT_INTERSECT_BVH_INL_H_
 #define LANELIGHT_INTERSECT_BVH_INL_H_
 
@@ -19,8 +20,8 @@
 #include <limits>
 
 #include "kernels/intersect/triangle-inl.h"
-#include "src/accel/accel.h"
-#include "src/core/check.h"
+#include "src/scene/accel/accel.h"
+#include "src/base/core/check.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -7,7 +7,7 @@
 #define LANELIGHT_INTERSECT_CURVE_SPACE_INL_H_
 
 #include "kernels/intersect/curve-inl.h"
-#include "src/geometry/geometry.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -7,8 +7,8 @@
 
 #include "kernels/intersect/curve_space-inl.h"
 #include "kernels/intersect/rays-inl.h"
-#include "src/compiled/scene.h"
-#include "src/geometry/ribbon.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/ribbon.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 #define LANELIGHT_INTERSECT_FEW_INL_H_
 
 #include "kernels/intersect/many-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/accel/accel.h"
+#include "src/scene/accel/accel.h"
 
 namespace lanelight {
 

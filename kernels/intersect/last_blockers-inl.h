@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "kernels/intersect/packet_leaf-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

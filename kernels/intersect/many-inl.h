@@ -7,7 +7,7 @@
 #include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -9,7 +9,7 @@
 
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/packet_leaf-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -38,7 +38,7 @@ struct PacketBounds {
   }
 
   /// Whether the rays are close enough for a packet to pay: measured with
-  /// bench/intersect/, see src/accel/accel.h.
+  /// bench/intersect/, see src/scene/accel/accel.h.
   LANELIGHT_INLINE bool IsNarrow(float reach) const {
     float spread = 0, extent = 0;
     for (int a = 0; a < 3; ++a) {

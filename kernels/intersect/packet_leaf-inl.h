@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "kernels/intersect/beam-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

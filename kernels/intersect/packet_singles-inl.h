@@ -9,7 +9,7 @@
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

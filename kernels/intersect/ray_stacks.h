@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/accel/accel.h"
-#include "src/core/untouched.h"
+#include "src/scene/accel/accel.h"
+#include "src/base/core/untouched.h"
 
 namespace lanelight {
 

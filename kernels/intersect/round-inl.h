@@ -99,7 +99,7 @@ struct LargeSphereLanes {
 };
 
 /// Roots of c + 2 b t + a t^2, which is twice the height over the sphere along the ray
-/// (LargeSphereRecord in src/geometry/geometry.h), with half of its gradient
+/// (LargeSphereRecord in src/scene/geometry/geometry.h), with half of its gradient
 /// g = normal + curvature q at the origin: nothing is as large as the radius, so nothing
 /// cancels that is not small for all spheres.
 template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>

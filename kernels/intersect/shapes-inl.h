@@ -9,7 +9,7 @@
 #include "kernels/intersect/round-inl.h"
 #include "kernels/intersect/uv.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

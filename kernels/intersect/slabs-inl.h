@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kernels/intersect/rays-inl.h"
-#include "src/accel/accel.h"
+#include "src/scene/accel/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 

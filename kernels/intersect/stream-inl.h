@@ -10,7 +10,7 @@
 
 #include "kernels/intersect/stream_packet-inl.h"
 #include "kernels/intersect/stream_single-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -12,7 +12,7 @@
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -13,7 +13,7 @@
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_stacks-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

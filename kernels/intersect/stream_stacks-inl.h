@@ -8,7 +8,7 @@
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

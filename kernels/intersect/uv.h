@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 namespace lanelight {
 

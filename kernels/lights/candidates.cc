@@ -1,6 +1,6 @@
 // light-candidates=resampled:M: of M light samples of a vertex one is kept, and traced.
 // The stages between the two of this file make and consider one candidate; the driver
-// runs them M times (src/wave/task_runner.cc).
+// runs them M times (src/render/wave/task_runner.cc).
 //   estimator   f(y) V(y) / v(y) 1/M sum v(x_i), y = x_i with probability in proportion
 //               to its worth v(x_i): what it would add unshadowed, over its density p
 //               (kernels/shade/consider.cc)

@@ -5,8 +5,8 @@
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/compiled/scene.h"
-#include "src/strategy/choices.h"
+#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 

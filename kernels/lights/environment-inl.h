@@ -4,7 +4,7 @@
 
 #include "kernels/lights/map_samples-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

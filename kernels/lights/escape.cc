@@ -4,7 +4,7 @@
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

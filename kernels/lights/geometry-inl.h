@@ -6,7 +6,7 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

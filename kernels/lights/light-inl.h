@@ -9,7 +9,7 @@
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -191,7 +191,7 @@ inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI in
   const Wavelengths at(wave.path, slots);
   const VI row = Lookup(wave.scene->lights.spectrum, index);
   const auto own = hn::Gt(row, hn::Set(di, -1));
-  // The weights of Luminance() (src/core/vec.h), in which the rows are stated.
+  // The weights of Luminance() (src/base/core/vec.h), in which the rows are stated.
   const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));
   const V3 by_row = Mul(AtRows(table, hn::IfThenElseZero(own, row), at), luminance);
   if (hn::AllTrue(di, own)) return by_row;

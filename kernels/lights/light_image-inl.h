@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "kernels/simd/records-inl.h"
-#include "src/compiled/lights.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,8 +1,8 @@
 // What the light-sampling stages have in common.
 #pragma once
 
-#include "src/path/light_shapes.h"
-#include "src/path/stage.h"
+#include "src/vocabulary/path/light_shapes.h"
+#include "src/vocabulary/path/stage.h"
 
 namespace lanelight {
 

@@ -1,5 +1,5 @@
 // Environments seen through a portal: look-up, and sampling of what of the map a point
-// sees, by the summed weights of its texels (src/compiled/lights.h, Portal).
+// sees, by the summed weights of its texels (src/scene/compiled/lights.h, Portal).
 //   density     pdf(s, t) = weight of the texel / weight of the window, both per area;
 //               pdf_sa = pdf(s, t) / (solid angle per area of the square)
 //   window      what the portal covers of the square: a rectangle
@@ -14,7 +14,7 @@
 #include "kernels/lights/portal_sums-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/compiled/lights.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

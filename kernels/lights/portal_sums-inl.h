@@ -5,7 +5,7 @@
 #define LANELIGHT_LIGHTS_PORTAL_SUMS_INL_H_
 
 #include "kernels/surface/point-inl.h"
-#include "src/compiled/lights.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -6,7 +6,7 @@
 
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/fields.h"
+#include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 
 #include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/strategy/choices.h"
+#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 

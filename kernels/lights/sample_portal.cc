@@ -4,7 +4,7 @@
 
 #include "kernels/lights/portal-inl.h"
 #include "kernels/lights/light_stage.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -10,7 +10,7 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

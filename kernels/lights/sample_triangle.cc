@@ -13,7 +13,7 @@
 
 #include "kernels/lights/sample_flat-inl.h"
 #include "kernels/lights/light_stage.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
-#include "src/compiled/lights.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -5,7 +5,7 @@
 #include "hwy/contrib/math/math-inl.h"
 
 #include "kernels/media/voxels-inl.h"
-#include "src/image/blackbody.h"
+#include "src/base/image/blackbody.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -17,7 +17,7 @@
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,4 +1,4 @@
-// Read bandwidth and multiply-add peak, for src/render/peaks.h.
+// Read bandwidth and multiply-add peak, for src/render/job/peaks.h.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/peaks/peaks.h"
@@ -53,7 +53,7 @@ int OperationsOfChains() { return 2 * 12 * static_cast<int>(hn::Lanes(DF())); }
 LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight {
 

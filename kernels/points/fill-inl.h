@@ -3,10 +3,10 @@
 // A policy is a struct with
 //   static GroupIndex Group(const PointsParameters&, VU sample)   (group-inl.h)
 //   static void Point(const PointsParameters&, const PointKey&, VF* u0, VF* u1)
-// giving a point in [0,1)^2 for a dimension key (src/path/dimensions.h). The two
-// coordinates of one key are stratified against each other where the policy stratifies;
-// different keys are independent of each other. A scalar dimension takes u0; a policy
-// whose u0 alone is less well stratified than one dimension can be has also
+// giving a point in [0,1)^2 for a dimension key (src/vocabulary/path/dimensions.h). The
+// two coordinates of one key are stratified against each other where the policy
+// stratifies; different keys are independent of each other. A scalar dimension takes u0;
+// a policy whose u0 alone is less well stratified than one dimension can be has also
 //   static VF Number(const PointsParameters&, VU pixel, GroupIndex, VU key, VU seed)
 #ifndef LANELIGHT_POINTS_FILL_INL_H_
 #define LANELIGHT_POINTS_FILL_INL_H_

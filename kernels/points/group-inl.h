@@ -3,8 +3,8 @@
 #define LANELIGHT_POINTS_GROUP_INL_H_
 
 #include "kernels/simd/rng-inl.h"
-#include "src/path/replicates.h"
-#include "src/path/run_parameters.h"
+#include "src/vocabulary/path/replicates.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -21,8 +21,9 @@ struct PointKey {
   VU key, seed;
 };
 
-/// Samples take turns at kReplicates groups (src/path/replicates.h). A group ends with
-/// the sampler's sequence, after 2^group_shift points; then as many new ones begin.
+/// Samples take turns at kReplicates groups (src/vocabulary/path/replicates.h). A group
+/// ends with the sampler's sequence, after 2^group_shift points; then as many new ones
+/// begin.
 LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU sample) {
   constexpr int kLog = kLogReplicates;
   const int shift = static_cast<int>(points.group_shift);

@@ -19,7 +19,7 @@
 #define LANELIGHT_POINTS_LATTICE_INL_H_
 
 #include "kernels/points/sobol-inl.h"
-#include "src/prepare/lattice.h"
+#include "src/scene/prepare/lattice.h"
 
 LANELIGHT_BEGIN_KERNELS
 

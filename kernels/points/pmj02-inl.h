@@ -1,5 +1,5 @@
-// points=pmj02: stored progressive multi-jittered (0,2) sequences (src/prepare/pmj02.h),
-// one of them chosen and scrambled at random.
+// points=pmj02: stored progressive multi-jittered (0,2) sequences
+// (src/scene/prepare/pmj02.h), one of them chosen and scrambled at random.
 //   estimator   mean of f over a prefix of 2^k points, of which every elementary interval
 //               of base 2 of area 2^-k holds one
 //   scrambling  random sequence, all binary digits xored with a random word (keeps the
@@ -17,7 +17,7 @@
 #define LANELIGHT_POINTS_PMJ02_INL_H_
 
 #include "kernels/points/permute-inl.h"
-#include "src/prepare/pmj02.h"
+#include "src/scene/prepare/pmj02.h"
 
 LANELIGHT_BEGIN_KERNELS
 

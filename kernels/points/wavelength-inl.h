@@ -1,10 +1,11 @@
 // Wavelengths that are even over the samples of a pixel, or of a tile.
 //
-// The triples of wavelengths (src/image/wavelengths.h) make a circle: half of it goes up
-// through them, half down again, so that what is smooth along them has no step where the
-// circle closes (the baker's transformation: Hickernell 2002). 2^k samples of a replicate
-// are 2^k even steps around it, in an order and from a start that are chosen at random.
-// Of the light of a lamp 8 samples then have a tenth of the variance that strata leave.
+// The triples of wavelengths (src/base/image/wavelengths.h) make a circle: half of it
+// goes up through them, half down again, so that what is smooth along them has no step
+// where the circle closes (the baker's transformation: Hickernell 2002). 2^k samples of a
+// replicate are 2^k even steps around it, in an order and from a start that are chosen at
+// random. Of the light of a lamp 8 samples then have a tenth of the variance that strata
+// leave.
 //
 // Paths that serve each other (reuse=block) must carry the same wavelengths, and any two
 // of a tile may. What triples lack of a colour is then an error that all pixels of the
@@ -19,7 +20,7 @@
 
 #include "kernels/points/sobol-inl.h"
 #include "kernels/simd/pixel-inl.h"
-#include "src/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 LANELIGHT_BEGIN_KERNELS
 

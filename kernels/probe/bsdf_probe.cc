@@ -81,7 +81,7 @@ BsdfProbe ProbeOfKind(ShadeKind kind) {
 LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight {
 

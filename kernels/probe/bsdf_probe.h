@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "kernels/simd/target.h"
-#include "src/compiled/materials.h"
+#include "src/scene/compiled/materials.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "kernels/simd/target.h"
-#include "src/prepare/parameters.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 

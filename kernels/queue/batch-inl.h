@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "kernels/queue/slots-inl.h"
-#include "src/core/check.h"
-#include "src/path/stage.h"
+#include "src/base/core/check.h"
+#include "src/vocabulary/path/stage.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -3,7 +3,7 @@
 #define LANELIGHT_QUEUE_FILTER_INL_H_
 
 #include "kernels/queue/batch-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

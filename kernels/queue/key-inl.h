@@ -1,10 +1,10 @@
-// Keys of random numbers (src/path/dimensions.h), for a batch of paths.
+// Keys of random numbers (src/vocabulary/path/dimensions.h), for a batch of paths.
 #ifndef LANELIGHT_QUEUE_KEY_INL_H_
 #define LANELIGHT_QUEUE_KEY_INL_H_
 
 #include "kernels/queue/slots-inl.h"
-#include "src/path/dimensions.h"
-#include "src/path/fields.h"
+#include "src/vocabulary/path/dimensions.h"
+#include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
 

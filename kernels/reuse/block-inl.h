@@ -1,10 +1,10 @@
-// Records of a task (src/path/block.h), by lane.
+// Records of a task (src/vocabulary/path/block.h), by lane.
 #ifndef LANELIGHT_REUSE_BLOCK_INL_H_
 #define LANELIGHT_REUSE_BLOCK_INL_H_
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/sent.h"
+#include "src/vocabulary/path/sent.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -6,7 +6,7 @@
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -3,7 +3,7 @@
 //   nu          |beta / I(pixel)| Psi(cell), with Psi the brightness that a unit of
 //               throughput is expected to gather from this vertex on (a coarse cache over
 //               space and orientation), I the brightness of the pixel, both from a pilot
-//               pass (src/train/train_path_values.cc), and || the root mean square
+//               pass (src/render/train/train_path_values.cc), and || the root mean square
 //               over channels
 //   estimator   r = nu / (1/3) below the window [1/3, 5/3], nu / (5/3) above, else 1, so
 //               that what remains is at its nearer edge; window-inl.h. (Moving it to the

@@ -12,7 +12,7 @@
 //   unbiased    for any values: they only steer r; the pilot's samples are not used
 //   variance    splits where the variance comes from and is cheap to reduce, ends paths
 //               whose share of it does not pay for their rays. C_I / V_I is iterated in
-//               short pilot passes (src/train/train_path_values.cc)
+//               short pilot passes (src/render/train/train_path_values.cc)
 //   fallback    the last passes compare with no roulette and with roulette on the
 //               throughput; the best of the three renders the image
 //   cost        three gathers of tables and a hash per vertex; the pilot passes

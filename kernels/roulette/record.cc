@@ -12,13 +12,13 @@
 // two variances are compared on the same paths, and no rare survivor is missed.
 //
 // The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
-// the finished path; src/train/train_path_values.cc adds them up in the order of the
-// samples, so that the sums depend on no order of execution.
+// the finished path; src/render/train/train_path_values.cc adds them up in the order of
+// the samples, so that the sums depend on no order of execution.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/prepare/tables.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 

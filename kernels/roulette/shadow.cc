@@ -2,7 +2,7 @@
 // s = min(1, max(floor, what it carries / what its pixel asks for)).
 //   estimator   sh V / s with probability s, else 0: E = sh V
 //   density     of tracing: s, a function of what the ray carries and of its pixel, which
-//               a pilot pass has seen (src/prepare/shadow_worth.h)
+//               a pilot pass has seen (src/scene/prepare/shadow_worth.h)
 //   unbiased    s >= floor > 0; s is known before the ray is traced
 //   variance    grows by E[sh^2 V (1/s - 1)] per ray. What a survivor carries is at most
 //               what its pixel asks for, so no fireflies
@@ -13,7 +13,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/prepare/tables.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -11,7 +11,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/block.h"
+#include "src/vocabulary/path/block.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -20,7 +20,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/prepare/tables.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -45,7 +45,7 @@ LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered)
 }
 
 // Of the pixel, by PathValues::inverse_pixel, in terms of what paths gather: about what
-// moments are taken (MomentsAbout in src/train/unsplit_variances.h).
+// moments are taken (MomentsAbout in src/render/train/unsplit_variances.h).
 LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));

@@ -22,8 +22,8 @@
 #include "kernels/queue/key-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/core/check.h"
-#include "src/prepare/tables.h"
+#include "src/base/core/check.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 

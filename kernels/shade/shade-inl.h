@@ -9,7 +9,7 @@
 #include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

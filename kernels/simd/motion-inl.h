@@ -1,12 +1,12 @@
-// Affine maps, one per lane, and those of motions (src/geometry/motion.h) at the times of
-// lanes.
+// Affine maps, one per lane, and those of motions (src/scene/geometry/motion.h) at the
+// times of lanes.
 #ifndef LANELIGHT_SIMD_MOTION_INL_H_
 #define LANELIGHT_SIMD_MOTION_INL_H_
 
 #include <cstddef>
 
 #include "kernels/simd/math-inl.h"
-#include "src/geometry/motion.h"
+#include "src/scene/geometry/motion.h"
 
 LANELIGHT_BEGIN_KERNELS
 

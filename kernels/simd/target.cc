@@ -20,7 +20,7 @@ LANELIGHT_END_KERNELS
 
 #include <algorithm>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 

@@ -1,6 +1,6 @@
 // All that scatters in one queue: surfaces after what is in it already. Only where
 // something else than a surface scatters: otherwise kVertex is the surfaces' queue itself
-// (src/path/wave.h).
+// (src/vocabulary/path/wave.h).
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

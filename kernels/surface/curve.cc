@@ -11,7 +11,7 @@
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

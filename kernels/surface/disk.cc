@@ -4,7 +4,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

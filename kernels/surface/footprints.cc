@@ -1,4 +1,4 @@
-// The footprint of a pixel at surface hits, in surface coordinates (src/compiled/
+// The footprint of a pixel at surface hits, in surface coordinates (src/scene/compiled/
 // footprint.h). The step from one pixel to the next, at the distance of the hit, is
 // carried along the line of sight into the tangent plane; least squares give the steps in
 // u and v (as in pbrt-v4, SurfaceInteraction::ComputeDifferentials).
@@ -6,7 +6,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

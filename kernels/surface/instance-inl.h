@@ -6,7 +6,7 @@
 #include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,11 +1,11 @@
-// What lies one pixel beside a point (src/compiled/footprint.h): in line of sight, and in
-// the tangent plane there.
+// What lies one pixel beside a point (src/scene/compiled/footprint.h): in line of sight,
+// and in the tangent plane there.
 #ifndef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 #define LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/motion-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

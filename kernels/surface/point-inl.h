@@ -11,7 +11,7 @@
 #define LANELIGHT_SURFACE_POINT_INL_H_
 
 #include "kernels/simd/vec3-inl.h"
-#include "src/path/fields.h"
+#include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
 

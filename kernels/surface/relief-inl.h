@@ -19,7 +19,7 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 #define LANELIGHT_TEXTURE_ALPHA_INL_H_
 
 #include "kernels/simd/each_target-inl.h"
-#include "src/compiled/texture_table.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 

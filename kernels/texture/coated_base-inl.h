@@ -3,8 +3,8 @@
 #define LANELIGHT_TEXTURE_COATED_BASE_INL_H_
 
 #include "kernels/texture/cube-inl.h"
-#include "src/compile/coat_fit.h"
-#include "src/compiled/texture_table.h"
+#include "src/scene/compile/coat_fit.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -17,8 +17,8 @@ LANELIGHT_INLINE V3 MetalExtinction(V3 r) {
   return {k(r.x), k(r.y), k(r.z)};
 }
 
-/// The colour as it acts below a coat, by the table at `fit` (src/compile/coat_fit.h).
-/// Components are clamped to [0, 1].
+/// The colour as it acts below a coat, by the table at `fit`
+/// (src/scene/compile/coat_fit.h). Components are clamped to [0, 1].
 inline HWY_NOINLINE V3 CoatedBaseColor(const float* fit, V3 color) {
   const VF zero = hn::Zero(DF()), one = Splat(1.0f);
   const V3 bounded = {hn::Clamp(color.x, zero, one), hn::Clamp(color.y, zero, one),

@@ -10,7 +10,7 @@
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/slots-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/path/fields.h"
+#include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/compiled/texture_table.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -5,7 +5,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/compiled/scene.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -7,7 +7,7 @@
 
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/patterns-inl.h"
-#include "src/compiled/texture_table.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,14 +1,14 @@
-// Colours at the three wavelengths of a path, and back (src/compiled/spectra.h).
+// Colours at the three wavelengths of a path, and back (src/scene/compiled/spectra.h).
 #ifndef LANELIGHT_TEXTURE_WAVELENGTHS_INL_H_
 #define LANELIGHT_TEXTURE_WAVELENGTHS_INL_H_
 
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/texture/cube-inl.h"
-#include "src/compiled/spectra.h"
-#include "src/image/upsampling.h"
-#include "src/image/wavelengths.h"
-#include "src/path/fields.h"
+#include "src/scene/compiled/spectra.h"
+#include "src/base/image/upsampling.h"
+#include "src/base/image/wavelengths.h"
+#include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,6 +1,6 @@
 // The equal-area octahedral map between the square [0,1]^2 and the sphere (Clarberg 2008,
 // "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"; orientation as in pbrt-v4;
-// in double: src/image/octahedral.h).
+// in double: src/base/image/octahedral.h).
 #ifndef LANELIGHT_WARP_OCTAHEDRAL_INL_H_
 #define LANELIGHT_WARP_OCTAHEDRAL_INL_H_
 

@@ -12,13 +12,13 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/validators.h"
-#include "src/core/json_text.h"
-#include "src/core/text_layout.h"
-#include "src/render/machine_json.h"
-#include "src/render/report.h"
-#include "src/report/values.h"
-#include "src/advise/advise.h"
-#include "src/advise/candidates.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/text_layout.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/report.h"
+#include "src/base/stat/values.h"
+#include "src/measure/advise/advise.h"
+#include "src/measure/advise/candidates.h"
 
 namespace lanelight {
 namespace {

@@ -13,12 +13,12 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/validators.h"
-#include "src/core/json_text.h"
-#include "src/core/parallel.h"
-#include "src/render/saving.h"
-#include "src/report/page.h"
-#include "src/throughput/bench_scenes.h"
-#include "src/throughput/throughput_table.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/saving.h"
+#include "src/measure/report/page.h"
+#include "src/measure/throughput/bench_scenes.h"
+#include "src/measure/throughput/throughput_table.h"
 
 namespace lanelight {
 namespace {

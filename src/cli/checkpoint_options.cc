@@ -4,7 +4,7 @@
 
 #include "src/cli/defaults.h"
 #include "src/cli/validators.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "src/render/render.h"
+#include "src/render/job/render.h"
 
 namespace lanelight {
 

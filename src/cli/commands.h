@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "src/core/rank_group.h"
+#include "src/base/core/rank_group.h"
 
 namespace lanelight {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/compare/comparison.h"
+#include "src/measure/compare/comparison.h"
 
 namespace lanelight {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/estimate/estimate.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight {
 

@@ -9,8 +9,8 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/terminal.h"
-#include "src/core/suggest.h"
-#include "src/core/text_layout.h"
+#include "src/base/core/suggest.h"
+#include "src/base/core/text_layout.h"
 
 namespace lanelight {
 namespace {

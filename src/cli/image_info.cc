@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "src/cli/terminal.h"
-#include "src/core/json_text.h"
-#include "src/image/exr_header.h"
-#include "src/image/image.h"
-#include "src/report/values.h"
+#include "src/base/core/json_text.h"
+#include "src/base/image/exr_header.h"
+#include "src/base/image/image.h"
+#include "src/base/stat/values.h"
 
 namespace lanelight {
 namespace {

@@ -11,12 +11,12 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/image_info.h"
 #include "src/cli/scene_options.h"
-#include "src/core/json_text.h"
-#include "src/core/parallel.h"
-#include "src/parse/format.h"
-#include "src/render/machine_json.h"
-#include "src/render/memory.h"
-#include "src/render/report.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
+#include "src/scene/parse/format.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/memory.h"
+#include "src/render/job/report.h"
 
 namespace lanelight {
 namespace {

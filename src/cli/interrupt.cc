@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "src/core/parallel.h"
+#include "src/base/core/parallel.h"
 
 namespace lanelight {
 namespace {

@@ -9,7 +9,7 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
-#include "src/live/server.h"
+#include "src/measure/live/server.h"
 
 namespace lanelight {
 namespace {

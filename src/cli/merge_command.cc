@@ -8,14 +8,14 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
-#include "src/core/error.h"
-#include "src/core/json_text.h"
-#include "src/core/parallel.h"
-#include "src/render/machine_json.h"
-#include "src/render/merge.h"
-#include "src/render/render.h"
-#include "src/render/saving.h"
-#include "src/render/state_lock.h"
+#include "src/base/core/error.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/merge.h"
+#include "src/render/job/render.h"
+#include "src/render/job/saving.h"
+#include "src/render/job/state_lock.h"
 
 namespace lanelight {
 namespace {

@@ -9,12 +9,12 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
 #include "src/cli/terminal.h"
-#include "src/core/json_text.h"
-#include "src/prepare/groups.h"
-#include "src/render/job.h"
-#include "src/render/machine_json.h"
-#include "src/render/report.h"
-#include "src/scene/image_changes.h"
+#include "src/base/core/json_text.h"
+#include "src/scene/prepare/groups.h"
+#include "src/render/job/job.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/report.h"
+#include "src/scene/description/image_changes.h"
 
 namespace lanelight {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "src/cli/commands.h"
-#include "src/core/error.h"
-#include "src/core/input_file.h"
-#include "src/render/saving.h"
-#include "src/report/page_text.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/render/job/saving.h"
+#include "src/measure/report/page_text.h"
 
 namespace lanelight {
 namespace {

@@ -12,9 +12,9 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
-#include "src/core/json_text.h"
-#include "src/render/saving.h"
-#include "src/render/trace_json.h"
+#include "src/base/core/json_text.h"
+#include "src/render/job/saving.h"
+#include "src/render/job/trace_json.h"
 
 namespace lanelight {
 namespace {

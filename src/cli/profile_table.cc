@@ -8,9 +8,9 @@
 #include "kernels/simd/target.h"
 #include "src/cli/progress.h"
 #include "src/cli/terminal.h"
-#include "src/core/machine_info.h"
-#include "src/core/parallel.h"
-#include "src/core/text_layout.h"
+#include "src/base/core/machine_info.h"
+#include "src/base/core/parallel.h"
+#include "src/base/core/text_layout.h"
 
 namespace lanelight {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/render/profile_report.h"
+#include "src/render/job/profile_report.h"
 
 namespace lanelight {
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "src/render/error_so_far.h"
+#include "src/render/job/error_so_far.h"
 
 namespace lanelight {
 

@@ -8,7 +8,7 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
-#include "src/render/display.h"
+#include "src/render/job/display.h"
 
 namespace lanelight {
 namespace {

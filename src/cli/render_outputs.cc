@@ -7,8 +7,8 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/summary.h"
 #include "src/cli/note_lines.h"
-#include "src/core/json_text.h"
-#include "src/scene/image_changes.h"
+#include "src/base/core/json_text.h"
+#include "src/scene/description/image_changes.h"
 
 namespace lanelight {
 namespace {

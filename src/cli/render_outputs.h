@@ -8,8 +8,8 @@
 
 #include "src/cli/progress.h"
 #include "src/cli/scene_options.h"
-#include "src/render/render.h"
-#include "src/render/saving.h"
+#include "src/render/job/render.h"
+#include "src/render/job/saving.h"
 
 namespace lanelight {
 

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "src/render/setting.h"
+#include "src/render/job/setting.h"
 
 namespace lanelight {
 

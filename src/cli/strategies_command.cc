@@ -7,10 +7,10 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/terminal.h"
-#include "src/core/json_text.h"
-#include "src/core/text_layout.h"
-#include "src/strategy/strategies_json.h"
-#include "src/strategy/strategy.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/text_layout.h"
+#include "src/vocabulary/strategy/strategies_json.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 namespace {

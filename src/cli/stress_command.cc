@@ -17,12 +17,12 @@
 #include "src/cli/stress_table.h"
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
-#include "src/core/json_text.h"
-#include "src/render/saving.h"
-#include "src/stress/cases/cases.h"
-#include "src/stress/select.h"
-#include "src/stress/stress_json.h"
-#include "src/stress/suite.h"
+#include "src/base/core/json_text.h"
+#include "src/render/job/saving.h"
+#include "src/measure/stress/cases/cases.h"
+#include "src/measure/stress/select.h"
+#include "src/measure/stress/stress_json.h"
+#include "src/measure/stress/suite.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "src/cli/exit_codes.h"
-#include "src/stress/suite.h"
+#include "src/measure/stress/suite.h"
 
 namespace lanelight {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "src/cli/progress.h"
-#include "src/stress/stress_json.h"
+#include "src/measure/stress/stress_json.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/stress/suite.h"
+#include "src/measure/stress/suite.h"
 
 namespace lanelight {
 

@@ -12,8 +12,8 @@
 #include "src/cli/study_summary.h"
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
-#include "src/core/error.h"
-#include "src/study/study.h"
+#include "src/base/core/error.h"
+#include "src/measure/study/study.h"
 
 namespace lanelight {
 namespace {

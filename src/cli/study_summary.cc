@@ -5,8 +5,8 @@
 
 #include "src/cli/progress.h"
 #include "src/cli/terminal.h"
-#include "src/core/text_layout.h"
-#include "src/report/values.h"
+#include "src/base/core/text_layout.h"
+#include "src/base/stat/values.h"
 
 namespace lanelight {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/study/study_json.h"
+#include "src/measure/study/study_json.h"
 
 namespace lanelight {
 

@@ -8,11 +8,11 @@
 #include "src/cli/error_words.h"
 #include "src/cli/progress.h"
 #include "src/cli/terminal.h"
-#include "src/core/machine_info.h"
-#include "src/core/parallel.h"
-#include "src/core/text_layout.h"
-#include "src/scene/image_changes.h"
-#include "src/strategy/choices_text.h"
+#include "src/base/core/machine_info.h"
+#include "src/base/core/parallel.h"
+#include "src/base/core/text_layout.h"
+#include "src/scene/description/image_changes.h"
+#include "src/vocabulary/strategy/choices_text.h"
 
 namespace lanelight {
 namespace {

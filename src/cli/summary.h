@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/merge.h"
-#include "src/render/report.h"
+#include "src/render/job/merge.h"
+#include "src/render/job/report.h"
 
 namespace lanelight {
 

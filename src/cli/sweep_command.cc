@@ -12,8 +12,8 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
-#include "src/sweep/prediction.h"
-#include "src/sweep/runner.h"
+#include "src/measure/sweep/prediction.h"
+#include "src/measure/sweep/runner.h"
 
 namespace lanelight {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "src/core/text_layout.h"
-#include "src/core/value_types.h"
+#include "src/base/core/text_layout.h"
+#include "src/base/core/value_types.h"
 
 namespace lanelight {
 namespace {

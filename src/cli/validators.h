@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "src/core/value_types.h"
+#include "src/base/core/value_types.h"
 
 namespace lanelight {
 
-/// A value of this type (src/core/value_types.h), read as those of settings are; the text
-/// becomes the one that CLI11 reads alike.
+/// A value of this type (src/base/core/value_types.h), read as those of settings are; the
+/// text becomes the one that CLI11 reads alike.
 template <class Type>
 CLI::Validator ValueOf(const Type& type) {
   return CLI::Validator(

@@ -1,16 +1,16 @@
 // Structure of trees whose triangles are not cut (those that are: spatial_split_test.cc):
 // every shape in exactly one leaf, boxes that contain what is below them, the same tree
 // for any number of threads.
-#include "src/accel/accel.h"
+#include "src/scene/accel/accel.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <set>
 
-#include "src/accel/grow.h"
-#include "src/accel/partition.h"
-#include "src/core/parallel.h"
+#include "src/scene/accel/grow.h"
+#include "src/scene/accel/partition.h"
+#include "src/base/core/parallel.h"
 #include "tests/accel/leaves.h"
 #include "tests/support/brute_force.h"
 

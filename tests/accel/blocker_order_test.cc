@@ -1,12 +1,12 @@
 // The order of children for shadow rays (blocker_order.h), against enumeration and random
 // lines.
-#include "src/accel/blocker_order.h"
+#include "src/scene/accel/blocker_order.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
-#include "src/accel/shape_items.h"
+#include "src/scene/accel/shape_items.h"
 #include "tests/support/brute_force.h"
 
 namespace lanelight {

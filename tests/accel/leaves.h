@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "src/accel/builder.h"
+#include "src/scene/accel/builder.h"
 
 namespace lanelight {
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <set>
 
-#include "src/accel/collapse.h"
-#include "src/accel/reinsert.h"
+#include "src/scene/accel/collapse.h"
+#include "src/scene/accel/reinsert.h"
 
 namespace lanelight {
 namespace {

@@ -1,6 +1,6 @@
 // Trees over triangles that were cut: their leaves cover every triangle, in boxes that
 // leave nothing out, and rays hit what they hit without a tree.
-#include "src/accel/spatial_split.h"
+#include "src/scene/accel/spatial_split.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,9 +8,9 @@
 #include <map>
 #include <vector>
 
-#include "src/accel/cut_plan.h"
-#include "src/accel/grow.h"
-#include "src/core/parallel.h"
+#include "src/scene/accel/cut_plan.h"
+#include "src/scene/accel/grow.h"
+#include "src/base/core/parallel.h"
 #include "tests/accel/leaves.h"
 #include "tests/accel/sticks.h"
 #include "tests/intersect/trace.h"

@@ -1,7 +1,7 @@
 // Long thin triangles, which the builder cuts, and points on them.
 #pragma once
 
-#include "src/accel/builder.h"
+#include "src/scene/accel/builder.h"
 #include "tests/support/brute_force.h"
 
 namespace lanelight::brute {

@@ -1,12 +1,12 @@
 // What a tree is keyed by: all that it depends on, and nothing else.
-#include "src/accel/tree_key.h"
+#include "src/scene/accel/tree_key.h"
 
 #include <catch2/catch.hpp>
 
 #include <functional>
 #include <set>
 
-#include "src/core/parallel.h"
+#include "src/base/core/parallel.h"
 #include "tests/support/brute_force.h"
 
 namespace lanelight {

@@ -1,6 +1,6 @@
 // Boxes of the two parts of a triangle: tight on cases done by hand, never too small on
 // random ones.
-#include "src/accel/triangle_cut.h"
+#include "src/scene/accel/triangle_cut.h"
 
 #include <catch2/catch.hpp>
 

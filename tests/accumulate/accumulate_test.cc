@@ -9,8 +9,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/compile/spectrum_rows.h"
-#include "src/image/wavelengths.h"
+#include "src/scene/compile/spectrum_rows.h"
+#include "src/base/image/wavelengths.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -1,13 +1,13 @@
 // What `lanelight advise` advises: the same each time, what decide=pilot decides, and
 // what pays.
-#include "src/advise/advise.h"
+#include "src/measure/advise/advise.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "src/core/parallel.h"
-#include "src/train/decision_candidates.h"
-#include "src/train/strategy_trial.h"
+#include "src/base/core/parallel.h"
+#include "src/render/train/decision_candidates.h"
+#include "src/render/train/strategy_trial.h"
 
 namespace lanelight {
 namespace {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
-#include "src/image/color_spaces.h"
+#include "src/base/image/color_spaces.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/pi.h"
+#include "src/base/core/pi.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

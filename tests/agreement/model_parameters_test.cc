@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/image/image.h"
+#include "src/base/image/image.h"
 #include "tests/agreement/parameter_rows.h"
 #include "tests/image/temporary_folder.h"
 

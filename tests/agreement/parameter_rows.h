@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/core/pi.h"
+#include "src/base/core/pi.h"
 #include "tests/agreement/agreement.h"
 #include "tests/parse/parse_text.h"
 

@@ -2,8 +2,8 @@
 // part, and a light that only some of them meet.
 #include <catch2/catch.hpp>
 
-#include "src/image/spectrum.h"
-#include "src/image/wavelengths.h"
+#include "src/base/image/spectrum.h"
+#include "src/base/image/wavelengths.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

@@ -2,7 +2,7 @@
 // specular, against the scalar reference; and what is left of it where no file asks.
 #include <catch2/catch.hpp>
 
-#include "src/plan/plan.h"
+#include "src/render/plan/plan.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

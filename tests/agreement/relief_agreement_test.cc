@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/plan/plan.h"
+#include "src/render/plan/plan.h"
 #include "tests/surface/relief_files.h"
 #include "tests/agreement/agreement.h"
 

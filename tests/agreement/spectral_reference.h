@@ -2,7 +2,7 @@
 // wavelengths by itself.
 #pragma once
 
-#include "src/compile/spectrum_rows.h"
+#include "src/scene/compile/spectrum_rows.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

@@ -2,7 +2,7 @@
 // triple of wavelengths by itself (AtTriple).
 #include <catch2/catch.hpp>
 
-#include "src/image/spectrum.h"
+#include "src/base/image/spectrum.h"
 #include "tests/agreement/spectral_reference.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/reference/measured.h"

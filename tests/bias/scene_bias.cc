@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/strategy/combinations.h"
 
 namespace lanelight::test {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/core/vec.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/base/core/vec.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight::test {
 

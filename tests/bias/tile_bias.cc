@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/stat/distributions.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

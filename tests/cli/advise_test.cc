@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/render/report.h"
-#include "src/image/exr.h"
-#include "src/image/image.h"
+#include "src/render/job/report.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
-#include "src/image/image.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

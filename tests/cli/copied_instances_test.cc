@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

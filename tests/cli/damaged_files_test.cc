@@ -7,11 +7,11 @@
 #include <sys/stat.h>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/atomic_file.h"
-#include "src/image/exr.h"
-#include "src/image/image.h"
-#include "src/image/png.h"
-#include "src/render/saving.h"
+#include "src/base/image/atomic_file.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
+#include "src/base/image/png.h"
+#include "src/render/job/saving.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "src/cli/exit_codes.h"
-#include "src/core/text_layout.h"
+#include "src/base/core/text_layout.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
-#include "src/image/image.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 #include "tests/cli/process.h"
 #include "tests/texture/texture_files.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/render/machine_json.h"
+#include "src/render/job/machine_json.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

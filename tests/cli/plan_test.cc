@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
-#include "src/path/features.h"
+#include "src/base/image/exr.h"
+#include "src/vocabulary/path/features.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

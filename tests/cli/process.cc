@@ -18,7 +18,7 @@
 #include <fstream>
 #include <utility>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "kernels/simd/target.h"
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
-#include "src/image/image.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

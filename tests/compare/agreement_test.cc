@@ -1,13 +1,13 @@
 // Whether renders agree within their noise: planted differences are found, noise alone is
 // not called one more often than is said.
-#include "src/compare/agreement.h"
+#include "src/measure/compare/agreement.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include "src/image/variance_unit.h"
+#include "src/base/image/variance_unit.h"
 
 namespace lanelight {
 namespace {

@@ -1,5 +1,5 @@
 // What is said of two images, the maps and tiles of their errors, and the page's data.
-#include "src/compare/comparison.h"
+#include "src/measure/compare/comparison.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "src/compare/comparison_page.h"
-#include "src/compare/comparison_sheet.h"
-#include "src/compare/error_maps.h"
-#include "src/core/error.h"
+#include "src/measure/compare/comparison_page.h"
+#include "src/measure/compare/comparison_sheet.h"
+#include "src/measure/compare/error_maps.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "src/compare/flip.h"
+#include "src/measure/compare/flip.h"
 
 namespace lanelight {
 namespace {

@@ -1,6 +1,6 @@
 // FLIP against colours whose distance can be computed by hand, against a plain twin, and
 // what must hold of any images.
-#include "src/compare/flip.h"
+#include "src/measure/compare/flip.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "src/compare/linear_image.h"
+#include "src/measure/compare/linear_image.h"
 
 namespace lanelight {
 

@@ -1,6 +1,6 @@
 // Metrics against numbers worked out by hand, and z-scores against noise of known
 // variance.
-#include "src/compare/metrics.h"
+#include "src/measure/compare/metrics.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <random>
 #include <nlohmann/json.hpp>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

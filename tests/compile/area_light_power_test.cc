@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "src/core/pi.h"
-#include "src/parse/parse.h"
+#include "src/base/core/pi.h"
+#include "src/scene/parse/parse.h"
 #include "tests/compile/testing.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/lights/pictures.h"

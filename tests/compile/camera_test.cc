@@ -1,4 +1,4 @@
-#include "src/compile/camera.h"
+#include "src/scene/compile/camera.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
 // The RGB colour of a coated base stands for its spectrum.
-#include "src/compile/coat_color.h"
+#include "src/scene/compile/coat_color.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/image/rgb_spectrum.h"
+#include "src/base/image/rgb_spectrum.h"
 
 namespace lanelight {
 

@@ -1,10 +1,10 @@
 // Fluxes through coats against closed forms and identities.
-#include "src/compile/coat_table.h"
+#include "src/scene/compile/coat_table.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/reference/optics.h"
 
 namespace lanelight {

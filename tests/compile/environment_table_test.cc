@@ -1,12 +1,12 @@
 // Tables of environment images, plain and compensated for what scattered rays find.
-#include "src/compile/environment_table.h"
+#include "src/scene/compile/environment_table.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numeric>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 
 namespace lanelight {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/compile/environment.h"
+#include "src/scene/compile/environment.h"
 
 #include <catch2/catch.hpp>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "src/image/octahedral.h"
+#include "src/base/image/octahedral.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {
@@ -124,7 +124,8 @@ TEST_CASE("compile: illuminance of environments as in pbrt", "[scene][compile]")
   Light light = Infinite();
   light.illuminance = 10;
   light.image_scale = 3;
-  // A uniform map of value v has pbrt illuminance pi v / 2 (src/compile/environment.cc).
+  // A uniform map of value v has pbrt illuminance pi v / 2
+  // (src/scene/compile/environment.cc).
   const Environment e = CompileEnvironment(light, Grey(64, 0.25f));
   CHECK(e.rgb[0] == Approx(3 * 10 / (std::numbers::pi / 2)).epsilon(2e-3));
   Image below = Grey(64, 0);

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "src/core/error.h"
-#include "src/parse/parse.h"
-#include "src/compile/compile.h"
+#include "src/base/core/error.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/compile/compile.h"
 
 namespace lanelight {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/compile/filter.h"
+#include "src/scene/compile/filter.h"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/compile/focus.h"
+#include "src/scene/compile/focus.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {

@@ -1,12 +1,12 @@
-#include "src/compile/lights.h"
+#include "src/scene/compile/lights.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
-#include "src/core/pi.h"
-#include "src/compile/compile.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/base/core/pi.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {

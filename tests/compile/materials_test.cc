@@ -1,11 +1,11 @@
-#include "src/compile/materials.h"
+#include "src/scene/compile/materials.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
-#include "src/compile/coat_table.h"
-#include "src/compile/spectrum_rows.h"
+#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/spectrum_rows.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {

@@ -1,9 +1,9 @@
 // Notes on media in which paths take long.
-#include "src/compile/medium_cost.h"
+#include "src/scene/compile/medium_cost.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/compile/compile.h"
+#include "src/scene/compile/compile.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {

@@ -1,4 +1,4 @@
-#include "src/compile/quadrics.h"
+#include "src/scene/compile/quadrics.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Which pairs of triangles are one rectangle, and the one light that they become.
-#include "src/compile/rectangles.h"
+#include "src/scene/compile/rectangles.h"
 
 #include <catch2/catch.hpp>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "src/core/transform.h"
-#include "src/compile/compile.h"
+#include "src/base/core/transform.h"
+#include "src/scene/compile/compile.h"
 #include "tests/compile/testing.h"
 #include "tests/support/wave_fixture.h"
 

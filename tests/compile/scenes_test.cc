@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "src/parse/parse.h"
-#include "src/compile/compile.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/compile/testing.h"
 #include "tests/support/shared_scenes.h"
 

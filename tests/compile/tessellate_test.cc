@@ -1,11 +1,11 @@
 // Triangles in place of round shapes: where they are, their normals and coordinates.
-#include "src/compile/tessellate.h"
+#include "src/scene/compile/tessellate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/compile/seen_tolerance.h"
-#include "src/core/pi.h"
+#include "src/scene/compile/seen_tolerance.h"
+#include "src/base/core/pi.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {

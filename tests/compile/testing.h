@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/compile/compile.h"
+#include "src/scene/compile/compile.h"
 
 namespace lanelight {
 

@@ -1,12 +1,12 @@
 // Compiling textures: sharing, channels, errors with their place.
-#include "src/compile/texture_programs.h"
+#include "src/scene/compile/texture_programs.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/error.h"
-#include "src/image/image.h"
-#include "src/image/stb.h"
+#include "src/base/core/error.h"
+#include "src/base/image/image.h"
+#include "src/base/image/stb.h"
 #include "tests/texture/texture_files.h"
 
 namespace lanelight {

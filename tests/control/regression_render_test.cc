@@ -1,7 +1,7 @@
 // control=regression in renders: the variance that theory says goes, the mean stays.
 #include <catch2/catch.hpp>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/control/control_scenes.h"
 #include "tests/reference/closed_forms.h"
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "src/image/accumulator.h"
-#include "src/image/regression_film.h"
+#include "src/render/films/accumulator.h"
+#include "src/render/films/regression_film.h"
 
 namespace lanelight::regression_samples {
 

@@ -1,11 +1,11 @@
-#include "src/core/alias_table.h"
+#include "src/base/core/alias_table.h"
 
 #include <catch2/catch.hpp>
 
 #include <random>
 #include <vector>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/core/clock.h"
+#include "src/base/core/clock.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

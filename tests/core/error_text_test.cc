@@ -1,9 +1,9 @@
-#include "src/core/error_text.h"
+#include "src/base/core/error_text.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 

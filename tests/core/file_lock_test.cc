@@ -1,5 +1,5 @@
 // Locks exclude others name by name, and end with whoever has them.
-#include "src/core/file_lock.h"
+#include "src/base/core/file_lock.h"
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -1,6 +1,6 @@
 // Machines without counters for programs are common (virtual ones); there the mechanism
 // is tested with events that the kernel itself counts.
-#include "src/core/hardware_counters.h"
+#include "src/base/core/hardware_counters.h"
 
 #include <catch2/catch.hpp>
 #include <cerrno>

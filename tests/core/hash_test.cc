@@ -1,5 +1,5 @@
 // Hashes are XXH3's, in one piece or in several.
-#include "src/core/hash.h"
+#include "src/base/core/hash.h"
 
 #include <xxhash.h>
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "src/core/json_text.h"
+#include "src/base/core/json_text.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "src/core/machine_info.h"
+#include "src/base/core/machine_info.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

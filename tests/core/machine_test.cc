@@ -1,5 +1,6 @@
-// What differs between processors stays in src/core/machine.*; and what is there works.
-#include "src/core/machine.h"
+// What differs between processors stays in src/base/core/machine.*; and what is there
+// works.
+#include "src/base/core/machine.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -17,8 +18,8 @@ namespace fs = std::filesystem;
 
 // Where such words may stand. Highway's own names of targets are not among the words:
 // kernels/targets.h lists them, and a kernel may choose a way by its target.
-const std::set<std::string> kMachineFiles = {"src/core/machine.h", "src/core/machine.cc",
-                                             "tests/core/machine_test.cc"};
+const std::set<std::string> kMachineFiles = {
+    "src/base/core/machine.h", "src/base/core/machine.cc", "tests/core/machine_test.cc"};
 
 /// The first word of `text` that only one kind of processor understands; "" if none.
 std::string MachineWord(const std::string& text) {

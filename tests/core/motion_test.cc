@@ -1,5 +1,5 @@
 // Motions between two transforms, against quaternions.
-#include "src/core/motion.h"
+#include "src/base/core/motion.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

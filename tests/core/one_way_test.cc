@@ -23,18 +23,18 @@ const std::vector<Way>& Ways() {
       // Names that are not UTF-8 end nlohmann's own way out in an exception.
       {"JSON is written by DumpJson()",
        std::regex(R"(\.dump\()"),
-       {"src/core/json_text.cc"}},
+       {"src/base/core/json_text.cc"}},
       {"JSON is read by ParseJson()",
        std::regex(R"([Jj]son::parse\()"),
-       {"src/core/json_text.cc"}},
+       {"src/base/core/json_text.cc"}},
       // A FIFO would be waited for, and a device has no end. What Linux says of the
       // machine and the folders of outputs are no inputs; of a grid's file only a part is
       // read, by a stream, once that has been opened.
       {"inputs are opened by OpenInputFile()",
        std::regex(R"(\bifstream\b|\bfopen\(|\bO_RDONLY\b)"),
-       {"src/core/input_file.cc", "src/core/machine_info.cc",
-        "src/core/hardware_counters.cc", "src/image/atomic_file.cc",
-        "src/image/sparse_grid.cc"}},
+       {"src/base/core/input_file.cc", "src/base/core/machine_info.cc",
+        "src/base/core/hardware_counters.cc", "src/base/image/atomic_file.cc",
+        "src/base/image/sparse_grid.cc"}},
   };
   return ways;
 }

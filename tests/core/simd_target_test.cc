@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 

@@ -1,5 +1,5 @@
 // The stopwatch counts what it says: the wall clock, and the processor's time apart.
-#include "src/core/stopwatch.h"
+#include "src/base/core/stopwatch.h"
 
 #include <catch2/catch.hpp>
 #include <thread>

@@ -1,4 +1,4 @@
-#include "src/core/suggest.h"
+#include "src/base/core/suggest.h"
 
 #include <catch2/catch.hpp>
 

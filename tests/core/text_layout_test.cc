@@ -1,5 +1,5 @@
 // Text that fits a width.
-#include "src/core/text_layout.h"
+#include "src/base/core/text_layout.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

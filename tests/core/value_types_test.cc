@@ -1,5 +1,5 @@
 // Values as text: what is read, what is written, and what is said of all else.
-#include "src/core/value_types.h"
+#include "src/base/core/value_types.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

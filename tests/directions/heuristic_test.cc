@@ -25,7 +25,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "tests/support/test_target.h"
-#include "src/prepare/parameters.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 

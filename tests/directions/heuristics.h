@@ -1,7 +1,7 @@
 // What the kernel and the checks of heuristic_test.cc share.
 #pragma once
 
-#include "src/path/run_parameters.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
 

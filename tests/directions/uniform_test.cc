@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kernels/stages.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/shade/probe_batch.h"
 #include "tests/support/wave_fixture.h"
 

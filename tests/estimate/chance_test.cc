@@ -1,13 +1,13 @@
 // Where lamps are found by chance alone, what no sample has met is in no estimate: no
 // interval is printed where it may be missing.
-#include "src/prepare/chance_of_light.h"
+#include "src/scene/prepare/chance_of_light.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/pi.h"
-#include "src/estimate/estimate.h"
-#include "src/render/job.h"
+#include "src/base/core/pi.h"
+#include "src/render/estimate/estimate.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

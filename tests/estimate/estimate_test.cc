@@ -1,7 +1,7 @@
 // The error estimate predicts the error of this very image: its interval contains the
 // true error as often as it says, on simulated images whose true error is known, whatever
 // the distribution of the samples; and estimates with a mistake in them do not.
-#include "src/estimate/estimate.h"
+#include "src/render/estimate/estimate.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "src/estimate/estimate.h"
-#include "src/compare/metrics.h"
-#include "src/image/variance_unit.h"
+#include "src/render/estimate/estimate.h"
+#include "src/measure/compare/metrics.h"
+#include "src/base/image/variance_unit.h"
 
 namespace lanelight {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/core/error.h"
-#include "src/image/measured_reflectance.h"
+#include "src/base/core/error.h"
+#include "src/base/image/measured_reflectance.h"
 
 namespace lanelight {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "src/core/error.h"
-#include "src/parse/parse.h"
-#include "src/parse/ply.h"
+#include "src/base/core/error.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/parse/ply.h"
 
 namespace lanelight {
 

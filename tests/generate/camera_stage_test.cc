@@ -9,8 +9,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/compile/camera.h"
-#include "src/compile/filter.h"
+#include "src/scene/compile/camera.h"
+#include "src/scene/compile/filter.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -7,7 +7,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/path_values.h"
+#include "src/scene/prepare/path_values.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

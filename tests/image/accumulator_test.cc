@@ -1,6 +1,6 @@
 // The film: means, and variances of replicates or units against closed forms; no loss of
 // precision over ten million samples.
-#include "src/image/accumulator.h"
+#include "src/render/films/accumulator.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,10 +1,10 @@
 // A failed write leaves the old file and no rubbish.
-#include "src/core/input_file.h"
-#include "src/image/atomic_file.h"
+#include "src/base/core/input_file.h"
+#include "src/base/image/atomic_file.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/image/file_size_limit.h"
 #include "tests/image/temporary_folder.h"
 

@@ -1,6 +1,6 @@
 // What is read of images by the channels that they have: as lights, as textures, and by
 // `lanelight compare`.
-#include "src/image/color_channels.h"
+#include "src/base/image/color_channels.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/ranges.h>
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "src/compile/light_texels.h"
-#include "src/compile/texture_programs.h"
-#include "src/image/exr.h"
-#include "src/parse/height_texture.h"
+#include "src/scene/compile/light_texels.h"
+#include "src/scene/compile/texture_programs.h"
+#include "src/base/image/exr.h"
+#include "src/scene/parse/height_texture.h"
 #include "tests/cli/process.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/texture/texture_files.h"

@@ -1,14 +1,14 @@
 // EXR files keep names, values, windows and attributes; damaged ones are refused.
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "src/core/error.h"
-#include "src/core/input_file.h"
-#include "src/core/parallel.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/base/core/parallel.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

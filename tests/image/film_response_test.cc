@@ -5,11 +5,11 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "src/core/error.h"
-#include "src/image/color_spaces.h"
-#include "src/image/exr.h"
-#include "src/image/film_response.h"
-#include "src/image/spectrum.h"
+#include "src/base/core/error.h"
+#include "src/base/image/color_spaces.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/film_response.h"
+#include "src/base/image/spectrum.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/core/error.h"
-#include "src/image/image.h"
+#include "src/base/core/error.h"
+#include "src/base/image/image.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

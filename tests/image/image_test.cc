@@ -1,14 +1,14 @@
 // Readers of PFM, PNG, TGA, HDR: values, orientation, truncation, absurd sizes.
-#include "src/image/image.h"
+#include "src/base/image/image.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include "src/core/error.h"
-#include "src/image/atomic_file.h"
-#include "src/image/png.h"
-#include "src/image/stb.h"
+#include "src/base/core/error.h"
+#include "src/base/image/atomic_file.h"
+#include "src/base/image/png.h"
+#include "src/base/image/stb.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "src/image/accumulator.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 namespace {

@@ -1,6 +1,6 @@
 // Files of measured reflectance: what is read of them, and what is wrong with damaged
 // ones.
-#include "src/image/measured_reflectance.h"
+#include "src/base/image/measured_reflectance.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

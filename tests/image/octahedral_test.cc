@@ -1,5 +1,5 @@
 // The octahedral map is a bijection, preserves area, and is oriented as in pbrt-v4.
-#include "src/image/octahedral.h"
+#include "src/base/image/octahedral.h"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <limits>
 
-#include "src/core/error.h"
-#include "src/image/sparse_grid.h"
+#include "src/base/core/error.h"
+#include "src/base/image/sparse_grid.h"
 #include "tests/image/sparse_grid_file.h"
 #include "tests/image/temporary_folder.h"
 

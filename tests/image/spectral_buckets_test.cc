@@ -1,10 +1,10 @@
 // Buckets of wavelengths: names, units, and what bins of wavelengths add to them.
-#include "src/image/spectral_buckets.h"
+#include "src/base/image/spectral_buckets.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "src/image/accumulator.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 namespace {

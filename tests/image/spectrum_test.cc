@@ -1,15 +1,15 @@
 // Colours of spectra against published numbers: white points, black bodies, metals,
 // glass. The oracle for metals is the tabulated CIE 1931 observer, independent of the
 // analytic fit in the library.
-#include "src/image/spectrum.h"
+#include "src/base/image/spectrum.h"
 
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/error.h"
-#include "src/image/spectrum_data.h"
-#include "src/image/spectrum_integral.h"
+#include "src/base/core/error.h"
+#include "src/base/image/spectrum_data.h"
+#include "src/base/image/spectrum_integral.h"
 
 namespace lanelight {
 namespace {

@@ -1,11 +1,11 @@
 // Bins of wavelengths, and spectra made up for colours.
-#include "src/image/wavelengths.h"
+#include "src/base/image/wavelengths.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "src/image/spectrum.h"
-#include "src/image/upsampling.h"
+#include "src/base/image/spectrum.h"
+#include "src/base/image/upsampling.h"
 
 namespace lanelight {
 namespace {

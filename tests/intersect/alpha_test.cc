@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/test_target.h"
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 

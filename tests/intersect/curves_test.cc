@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/accel/curve_pieces.h"
+#include "src/scene/accel/curve_pieces.h"
 #include "tests/intersect/trace.h"
 #include "tests/reference/curves.h"
 

@@ -5,7 +5,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/core/transform.h"
+#include "src/base/core/transform.h"
 #include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
 

@@ -5,7 +5,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/core/motion.h"
+#include "src/base/core/motion.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/wave_fixture.h"
 

@@ -7,7 +7,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/plan/check_strategy.h"
+#include "src/render/plan/check_strategy.h"
 #include "tests/control/control_scenes.h"
 #include "tests/support/wave_fixture.h"
 

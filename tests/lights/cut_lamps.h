@@ -1,7 +1,7 @@
 // Scenes of emitting shapes that alpha cuts.
 #pragma once
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight::test {
 

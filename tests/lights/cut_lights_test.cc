@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/pi.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/base/core/pi.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/cut_lamps.h"
 #include "tests/lights/image_strategies.h"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tests/support/test_target.h"
-#include "src/core/pi.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/core/pi.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/lights/pictured_samples.h"
 #include "tests/stat/chi2.h"
 

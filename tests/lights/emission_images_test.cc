@@ -6,7 +6,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/support/wave_fixture.h"

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "kernels/stages.h"
-#include "src/prepare/parameters.h"
+#include "src/scene/prepare/parameters.h"
 #include "tests/lights/light_truth.h"
 
 namespace lanelight::test {

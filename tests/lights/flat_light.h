@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

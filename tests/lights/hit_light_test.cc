@@ -6,8 +6,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/parameters.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/light_truth.h"
 #include "tests/support/wave_fixture.h"
 

@@ -7,9 +7,9 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/core/pi.h"
-#include "src/image/octahedral.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/base/core/pi.h"
+#include "src/base/image/octahedral.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/reference/lights.h"

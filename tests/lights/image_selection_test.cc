@@ -8,8 +8,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/reference/scenes.h"

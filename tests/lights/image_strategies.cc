@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <iterator>
 
-#include "src/core/error.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/core/error.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

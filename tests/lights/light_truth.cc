@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/pi.h"
-#include "src/image/octahedral.h"
+#include "src/base/core/pi.h"
+#include "src/base/image/octahedral.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/compiled/scene.h"
-#include "src/path/wave.h"
+#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/wave.h"
 
 namespace lanelight::test {
 

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "kernels/stages.h"
-#include "src/prepare/parameters.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/pictured_shapes.h"
 #include "tests/support/wave_fixture.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/texture.h"
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "src/image/exr.h"
-#include "src/scene/description.h"
+#include "src/base/image/exr.h"
+#include "src/scene/description/description.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight::test {

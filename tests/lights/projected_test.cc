@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "tests/support/test_target.h"
-#include "src/stat/distributions.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/lights/projected_truth.h"
 #include "tests/stat/chi2.h"
 

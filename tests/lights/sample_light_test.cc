@@ -7,7 +7,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/lights/light_truth.h"
 #include "tests/support/wave_fixture.h"
 

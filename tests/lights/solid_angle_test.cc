@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/test_target.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/lights/flat_light.h"
 #include "tests/stat/chi2.h"
 

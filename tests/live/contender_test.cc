@@ -1,11 +1,11 @@
 // Passes of a strategy come to what a render does at once.
-#include "src/live/contender.h"
+#include "src/measure/live/contender.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
-#include "src/image/for_each_pixel.h"
-#include "src/parse/parse.h"
+#include "src/base/core/error.h"
+#include "src/render/films/for_each_pixel.h"
+#include "src/scene/parse/parse.h"
 #include "tests/live/live_scene.h"
 
 namespace lanelight::live {

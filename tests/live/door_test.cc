@@ -1,10 +1,10 @@
 // Who may come in.
-#include "src/live/door.h"
+#include "src/measure/live/door.h"
 
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/live/token.h"
+#include "src/measure/live/token.h"
 
 namespace lanelight::live {
 namespace {

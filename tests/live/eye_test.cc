@@ -1,12 +1,12 @@
 // The camera that a page moves.
-#include "src/live/eye.h"
+#include "src/measure/live/eye.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "src/core/error.h"
-#include "src/parse/parse.h"
+#include "src/base/core/error.h"
+#include "src/scene/parse/parse.h"
 #include "tests/live/live_scene.h"
 
 namespace lanelight::live {

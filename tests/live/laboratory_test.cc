@@ -1,5 +1,5 @@
 // Pages that come, ask and go, without sockets.
-#include "src/live/laboratory.h"
+#include "src/measure/live/laboratory.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/live/view.h"
+#include "src/measure/live/view.h"
 
 namespace lanelight::live {
 

@@ -5,9 +5,9 @@
 #include <half.h>
 #include <nlohmann/json.hpp>
 
-#include "src/core/error.h"
-#include "src/live/commands.h"
-#include "src/live/picture.h"
+#include "src/base/core/error.h"
+#include "src/measure/live/commands.h"
+#include "src/measure/live/picture.h"
 #include "tests/live/live_scene.h"
 
 namespace lanelight::live {

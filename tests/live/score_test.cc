@@ -1,5 +1,5 @@
 // Which of two is ahead.
-#include "src/live/score.h"
+#include "src/measure/live/score.h"
 
 #include <catch2/catch.hpp>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "src/estimate/estimate.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight::live {
 namespace {

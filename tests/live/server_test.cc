@@ -1,5 +1,5 @@
 // The server, by its sockets.
-#include "src/live/server.h"
+#include "src/measure/live/server.h"
 
 #include <arpa/inet.h>
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/live/live_scene.h"
 
 namespace lanelight::live {

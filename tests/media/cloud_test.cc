@@ -25,7 +25,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "tests/support/test_target.h"
-#include "src/compile/medium_grid.h"
+#include "src/scene/compile/medium_grid.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/reference/media.h"
 

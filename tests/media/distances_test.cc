@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/core/pi.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/plan/plan.h"
+#include "src/base/core/pi.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/render/plan/plan.h"
 #include "tests/media/scenes.h"
 #include "tests/agreement/agreement.h"
 

@@ -9,8 +9,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/media/scenes.h"
 #include "tests/stat/chi2.h"
 #include "tests/support/wave_fixture.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/reference/media.h"
 #include "tests/shade/probe_batch.h"
 #include "tests/stat/chi2.h"

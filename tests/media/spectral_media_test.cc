@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/image/blackbody.h"
-#include "src/image/spectrum.h"
+#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "tests/agreement/spectral_reference.h"
 #include "tests/media/varying_scenes.h"
 

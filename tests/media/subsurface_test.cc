@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/compile/compile.h"
-#include "src/plan/plan.h"
+#include "src/scene/compile/compile.h"
+#include "src/render/plan/plan.h"
 #include "tests/media/scenes.h"
 #include "tests/reference/optics.h"
 #include "tests/agreement/agreement.h"

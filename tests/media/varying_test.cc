@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/image/blackbody.h"
+#include "src/base/image/blackbody.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/agreement/agreement.h"
 

@@ -5,7 +5,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/parameters.h"
+#include "src/scene/prepare/parameters.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

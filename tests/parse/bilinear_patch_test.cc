@@ -1,5 +1,5 @@
 // Curved patches as triangles: where they are, their normals and coordinates.
-#include "src/parse/bilinear_patch.h"
+#include "src/scene/parse/bilinear_patch.h"
 
 #include <catch2/catch.hpp>
 

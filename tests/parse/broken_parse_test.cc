@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

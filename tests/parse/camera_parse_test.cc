@@ -1,8 +1,8 @@
 // Camera, film, filter, sampler, integrator, options.
 #include <catch2/catch.hpp>
 
-#include "src/image/color_spaces.h"
-#include "src/scene/image_changes.h"
+#include "src/base/image/color_spaces.h"
+#include "src/scene/description/image_changes.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {

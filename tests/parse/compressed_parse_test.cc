@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "src/core/gunzip.h"
-#include "src/core/input_file.h"
-#include "src/parse/parse.h"
-#include "src/render/job.h"
+#include "src/base/core/gunzip.h"
+#include "src/base/core/input_file.h"
+#include "src/scene/parse/parse.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

@@ -1,12 +1,12 @@
 // Meshes that textures displace.
-#include "src/parse/displace.h"
+#include "src/scene/parse/displace.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
-#include "src/image/image.h"
-#include "src/parse/mesh_edges.h"
+#include "src/base/image/image.h"
+#include "src/scene/parse/mesh_edges.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/parse/height_textures.h"
 #include "tests/parse/parse_text.h"

@@ -6,7 +6,7 @@
 #include <regex>
 #include <sstream>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

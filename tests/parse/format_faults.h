@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/parse/format_document.h"
 #include "tests/parse/format_scenes.h"
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
-#include "src/compile/compile.h"
-#include "src/parse/parse.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/parse/parse.h"
 #include "tests/image/sparse_grid_file.h"
 #include "tests/parse/format_values.h"
 #include "tests/reference/measured.h"

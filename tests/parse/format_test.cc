@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/parse/format.h"
+#include "src/scene/parse/format.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/parse/format_faults.h"
 

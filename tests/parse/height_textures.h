@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 

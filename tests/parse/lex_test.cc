@@ -1,4 +1,4 @@
-#include "src/parse/lex.h"
+#include "src/scene/parse/lex.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,8 +1,8 @@
 // Lights and the spectra of their emission.
 #include <catch2/catch.hpp>
 
-#include "src/core/pi.h"
-#include "src/image/spectrum.h"
+#include "src/base/core/pi.h"
+#include "src/base/image/spectrum.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {

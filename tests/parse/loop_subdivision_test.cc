@@ -1,5 +1,5 @@
 // Loop subdivision against what is known of its limit.
-#include "src/parse/loop_subdivision.h"
+#include "src/scene/parse/loop_subdivision.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Materials and textures.
 #include <catch2/catch.hpp>
 
-#include "src/image/spectrum.h"
+#include "src/base/image/spectrum.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {

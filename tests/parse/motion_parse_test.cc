@@ -1,7 +1,7 @@
 // ActiveTransform, TransformTimes and the shutter.
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/parse/parse_text.h"
 
 namespace lanelight {

@@ -1,5 +1,5 @@
 // Names that look the same are the same, however their letters are composed.
-#include "src/parse/names.h"
+#include "src/scene/parse/names.h"
 
 #include <catch2/catch.hpp>
 

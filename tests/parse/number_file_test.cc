@@ -1,9 +1,9 @@
 // Files of numbers, parted as pbrt-v4 parts them.
-#include "src/parse/number_file.h"
+#include "src/scene/parse/number_file.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 

@@ -1,4 +1,4 @@
-#include "src/parse/ply.h"
+#include "src/scene/parse/ply.h"
 
 #include <catch2/catch.hpp>
 

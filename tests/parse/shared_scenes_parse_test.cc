@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/support/shared_scenes.h"
 
 namespace lanelight {

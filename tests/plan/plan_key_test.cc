@@ -1,10 +1,10 @@
 // Strategies with equal keys render the same bits; what differs has another key.
-#include "src/plan/plan_key.h"
+#include "src/render/plan/plan_key.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/render/job.h"
-#include "src/strategy/named_strategy.h"
+#include "src/render/job/job.h"
+#include "src/vocabulary/strategy/named_strategy.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -1,13 +1,13 @@
 // The plan: what a scene does not need is not planned, not allocated, not run.
-#include "src/plan/plan.h"
+#include "src/render/plan/plan.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/core/check.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/wave/wavefront.h"
+#include "src/base/core/check.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/render/wave/wavefront.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

@@ -11,8 +11,8 @@
 #include <sstream>
 
 #include "kernels/simd/target.h"
-#include "src/path/fields.h"
-#include "src/path/light_shapes.h"
+#include "src/vocabulary/path/fields.h"
+#include "src/vocabulary/path/light_shapes.h"
 
 namespace lanelight {
 namespace {

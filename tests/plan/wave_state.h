@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/path/wave.h"
+#include "src/vocabulary/path/wave.h"
 
 namespace lanelight {
 

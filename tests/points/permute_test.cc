@@ -8,7 +8,7 @@
 #include "kernels/probe/points_probe.h"
 #include "tests/support/test_target.h"
 #include "tests/stat/chi2.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "tests/support/test_target.h"
-#include "src/prepare/groups.h"
+#include "src/scene/prepare/groups.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
 #include "tests/stat/kolmogorov.h"
-#include "src/stat/distributions.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "tests/support/test_target.h"
-#include "src/prepare/groups.h"
-#include "src/prepare/lattice.h"
-#include "src/stat/hypothesis.h"
+#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/lattice.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
 

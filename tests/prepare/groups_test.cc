@@ -1,11 +1,11 @@
 // Sequences of the samplers, what counts as an observation, and what is said about it.
-#include "src/prepare/groups.h"
+#include "src/scene/prepare/groups.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/prepare/parameters.h"
-#include "src/prepare/pmj02.h"
-#include "src/run/run.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/pmj02.h"
+#include "src/render/run/run.h"
 #include "tests/points/draw.h"
 
 namespace lanelight::test {

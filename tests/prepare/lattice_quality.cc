@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight {
 namespace {

@@ -1,5 +1,5 @@
 // What a generator of rank-1 lattices in two dimensions is worth, and the best ones: the
-// measure of kLatticeGenerator (src/prepare/lattice.h).
+// measure of kLatticeGenerator (src/scene/prepare/lattice.h).
 #pragma once
 
 #include <cstdint>

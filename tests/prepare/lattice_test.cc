@@ -1,6 +1,6 @@
 // The generator of all lattices is nearly as good as those that are made for one size,
 // and these as good as they say.
-#include "src/prepare/lattice.h"
+#include "src/scene/prepare/lattice.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,13 +1,13 @@
 // environment=compensated: when it has an effect, that it can be undone, and that it
 // lowers the variance where it should.
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/image/exr.h"
-#include "src/plan/check_strategy.h"
-#include "src/plan/plan_features.h"
-#include "src/plan/plan_key.h"
+#include "src/base/image/exr.h"
+#include "src/render/plan/check_strategy.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/plan/plan_key.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/agreement/agreement.h"
 

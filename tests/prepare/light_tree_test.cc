@@ -1,6 +1,6 @@
 // light-selection=tree: the tree bounds its lights, and the kernels that descend and
 // climb it agree with each other and with a probability that sums to 1.
-#include "src/prepare/light_tree.h"
+#include "src/scene/prepare/light_tree.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/scenes.h"
 #include "tests/run/render_fixture.h"
 #include "tests/support/wave_fixture.h"

@@ -1,6 +1,6 @@
 // The stored pmj02 sequences: all elementary intervals of all prefixes, and the freedom
 // that the construction leaves.
-#include "src/prepare/pmj02.h"
+#include "src/scene/prepare/pmj02.h"
 
 #include <catch2/catch.hpp>
 #include <set>

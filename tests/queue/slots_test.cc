@@ -36,7 +36,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "tests/support/test_target.h"
-#include "src/core/aligned.h"
+#include "src/base/core/aligned.h"
 
 namespace lanelight {
 

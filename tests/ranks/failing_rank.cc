@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "src/core/check.h"
-#include "src/core/parallel.h"
-#include "src/ranks/ranks.h"
-#include "src/render/render.h"
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
+#include "src/render/ranks/ranks.h"
+#include "src/render/job/render.h"
 
 namespace lanelight {
 namespace {

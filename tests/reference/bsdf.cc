@@ -1,7 +1,7 @@
 #include "tests/reference/bsdf.h"
 
-#include "src/core/check.h"
-#include "src/core/pi.h"
+#include "src/base/core/check.h"
+#include "src/base/core/pi.h"
 #include "tests/reference/measured.h"
 
 namespace lanelight::reference {

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/optics.h"
 #include "tests/reference/random.h"
 

@@ -1,6 +1,6 @@
 // The building blocks of the reference: each sampler against its own evaluation, and both
 // against closed forms.
-#include "src/core/pi.h"
+#include "src/base/core/pi.h"
 #include "tests/reference/bsdf.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "tests/reference/closed_forms.h"
 #include "tests/reference/material.h"
 #include "tests/reference/scenes.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::reference {
 namespace {

@@ -1,8 +1,8 @@
 #include "tests/reference/camera.h"
 
-#include "src/core/check.h"
-#include "src/core/pi.h"
-#include "src/image/octahedral.h"
+#include "src/base/core/check.h"
+#include "src/base/core/pi.h"
+#include "src/base/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {

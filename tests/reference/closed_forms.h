@@ -6,7 +6,7 @@
 #include <numbers>
 #include <span>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight::closed_form {
 

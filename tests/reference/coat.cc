@@ -7,7 +7,7 @@
 // turn, as pbrt's layered BxDF counts them: with the default of 10, five bounces off the
 // bottom. There is no roulette inside. With an albedo the medium scatters too, which
 // counts as an event like the others.
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/reference/bsdf.h"
 #include "tests/reference/media.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/pi.h"
+#include "src/base/core/pi.h"
 #include "tests/reference/frame.h"
 
 namespace lanelight::reference {

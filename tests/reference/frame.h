@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 
 namespace lanelight::reference {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/reference/curves.h"
 
 namespace lanelight::reference {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/random.h"
 
 namespace lanelight::reference {

@@ -2,7 +2,7 @@
 // the standard library.
 #include <cmath>
 
-#include "src/core/pi.h"
+#include "src/base/core/pi.h"
 #include "tests/reference/bsdf.h"
 
 namespace lanelight::reference {

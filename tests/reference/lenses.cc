@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight::reference {
 namespace {

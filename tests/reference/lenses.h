@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/geometry.h"
 
 namespace lanelight::reference {

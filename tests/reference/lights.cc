@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "src/core/check.h"
-#include "src/core/pi.h"
-#include "src/image/octahedral.h"
+#include "src/base/core/check.h"
+#include "src/base/core/pi.h"
+#include "src/base/image/octahedral.h"
 
 namespace lanelight::reference {
 namespace {

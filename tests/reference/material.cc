@@ -1,7 +1,7 @@
 #include "tests/reference/material.h"
 
-#include "src/core/check.h"
-#include "src/core/pi.h"
+#include "src/base/core/check.h"
+#include "src/base/core/pi.h"
 
 namespace lanelight::reference {
 namespace {

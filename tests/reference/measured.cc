@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight::reference {
 namespace {

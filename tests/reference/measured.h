@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/image/measured_reflectance.h"
+#include "src/base/image/measured_reflectance.h"
 #include "tests/reference/optics.h"
 
 namespace lanelight::reference {

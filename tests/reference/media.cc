@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/image/blackbody.h"
+#include "src/base/image/blackbody.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/pattern.h"
 

@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 #include "tests/reference/random.h"
 
 namespace lanelight::reference {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "src/core/check.h"
-#include "src/core/parallel.h"
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
 #include "tests/reference/camera.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/material.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/lights.h"
 #include "tests/reference/relief.h"

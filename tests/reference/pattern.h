@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 #include "kernels/texture/noise_table.h"
 
 namespace lanelight::reference {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/reference/frame.h"
 
 namespace lanelight::reference {

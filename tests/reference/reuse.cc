@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 #include "tests/reference/bsdf.h"
 #include "tests/reference/camera.h"
 #include "tests/reference/frame.h"

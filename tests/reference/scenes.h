@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight::test {
 

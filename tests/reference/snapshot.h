@@ -1,7 +1,7 @@
 // A scene that moves, at one time: what the reference tracer renders of it.
 #pragma once
 
-#include "src/scene/description.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight::reference {
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/check.h"
-#include "src/image/image.h"
-#include "src/scene/description.h"
+#include "src/base/core/check.h"
+#include "src/base/image/image.h"
+#include "src/scene/description/description.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/pattern.h"
 

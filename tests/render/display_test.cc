@@ -1,5 +1,5 @@
 // A viewer of tev's protocol, played by a server that decodes what it gets by itself.
-#include "src/render/display.h"
+#include "src/render/job/display.h"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -11,9 +11,9 @@
 #include <cstring>
 #include <thread>
 
-#include "src/core/value_types.h"
-#include "src/image/exr.h"
-#include "src/render/render.h"
+#include "src/base/core/value_types.h"
+#include "src/base/image/exr.h"
+#include "src/render/job/render.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

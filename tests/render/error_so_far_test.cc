@@ -1,10 +1,10 @@
 // What a render knows of its error while it goes on.
-#include "src/render/error_so_far.h"
+#include "src/render/job/error_so_far.h"
 
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "src/render/job.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "src/core/transform.h"
+#include "src/base/core/transform.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

@@ -4,9 +4,9 @@
 
 #include <thread>
 
-#include "src/core/parallel.h"
-#include "src/image/for_each_pixel.h"
-#include "src/render/job.h"
+#include "src/base/core/parallel.h"
+#include "src/render/films/for_each_pixel.h"
+#include "src/render/job/job.h"
 #include "tests/wave/interposed.h"
 
 namespace lanelight {

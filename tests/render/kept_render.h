@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "src/core/parallel.h"
-#include "src/image/atomic_file.h"
-#include "src/render/merge.h"
-#include "src/render/output.h"
-#include "src/render/render.h"
+#include "src/base/core/parallel.h"
+#include "src/base/image/atomic_file.h"
+#include "src/render/job/merge.h"
+#include "src/render/job/output.h"
+#include "src/render/job/render.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

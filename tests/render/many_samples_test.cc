@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "src/core/parallel.h"
-#include "src/render/job.h"
+#include "src/base/core/parallel.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

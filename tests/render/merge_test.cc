@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/core/input_file.h"
-#include "src/core/error.h"
-#include "src/render/machine_json.h"
-#include "src/render/parts.h"
+#include "src/base/core/input_file.h"
+#include "src/base/core/error.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/parts.h"
 #include "tests/render/kept_render.h"
 
 namespace lanelight {

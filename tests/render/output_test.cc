@@ -1,17 +1,17 @@
 // What of a film ends up in the file, where files may go, and what a scene hash covers.
-#include "src/core/input_file.h"
-#include "src/render/output.h"
-#include "src/render/saving.h"
+#include "src/base/core/input_file.h"
+#include "src/render/job/output.h"
+#include "src/render/job/saving.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <filesystem>
 
-#include "src/core/error.h"
-#include "src/image/atomic_file.h"
-#include "src/image/exr.h"
-#include "src/image/variance_unit.h"
+#include "src/base/core/error.h"
+#include "src/base/image/atomic_file.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/variance_unit.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -1,10 +1,10 @@
-#include "src/render/peaks.h"
+#include "src/render/job/peaks.h"
 
 #include <catch2/catch.hpp>
 
 #include "kernels/peaks/peaks.h"
 #include "tests/support/test_target.h"
-#include "src/core/aligned.h"
+#include "src/base/core/aligned.h"
 
 namespace lanelight {
 

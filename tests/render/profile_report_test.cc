@@ -1,14 +1,14 @@
 // The rows of a profile from counts that are known, and the rule of the roofline.
-#include "src/render/profile_report.h"
+#include "src/render/job/profile_report.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "src/render/roofline.h"
-#include "src/render/trace_json.h"
-#include "src/wave/profile.h"
+#include "src/render/job/roofline.h"
+#include "src/render/job/trace_json.h"
+#include "src/render/wave/profile.h"
 
 namespace lanelight {
 namespace {

@@ -1,7 +1,7 @@
 // How a job is run, for any film and as often as one likes.
 #include <catch2/catch.hpp>
 
-#include "src/render/job.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "tests/support/test_target.h"
-#include "src/render/identity.h"
-#include "src/render/report.h"
-#include "src/render/setting.h"
+#include "src/render/job/identity.h"
+#include "src/render/job/report.h"
+#include "src/render/job/setting.h"
 
 namespace lanelight {
 namespace {

@@ -1,12 +1,12 @@
 // Overrides of a scene and the limits of what is asked for.
-#include "src/render/settings.h"
-#include "src/scene/rendered_pixels.h"
+#include "src/render/job/settings.h"
+#include "src/scene/description/rendered_pixels.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
-#include "src/render/memory.h"
-#include "src/run/run.h"
+#include "src/base/core/error.h"
+#include "src/render/job/memory.h"
+#include "src/render/run/run.h"
 
 namespace lanelight {
 

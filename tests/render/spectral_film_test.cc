@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "src/core/json_text.h"
-#include "src/image/exr.h"
-#include "src/image/spectrum.h"
-#include "src/parse/parse.h"
-#include "src/render/identity.h"
-#include "src/render/memory.h"
-#include "src/render/output.h"
+#include "src/base/core/json_text.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/spectrum.h"
+#include "src/scene/parse/parse.h"
+#include "src/render/job/identity.h"
+#include "src/render/job/memory.h"
+#include "src/render/job/output.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

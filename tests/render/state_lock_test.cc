@@ -1,5 +1,5 @@
 // One keeps a state; what killed ones have left goes away, and nothing else does.
-#include "src/render/state_lock.h"
+#include "src/render/job/state_lock.h"
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -10,8 +10,8 @@
 #include <vector>
 #include <nlohmann/json.hpp>
 
-#include "src/core/check.h"
-#include "src/report/page.h"
+#include "src/base/core/check.h"
+#include "src/measure/report/page.h"
 #include "tests/report/synthetic_study.h"
 
 namespace lanelight {

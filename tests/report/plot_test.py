@@ -206,7 +206,7 @@ def check_programs(scene):
 
 
 def check_colors():
-    style = (ROOT / "src/report/page/base.css").read_text(encoding="utf-8").split("}")[0]
+    style = (ROOT / "src/measure/report/page/base.css").read_text(encoding="utf-8").split("}")[0]
     pages = re.findall(r"--c\d: (#[0-9a-f]{6});", style)
     require(pages == lanelight_draw.COLORS, pages, "in pages,", lanelight_draw.COLORS)
 

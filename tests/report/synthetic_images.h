@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "src/report/page.h"
+#include "src/measure/report/page.h"
 
 namespace lanelight {
 

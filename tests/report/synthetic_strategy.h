@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/report/page.h"
+#include "src/measure/report/page.h"
 
 namespace lanelight {
 

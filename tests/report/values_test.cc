@@ -1,5 +1,5 @@
 // Numbers and intervals of reports, where they are known and where they are not.
-#include "src/report/values.h"
+#include "src/base/stat/values.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/wave/block_layout.h"
-#include "src/wave/tiles.h"
+#include "src/render/wave/block_layout.h"
+#include "src/render/wave/tiles.h"
 
 namespace lanelight {
 namespace {

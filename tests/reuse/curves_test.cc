@@ -2,7 +2,7 @@
 // meets them: the second vertices of one path are not those of another.
 #include <catch2/catch.hpp>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/bias/tile_bias.h"
 
 namespace lanelight::test {

@@ -3,7 +3,7 @@
 // scalar reference.)
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/reuse/same_light.h"
 
 namespace lanelight::test {

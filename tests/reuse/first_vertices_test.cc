@@ -3,7 +3,7 @@
 // emit on one side, mirrors before them. Each planted fault must be found.
 #include <catch2/catch.hpp>
 
-#include "src/core/parallel.h"
+#include "src/base/core/parallel.h"
 #include "tests/bias/tile_bias.h"
 #include "tests/reference/reuse.h"
 #include "tests/reference/scenes.h"

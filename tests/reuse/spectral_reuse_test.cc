@@ -4,8 +4,8 @@
 #include <set>
 #include <vector>
 
-#include "src/image/spectrum.h"
-#include "src/image/wavelengths.h"
+#include "src/base/image/spectrum.h"
+#include "src/base/image/wavelengths.h"
 #include "tests/reuse/same_light.h"
 #include "tests/support/wave_fixture.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/reference/compare.h"
 #include "tests/reference/reuse.h"
 #include "tests/reference/scenes.h"

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "tests/reference/closed_forms.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

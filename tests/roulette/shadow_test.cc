@@ -6,8 +6,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/prepare/tables.h"
-#include "src/train/trained_tables.h"
+#include "src/scene/prepare/tables.h"
+#include "src/render/train/trained_tables.h"
 #include "tests/control/control_scenes.h"
 #include "tests/support/wave_fixture.h"
 

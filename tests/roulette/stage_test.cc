@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kernels/stages.h"
-#include "src/prepare/tables.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/plan/plan_features.h"
-#include "src/stat/hypothesis.h"
-#include "src/train/path_records.h"
-#include "src/train/training.h"
-#include "src/train/training_pass.h"
-#include "src/train/unsplit_variances.h"
+#include "src/render/plan/plan_features.h"
+#include "src/base/stat/hypothesis.h"
+#include "src/render/train/path_records.h"
+#include "src/render/train/training.h"
+#include "src/render/train/training_pass.h"
+#include "src/render/train/unsplit_variances.h"
 #include "tests/reference/scenes.h"
 
 namespace lanelight::test {

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cmath>
 
-#include "src/estimate/target.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/run/schedule.h"
+#include "src/render/estimate/target.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/render/run/schedule.h"
 #include "tests/run/lamp_scene.h"
 #include "tests/run/render_fixture.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/run/run_start.h"
+#include "src/render/run/run_start.h"
 #include "tests/run/resume_fixture.h"
 #include "tests/run/thread_group.h"
 

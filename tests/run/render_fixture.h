@@ -4,11 +4,11 @@
 #include <string>
 
 #include "tests/support/test_target.h"
-#include "src/core/parallel.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/parse/parse.h"
-#include "src/prepare/groups.h"
-#include "src/run/run.h"
+#include "src/base/core/parallel.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/prepare/groups.h"
+#include "src/render/run/run.h"
 
 namespace lanelight {
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "src/estimate/target.h"
+#include "src/render/estimate/target.h"
 #include "tests/run/lamp_scene.h"
 
 namespace lanelight::resume {

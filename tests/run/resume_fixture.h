@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/wave/run_state.h"
+#include "src/render/wave/run_state.h"
 #include "tests/wave/kept_state.h"
 #include "tests/run/render_fixture.h"
 

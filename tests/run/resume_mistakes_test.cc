@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/run/resume_fixture.h"
 
 namespace lanelight::resume {

@@ -1,6 +1,6 @@
 // The decisions of renders without a fixed number of samples, played through with an
 // imaginary clock.
-#include "src/run/schedule.h"
+#include "src/render/run/schedule.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "src/core/rank_group.h"
+#include "src/base/core/rank_group.h"
 
 namespace lanelight {
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "src/run/tile_queue.h"
+#include "src/render/run/tile_queue.h"
 
 namespace lanelight {
 namespace {

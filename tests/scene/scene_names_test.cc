@@ -1,7 +1,7 @@
 // Names of scenes where paths would be too long.
 #include <catch2/catch.hpp>
 
-#include "src/scene/scene_names.h"
+#include "src/scene/description/scene_names.h"
 
 namespace lanelight {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "src/parse/parse.h"
-#include "src/prepare/groups.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {

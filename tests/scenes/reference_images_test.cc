@@ -10,8 +10,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "src/image/exr.h"
-#include "src/image/image.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
 #include "tests/support/shared_scenes.h"
 #include "tests/run/render_fixture.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {

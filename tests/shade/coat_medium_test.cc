@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/shade/probe_batch.h"
 
 namespace lanelight::test {

@@ -6,7 +6,7 @@
 
 #include "tests/shade/probe_batch.h"
 #include "tests/stat/chi2.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

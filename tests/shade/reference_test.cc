@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "tests/shade/probe_batch.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

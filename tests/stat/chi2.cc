@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight::stat {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "src/core/check.h"
-#include "src/stat/distributions.h"
-#include "src/stat/hypothesis.h"
+#include "src/base/core/check.h"
+#include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/stat/kolmogorov.h"
 
 namespace lanelight::stat {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/core/vec.h"
+#include "src/base/core/vec.h"
 
 namespace lanelight::stat {
 

@@ -1,10 +1,10 @@
 // Intervals that hold at all looks: against random walks.
-#include "src/stat/confidence_sequence.h"
+#include "src/base/stat/confidence_sequence.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/stat/distributions.h"
+#include "src/base/stat/distributions.h"
 #include "tests/stat/simulate.h"
 
 namespace lanelight::stat {

@@ -1,5 +1,5 @@
 // Orders of convergence and costs of a target: exact on power laws, intervals that hold.
-#include "src/stat/convergence.h"
+#include "src/base/stat/convergence.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Distribution functions against closed forms and their own identities.
-#include "src/stat/distributions.h"
+#include "src/base/stat/distributions.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

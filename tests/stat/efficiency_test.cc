@@ -1,6 +1,6 @@
 // Ratios of efficiency: coverage for errors of several shapes, and rankings that claim no
 // more than they know.
-#include "src/stat/efficiency.h"
+#include "src/base/stat/efficiency.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

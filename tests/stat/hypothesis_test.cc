@@ -1,12 +1,12 @@
 // The tests are tested: false-alarm rates by simulation, planted biases that must be
 // found.
-#include "src/stat/hypothesis.h"
+#include "src/base/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "tests/reference/random.h"
-#include "src/stat/distributions.h"
+#include "src/base/stat/distributions.h"
 #include "tests/stat/compare_means.h"
 #include "tests/stat/kolmogorov.h"
 

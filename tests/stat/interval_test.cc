@@ -1,11 +1,11 @@
 // Intervals hold as often as they say, by simulation; wrong twins do not.
-#include "src/stat/interval.h"
+#include "src/base/stat/interval.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "src/stat/distributions.h"
+#include "src/base/stat/distributions.h"
 #include "tests/stat/simulate.h"
 
 namespace lanelight::stat {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/check.h"
+#include "src/base/core/check.h"
 
 namespace lanelight::stat {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "src/stat/efficiency.h"
+#include "src/base/stat/efficiency.h"
 #include "tests/reference/random.h"
 
 namespace lanelight::stat {

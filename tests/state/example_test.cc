@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "src/image/atomic_file.h"
-#include "src/state/state_file.h"
+#include "src/base/image/atomic_file.h"
+#include "src/base/state/state_file.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

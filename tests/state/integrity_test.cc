@@ -7,10 +7,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
-#include "src/core/input_file.h"
-#include "src/core/file_descriptor.h"
-#include "src/state/seal.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/base/core/file_descriptor.h"
+#include "src/base/state/seal.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"
 

@@ -5,7 +5,7 @@
 #include <thread>
 #include <utility>
 
-#include "src/state/tiles.h"
+#include "src/base/state/tiles.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "src/core/input_file.h"
-#include "src/state/state_file.h"
+#include "src/base/core/input_file.h"
+#include "src/base/state/state_file.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "src/core/error.h"
-#include "src/core/parallel.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"
 

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "src/core/error.h"
-#include "src/core/input_file.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
 #include "tests/image/file_size_limit.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/state/random_film.h"

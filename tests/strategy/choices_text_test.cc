@@ -1,9 +1,9 @@
 // What differs between two strategies.
-#include "src/strategy/choices_text.h"
+#include "src/vocabulary/strategy/choices_text.h"
 
 #include <catch2/catch.hpp>
 
-#include "src/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 

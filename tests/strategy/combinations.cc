@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "src/core/error.h"
-#include "src/plan/plan.h"
-#include "src/strategy/strategy.h"
+#include "src/base/core/error.h"
+#include "src/render/plan/plan.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::test {
 namespace {

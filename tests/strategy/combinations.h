@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "src/prepare/prepared_scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/strategy/covering.h"
 
 namespace lanelight::test {
 
-/// Every axis of src/strategy/choices.h with its choices; some choices appear with
-/// several arguments.
+/// Every axis of src/vocabulary/strategy/choices.h with its choices; some choices appear
+/// with several arguments.
 const std::vector<Axis>& Axes();
 
 /// A covering array of the axes, of 60 combinations or more.

@@ -1,11 +1,11 @@
 // The text form of strategies: every choice, presets, errors with a place and the nearest
 // name.
-#include "src/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/parse/parse.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

@@ -12,8 +12,8 @@
 #include <map>
 
 #include "tests/reference/closed_forms.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/base/stat/hypothesis.h"
 #include "tests/strategy/combinations.h"
 #include "tests/strategy/hard_scenes.h"
 #include "tests/strategy/tiles.h"

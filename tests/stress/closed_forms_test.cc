@@ -1,6 +1,6 @@
 // The closed forms of the stress suite against those of the reference, which were written
 // apart, and against what is known at their ends.
-#include "src/stress/closed_forms.h"
+#include "src/measure/stress/closed_forms.h"
 
 #include <array>
 #include <catch2/catch.hpp>

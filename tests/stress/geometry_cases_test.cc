@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/core/error.h"
-#include "src/stress/cases/cases.h"
+#include "src/base/core/error.h"
+#include "src/measure/stress/cases/cases.h"
 
 namespace lanelight::stress {
 namespace {

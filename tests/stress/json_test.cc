@@ -5,10 +5,10 @@
 #include <regex>
 #include <set>
 
-#include "src/core/input_file.h"
-#include "src/render/machine_json.h"
-#include "src/stress/efficiency.h"
-#include "src/stress/stress_json.h"
+#include "src/base/core/input_file.h"
+#include "src/render/job/machine_json.h"
+#include "src/measure/stress/efficiency.h"
+#include "src/measure/stress/stress_json.h"
 #include "tests/stress/synthetic_run.h"
 
 namespace lanelight::stress {

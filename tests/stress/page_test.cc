@@ -4,9 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/core/error.h"
-#include "src/report/page.h"
-#include "src/stress/stress_json.h"
+#include "src/base/core/error.h"
+#include "src/measure/report/page.h"
+#include "src/measure/stress/stress_json.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/stress/synthetic_run.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/stress/stress_case.h"
+#include "src/measure/stress/stress_case.h"
 
 namespace lanelight::stress {
 

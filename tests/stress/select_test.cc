@@ -1,14 +1,14 @@
 // Words of the command line choose cases; the table of cases is as it should be.
-#include "src/stress/select.h"
+#include "src/measure/stress/select.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <regex>
 #include <set>
 
-#include "src/core/error.h"
-#include "src/stress/cases/cases.h"
-#include "src/stress/suite.h"
+#include "src/base/core/error.h"
+#include "src/measure/stress/cases/cases.h"
+#include "src/measure/stress/suite.h"
 
 namespace lanelight::stress {
 namespace {

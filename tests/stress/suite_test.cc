@@ -1,5 +1,5 @@
 // Runs of planted cases: what fails, what does not, and where a map breaks.
-#include "src/stress/suite.h"
+#include "src/measure/stress/suite.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 
 #include "tests/support/test_target.h"
 #include "src/cli/stress_exit.h"
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/stress/planted.h"
 
 namespace lanelight::stress {

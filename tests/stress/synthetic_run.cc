@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/core/error.h"
+#include "src/base/core/error.h"
 #include "tests/stress/planted.h"
 
 namespace lanelight::stress {

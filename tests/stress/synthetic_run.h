@@ -2,7 +2,7 @@
 // are tested with.
 #pragma once
 
-#include "src/stress/suite.h"
+#include "src/measure/stress/suite.h"
 
 namespace lanelight::stress {
 

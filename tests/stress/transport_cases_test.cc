@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "src/stress/cases/cases.h"
+#include "src/measure/stress/cases/cases.h"
 
 namespace lanelight::stress {
 namespace {

@@ -1,6 +1,6 @@
 // The verdict on a point: planted faults are found, correct points pass, and what is
 // said of the power is true.
-#include "src/stress/verdict.h"
+#include "src/measure/stress/verdict.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/study/analysis.h"
+#include "src/measure/study/analysis.h"
 #include "tests/stat/simulate.h"
 
 namespace lanelight {

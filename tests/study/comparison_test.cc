@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/stat/distributions.h"
-#include "src/study/analysis.h"
+#include "src/base/stat/distributions.h"
+#include "src/measure/study/analysis.h"
 #include "tests/stat/simulate.h"
 
 namespace lanelight {

@@ -2,7 +2,7 @@
 // no false alarms, planted biases are found.
 #include <catch2/catch.hpp>
 
-#include "src/study/analysis.h"
+#include "src/measure/study/analysis.h"
 #include "tests/study/simulated.h"
 
 namespace lanelight {

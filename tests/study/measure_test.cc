@@ -4,7 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "src/estimate/estimate.h"
+#include "src/render/estimate/estimate.h"
 #include "tests/study/simulated.h"
 
 namespace lanelight {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "src/study/study.h"
-#include "src/study/study_json.h"
+#include "src/measure/study/study.h"
+#include "src/measure/study/study_json.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/simulated.h"
 

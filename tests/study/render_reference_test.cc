@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "src/core/error.h"
-#include "src/study/reference.h"
+#include "src/base/core/error.h"
+#include "src/measure/study/reference.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -2,7 +2,7 @@
 // dependent, and names the strategies and the pixels where they did not.
 #include <catch2/catch.hpp>
 
-#include "src/study/analysis.h"
+#include "src/measure/study/analysis.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 // to say so; by simulation, with known answers.
 #include <catch2/catch.hpp>
 
-#include "src/study/analysis.h"
+#include "src/measure/study/analysis.h"
 #include "tests/study/simulated.h"
 
 namespace lanelight {

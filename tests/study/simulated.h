@@ -5,9 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "src/study/cell_store.h"
-#include "src/study/errors.h"
-#include "src/study/reference.h"
+#include "src/measure/study/cell_store.h"
+#include "src/measure/study/errors.h"
+#include "src/measure/study/reference.h"
 #include "tests/reference/random.h"
 
 namespace lanelight {

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "src/core/error.h"
-#include "src/core/input_file.h"
-#include "src/image/colors.h"
-#include "src/report/shrink.h"
-#include "src/study/study_images.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/render/films/colors.h"
+#include "src/measure/report/shrink.h"
+#include "src/measure/study/study_images.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/simulated.h"
 

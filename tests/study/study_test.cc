@@ -1,5 +1,5 @@
 // Studies from start to end, on a scene of a few pixels.
-#include "src/study/study.h"
+#include "src/measure/study/study.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/core/error.h"
-#include "src/core/input_file.h"
-#include "src/image/colors.h"
-#include "src/render/machine_json.h"
-#include "src/study/schedule.h"
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/render/films/colors.h"
+#include "src/render/job/machine_json.h"
+#include "src/measure/study/schedule.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/study_file.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "kernels/stages.h"
-#include "src/compiled/scene.h"
-#include "src/path/stage.h"
+#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/stage.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/image/exr.h"
-#include "src/scene/description.h"
+#include "src/base/image/exr.h"
+#include "src/scene/description/description.h"
 #include "tests/texture/texture_files.h"
 
 namespace lanelight {

@@ -4,8 +4,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/core/pi.h"
-#include "src/prepare/prepared_scene.h"
+#include "src/base/core/pi.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/relief.h"
 #include "tests/reference/scenes.h"
 #include "tests/support/wave_fixture.h"

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "src/cli/exit_codes.h"
-#include "src/image/atomic_file.h"
+#include "src/base/image/atomic_file.h"
 #include "tests/sweep/sweep_folder.h"
 #include "tests/sweep/sweep_process.h"
 

@@ -1,8 +1,8 @@
 // docs/sweep.md names what a sweep file may have.
 #include <catch2/catch.hpp>
 
-#include "src/core/input_file.h"
-#include "src/sweep/axes.h"
+#include "src/base/core/input_file.h"
+#include "src/measure/sweep/axes.h"
 
 namespace lanelight {
 

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <map>
 
-#include "src/core/hash.h"
-#include "src/render/machine_json.h"
-#include "src/report/values.h"
-#include "src/stat/efficiency.h"
-#include "src/sweep/results.h"
-#include "src/report/page.h"
-#include "src/sweep/sweep_page.h"
+#include "src/base/core/hash.h"
+#include "src/render/job/machine_json.h"
+#include "src/base/stat/values.h"
+#include "src/base/stat/efficiency.h"
+#include "src/measure/sweep/results.h"
+#include "src/measure/report/page.h"
+#include "src/measure/sweep/sweep_page.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/sweep/sweep_file.h"
+#include "src/measure/sweep/sweep_file.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/image/exr.h"
+#include "src/base/image/exr.h"
 #include "tests/cli/process.h"
 #include "tests/study/study_file.h"
 

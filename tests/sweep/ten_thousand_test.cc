@@ -6,10 +6,10 @@
 #include <set>
 #include <unistd.h>
 
-#include "src/core/input_file.h"
-#include "src/sweep/prediction.h"
-#include "src/sweep/runner.h"
-#include "src/sweep/sweep_folder.h"
+#include "src/base/core/input_file.h"
+#include "src/measure/sweep/prediction.h"
+#include "src/measure/sweep/runner.h"
+#include "src/measure/sweep/sweep_folder.h"
 #include "tests/sweep/sweep_folder.h"
 
 namespace lanelight {

@@ -4,8 +4,8 @@
 
 #include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/compile/mip_levels.h"
-#include "src/compile/texture_programs.h"
+#include "src/scene/compile/mip_levels.h"
+#include "src/scene/compile/texture_programs.h"
 #include "tests/surface/relief_files.h"
 #include "tests/support/wave_fixture.h"
 

@@ -32,8 +32,8 @@ LANELIGHT_END_KERNELS
 #include <random>
 
 #include "tests/support/test_target.h"
-#include "src/compile/coat_color.h"
-#include "src/compile/texture_programs.h"
+#include "src/scene/compile/coat_color.h"
+#include "src/scene/compile/texture_programs.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
 

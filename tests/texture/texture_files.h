@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "src/image/exr.h"
-#include "src/image/image.h"
-#include "src/scene/description.h"
+#include "src/base/image/exr.h"
+#include "src/base/image/image.h"
+#include "src/scene/description/description.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -34,7 +34,7 @@ LANELIGHT_END_KERNELS
 #include "tests/support/test_target.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
-#include "src/compile/texture_programs.h"
+#include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "tests/support/test_target.h"
-#include "src/compiled/scene.h"
-#include "src/core/check.h"
-#include "src/path/stage.h"
+#include "src/scene/compiled/scene.h"
+#include "src/base/core/check.h"
+#include "src/vocabulary/path/stage.h"
 #include "tests/reference/texture.h"
 #include "tests/texture/texture_files.h"
-#include "src/compile/texture_programs.h"
+#include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "src/core/text_layout.h"
-#include "src/strategy/strategy.h"
-#include "src/throughput/throughput_comparison.h"
-#include "src/throughput/throughput_table.h"
+#include "src/base/core/text_layout.h"
+#include "src/vocabulary/strategy/strategy.h"
+#include "src/measure/throughput/throughput_comparison.h"
+#include "src/measure/throughput/throughput_table.h"
 
 namespace lanelight::test {
 namespace {

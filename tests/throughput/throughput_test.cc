@@ -6,14 +6,14 @@
 #include <numeric>
 
 #include "tests/support/test_target.h"
-#include "src/core/error.h"
-#include "src/parse/parse.h"
-#include "src/throughput/bench_scenes.h"
-#include "src/report/page.h"
-#include "src/throughput/throughput.h"
-#include "src/throughput/throughput_comparison.h"
-#include "src/throughput/throughput_table.h"
-#include "src/throughput/throughput_warnings.h"
+#include "src/base/core/error.h"
+#include "src/scene/parse/parse.h"
+#include "src/measure/throughput/bench_scenes.h"
+#include "src/measure/report/page.h"
+#include "src/measure/throughput/throughput.h"
+#include "src/measure/throughput/throughput_comparison.h"
+#include "src/measure/throughput/throughput_table.h"
+#include "src/measure/throughput/throughput_warnings.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight::test {

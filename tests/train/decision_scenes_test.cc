@@ -1,7 +1,7 @@
 // decide=pilot on scenes that others have made, by pilots of a render of ten seconds.
 #include <catch2/catch.hpp>
 
-#include "src/render/job.h"
+#include "src/render/job/job.h"
 #include "tests/support/shared_scenes.h"
 
 namespace lanelight {

@@ -4,12 +4,12 @@
 #include <numeric>
 #include <random>
 
-#include "src/plan/plan_features.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/train/path_records.h"
-#include "src/train/pilot_comparison.h"
-#include "src/train/strategy_trial.h"
-#include "src/train/training.h"
+#include "src/render/plan/plan_features.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/render/train/path_records.h"
+#include "src/render/train/pilot_comparison.h"
+#include "src/render/train/strategy_trial.h"
+#include "src/render/train/training.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

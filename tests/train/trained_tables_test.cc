@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "src/core/error.h"
-#include "src/train/trained_tables.h"
+#include "src/base/core/error.h"
+#include "src/render/train/trained_tables.h"
 
 namespace lanelight {
 namespace {

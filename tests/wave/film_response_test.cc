@@ -2,9 +2,9 @@
 // the same, and so is what the film holds, up to the response.
 #include <catch2/catch.hpp>
 
-#include "src/image/color_spaces.h"
-#include "src/parse/parse.h"
-#include "src/render/job.h"
+#include "src/base/image/color_spaces.h"
+#include "src/scene/parse/parse.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

@@ -1,5 +1,5 @@
 // Films that are put down and picked up go on exactly where they were.
-#include "src/wave/films.h"
+#include "src/render/wave/films.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/wave/films.h"
+#include "src/render/wave/films.h"
 
 namespace lanelight {
 

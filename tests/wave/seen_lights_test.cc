@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "src/wave/seen_light_places.h"
-#include "src/plan/plan_features.h"
-#include "src/wave/seen_lights.h"
+#include "src/render/wave/seen_light_places.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/wave/seen_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/run/render_fixture.h"
 

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "src/prepare/path_values.h"
-#include "src/prepare/prepared_scene.h"
-#include "src/prepare/tables.h"
-#include "src/wave/task_runner.h"
-#include "src/wave/tiles.h"
-#include "src/wave/wavefront.h"
-#include "src/train/training.h"
+#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/tables.h"
+#include "src/render/wave/task_runner.h"
+#include "src/render/wave/tiles.h"
+#include "src/render/wave/wavefront.h"
+#include "src/render/train/training.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {
@@ -41,7 +41,7 @@ inline std::string MeshScene() {
          "] \"integer indices\" [ " + indices + "]\n";
 }
 
-/// What a task of a render does (src/run/tasks.cc), with a plan to tamper with.
+/// What a task of a render does (src/render/run/tasks.cc), with a plan to tamper with.
 class TaskFixture {
  public:
   TaskFixture(const std::string& text, const std::string& strategy, Auxiliary auxiliary)

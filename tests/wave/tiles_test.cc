@@ -1,5 +1,5 @@
 // Every pixel belongs to exactly one tile, in every shape of window.
-#include "src/wave/tiles.h"
+#include "src/render/wave/tiles.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // What several trainings of one strategy come to.
 #include <catch2/catch.hpp>
 
-#include "src/wave/run_state.h"
+#include "src/render/wave/run_state.h"
 
 namespace lanelight {
 

@@ -1,0 +1,61 @@
+// A connection to a server, over TCP, that sends and never waits longer than it is told.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "src/base/core/file_descriptor.h"
+
+namespace lanelight {
+
+/// Where a server listens.
+struct Endpoint {
+  std::string host;
+  std::uint16_t port = 0;
+
+  /// "localhost:14158"
+  std::string Text() const;
+};
+
+/// "HOST:PORT", or a host alone with `usual_port`; an IPv6 address in brackets. As in
+/// src/base/core/value_types.h.
+struct EndpointType {
+  std::uint16_t usual_port;
+
+  std::optional<Endpoint> Read(const std::string& text) const;
+  std::string Write(const Endpoint& endpoint) const { return endpoint.Text(); }
+  std::string Right(const std::string&) const;
+};
+
+class Connection {
+ public:
+  /// Connects within `seconds`, for each address that the host has. Null, with the reason
+  /// in `why`, if nobody answers.
+  static std::unique_ptr<Connection> Open(const Endpoint& endpoint, double seconds,
+                                          std::string& why);
+
+  enum class Sent { kAll, kFailed, kGaveUp };
+  /// Sends all, however long the server takes to read it: until Hurry() has been called,
+  /// and from then on for its seconds at most. kFailed: it has gone away; Reason() then
+  /// says why.
+  Sent Send(std::string_view bytes);
+  /// From any thread, once.
+  void Hurry(double seconds);
+  std::string Reason() const;
+
+ private:
+  explicit Connection(FileDescriptor socket) : socket_(std::move(socket)) {}
+  bool IsOver() const;
+
+  FileDescriptor socket_;
+  int error_ = 0;
+  // Seconds of the steady clock.
+  std::atomic<double> deadline_{std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace lanelight

@@ -1,0 +1,184 @@
+#include "src/base/image/nanovdb_file.h"
+
+#include <blosc.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <iostream>  // NanoVDB uses it and does not include it
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "src/base/core/error.h"
+
+// Of NanoVDB 32, how headers are laid out. Its own reader believes them.
+#include <nanovdb/util/IO.h>
+
+namespace lanelight {
+namespace {
+
+namespace io = nanovdb::io;
+
+// Bytes that one byte of a compressed grid may become: of zip 1032, of blosc's LZ4 255.
+constexpr std::uint64_t kMostExpansion = 1032;
+// How much of a grid blosc compresses at a time.
+constexpr std::uint64_t kBloscChunk = std::uint64_t{1} << 30;
+
+// Reads on through a file, never past its end.
+class Reader {
+ public:
+  explicit Reader(std::istream& file) : file_(file) {
+    const auto end = file_.seekg(0, std::ios::end).tellg();
+    if (end < 0 || !file_.seekg(0)) throw InputError("has no end that is known");
+    size_ = static_cast<std::uint64_t>(end);
+  }
+  std::uint64_t place() const { return place_; }
+  std::uint64_t left() const { return size_ - place_; }
+
+  [[noreturn]] static void Fail(std::uint64_t place, const std::string& text) {
+    throw InputError(fmt::format("byte {}: {}", place, text));
+  }
+  void Need(std::uint64_t count, const char* what) const {
+    if (count <= left()) return;
+    Fail(place_,
+         fmt::format("{} of {} bytes, but the file ends at byte {}", what, count, size_));
+  }
+  void Read(std::uint64_t count, const char* what, void* to) {
+    Need(count, what);
+    if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count))) {
+      Fail(place_, fmt::format("{} of {} bytes cannot be read", what, count));
+    }
+    place_ += count;
+  }
+  template <typename T>
+  T Read(const char* what) {
+    T value;
+    Read(sizeof value, what, &value);
+    return value;
+  }
+  void Skip(std::uint64_t count, const char* what) {
+    Need(count, what);
+    place_ += count;
+    file_.seekg(static_cast<std::streamoff>(place_));
+  }
+
+ private:
+  std::istream& file_;
+  std::uint64_t size_ = 0, place_ = 0;
+};
+
+io::Header ReadHeader(Reader& reader) {
+  const std::uint64_t place = reader.place();
+  const auto header = reader.Read<io::Header>("the header of a segment");
+  if (header.magic != NANOVDB_MAGIC_NUMBER) {
+    reader.Fail(place, header.magic == io::reverseEndianness(NANOVDB_MAGIC_NUMBER)
+                           ? "written on a machine with the other byte order"
+                           : "not the number that NanoVDB files begin with");
+  }
+  const auto version = header.version.getMajor();
+  if (version != NANOVDB_MAJOR_VERSION_NUMBER) {
+    reader.Fail(place + 8, fmt::format("version {} of the format; supported: {}", version,
+                                       NANOVDB_MAJOR_VERSION_NUMBER));
+  }
+  if (header.codec >= io::Codec::END) {
+    reader.Fail(place + 14, fmt::format("compression {}; supported: 0 (none), 1 (zip), 2 "
+                                        "(blosc)",
+                                        static_cast<int>(header.codec)));
+  }
+  return header;
+}
+
+// Compressed bytes, after their number.
+std::vector<std::uint8_t> ReadPacked(Reader& reader) {
+  const auto size = reader.Read<std::uint64_t>("the size of a compressed grid");
+  reader.Need(size, "a compressed grid");
+  std::vector<std::uint8_t> packed(size);
+  reader.Read(size, "a compressed grid", packed.data());
+  return packed;
+}
+
+void Unzip(Reader& reader, GridBytes* bytes) {
+  const std::uint64_t place = reader.place();
+  const auto packed = ReadPacked(reader);
+  uLongf size = bytes->size();
+  const int status = uncompress(bytes->data(), &size, packed.data(), packed.size());
+  if (status != Z_OK || size != bytes->size()) {
+    reader.Fail(place, "what zip has compressed is damaged");
+  }
+}
+
+void Unblosc(Reader& reader, GridBytes* bytes) {
+  for (std::size_t done = 0; done < bytes->size();) {
+    const std::uint64_t place = reader.place();
+    const auto packed = ReadPacked(reader);
+    const std::size_t chunk = std::min<std::uint64_t>(kBloscChunk, bytes->size() - done);
+    std::size_t size = 0;
+    // Decompression itself trusts the sizes that blosc has written.
+    if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) != 0 ||
+        size != chunk ||
+        blosc_decompress_ctx(packed.data(), bytes->data() + done, chunk, 1) !=
+            static_cast<int>(chunk)) {
+      reader.Fail(place, "what blosc has compressed is damaged");
+    }
+    done += chunk;
+  }
+}
+
+// Room for no more than the rest of the file can become.
+GridBytes MakeRoom(const Reader& reader, io::Codec codec, std::uint64_t size) {
+  if (codec == io::Codec::NONE) {
+    reader.Need(size, "a grid");
+  } else if (size / kMostExpansion > reader.left()) {
+    reader.Fail(reader.place(),
+                fmt::format("a grid of {} bytes, which the {} that follow cannot become",
+                            size, reader.left()));
+  }
+  try {
+    return GridBytes(size);
+  } catch (const std::bad_alloc&) {
+    reader.Fail(reader.place(), fmt::format("no memory for a grid of {} bytes", size));
+  }
+}
+
+GridBytes Unpack(Reader& reader, io::Codec codec, std::uint64_t size) {
+  auto bytes = MakeRoom(reader, codec, size);
+  if (codec == io::Codec::ZIP) {
+    Unzip(reader, &bytes);
+  } else if (codec == io::Codec::BLOSC) {
+    Unblosc(reader, &bytes);
+  } else {
+    reader.Read(size, "a grid", bytes.data());
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::optional<StoredGrid> ReadStoredGrid(std::istream& file, const std::string& name) {
+  Reader reader(file);
+  do {
+    const io::Header header = ReadHeader(reader);
+    // Descriptions of all its grids come first, then the grids.
+    std::optional<std::uint64_t> size;  // of the grid that is looked for
+    std::uint64_t before = 0;           // it, or before the next segment
+    for (int i = 0; i < header.gridCount; ++i) {
+      const auto meta = reader.Read<io::MetaData>("the description of a grid");
+      reader.Need(meta.nameSize, "the name of a grid");
+      std::string found(meta.nameSize, '\0');
+      reader.Read(meta.nameSize, "the name of a grid", found.data());
+      if (size) continue;
+      if (found.c_str() == name) {
+        size = meta.gridSize;
+      } else {
+        reader.Need(meta.fileSize, "a grid");
+        before += meta.fileSize;
+      }
+    }
+    reader.Skip(before, "grids");
+    const std::uint64_t place = reader.place();
+    if (size) return StoredGrid{Unpack(reader, header.codec, *size), place};
+  } while (reader.left() > 0);
+  return std::nullopt;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,45 @@
+// The wavelengths that paths carry, in three bins each.
+//
+// The visible range is cut into three segments of N bins. Bins i, N + i and 2 N + i are a
+// triple; paths draw one of the N triples. The edges are chosen so that every triple has
+// the same share of each channel of the illuminant D65: whatever triple a path has, light
+// that is white comes out white. So colours add no noise of their own to what is grey,
+// and little to anything else: the variance over triples of a diffuse surface under D65,
+// relative to its square, is 0 for white and 0.003 for skin, where three wavelengths of
+// one density, a third of it apart (pbrt-v4's), have 0.32 and 0.25.
+//
+// A glass that spreads colours leaves a path one of its three wavelengths, all alike
+// likely (hero wavelengths: Wilkie et al. 2014).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "src/base/image/spectrum_integral.h"
+
+namespace lanelight {
+
+inline constexpr int kTriples = 128, kWavelengthBins = 3 * kTriples;
+inline constexpr int kWavelengthEdges = kWavelengthBins + 1;
+/// The range that paths carry, nm. Beyond it lie 3e-4 of what the eye sees of D65.
+inline constexpr int kFirstCarriedNm = 380, kLastCarriedNm = 780;
+
+struct WavelengthBins {
+  std::array<double, kWavelengthEdges> edge;   // nm, increasing
+  std::array<double, kWavelengthBins> centre;  // of what the film sees in a bin
+  /// Linear sRGB of 1 in a bin, in units of D65, times N: a triple of ones is (1, 1, 1).
+  std::array<Rgb, kWavelengthBins> film;
+};
+
+/// Made once, by Newton's method from triple to triple.
+const WavelengthBins& CarriedWavelengths();
+
+/// Means of a spectrum over the bins, weighed by what the film sees there.
+std::vector<float> BinMeans(const Spectrum& spectrum);
+/// The same of a smooth one: its values at the centres.
+std::vector<float> BinValues(const Spectrum& spectrum);
+
+/// Colour of values in the bins: of a reflectance under D65, or of light in units of it.
+Rgb ColorOfBins(const std::vector<float>& values);
+
+}  // namespace lanelight

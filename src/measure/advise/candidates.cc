@@ -1,0 +1,114 @@
+#include "src/measure/advise/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "src/render/train/decision_candidates.h"
+#include "src/render/plan/plan_key.h"
+
+namespace lanelight {
+namespace {
+
+// A tree over fewer lights finds no more than their power says.
+constexpr std::size_t kFewLights = 4;
+
+// After the changes that gain most where they gain: a short pilot reaches these only.
+constexpr std::ptrdiff_t kPlaceOfOwn = 3;
+
+// Of what a ray costs, of strategies that nobody has timed.
+constexpr double kUnknownSpread = 0.15;
+
+// Why the scene does not take the strategy; empty if it does. `key` is then its plan's.
+std::string Refusal(const Strategy& strategy, const PlanOptions& options,
+                    const PreparedScene& scene, std::string& key) {
+  if (strategy.light_selection == LightSelection::kTree &&
+      scene.compiled->lights.lights.size() < kFewLights) {
+    const std::size_t lights = scene.compiled->lights.lights.size();
+    return fmt::format("with {} light{} there is little to select", lights,
+                       lights == 1 ? "" : "s");
+  }
+  try {
+    const PreparedScene prepared = WithStrategy(scene, strategy);
+    key = PlanKey(prepared, MakePlan(prepared, options));
+  } catch (const InputError& error) {
+    const std::string text = error.what(), prefix = "strategy: ";
+    const std::size_t at = text.find(prefix);
+    return at == std::string::npos ? text : text.substr(at + prefix.size());
+  }
+  return "";
+}
+
+// The axis of a change: "roulette" of "roulette=none".
+std::string AxisOf(const std::string& changes) {
+  return changes.substr(0, changes.find('='));
+}
+
+}  // namespace
+
+const char* Name(CandidateStatus status) {
+  constexpr const char* kNames[] = {"chosen", "kept", "dropped", "skipped", "refused"};
+  return kNames[static_cast<int>(status)];
+}
+
+AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
+  ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0},
+                candidate.strategy);
+  candidate.changes = JoinedChanges(candidate.changes, changes);
+  return candidate;
+}
+
+std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
+                                         const AdvisedCandidate& b) {
+  if (a.meaning == kOwnStrategy || b.meaning == kOwnStrategy ||
+      AxisOf(a.changes) == AxisOf(b.changes)) {
+    return std::nullopt;
+  }
+  AdvisedCandidate both;
+  both.strategy = a.strategy;
+  both.changes = a.changes;
+  both.meaning = "both pay";
+  both.price = a.price * b.price;
+  both.price_spread = std::hypot(a.price_spread, b.price_spread);
+  return WithMore(both, b.changes);
+}
+
+std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
+                                            const PlanOptions& options) {
+  const Strategy own = scene.strategy, usual;
+  std::vector<AdvisedCandidate> out = {{usual, "", "the renderer's default"}};
+  for (const DecisionCandidate& c : kDecisionCandidates) {
+    AdvisedCandidate changed = WithMore({}, c.changes);
+    if (changed.strategy == own) continue;
+    changed.meaning = c.reason;
+    changed.price = c.price;
+    changed.price_spread = c.price_spread;
+    out.push_back(changed);
+  }
+  if (own != usual) {
+    out.insert(out.begin() + kPlaceOfOwn,
+               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread});
+  }
+  std::vector<std::string> keys;
+  for (AdvisedCandidate& candidate : out) {
+    std::string key;
+    candidate.reason = Refusal(candidate.strategy, options, scene, key);
+    // Equal plans give equal bits: what would differ is their timing alone.
+    const auto twin = std::find(keys.begin(), keys.end(), key);
+    if (candidate.reason.empty() && twin != keys.end()) {
+      const std::string& changes = out[std::size_t(twin - keys.begin())].changes;
+      candidate.reason = "does on this scene exactly what " +
+                         (changes.empty() ? "the default" : changes) + " does";
+    }
+    if (!candidate.reason.empty()) candidate.status = CandidateStatus::kRefused;
+    keys.push_back(candidate.reason.empty() ? key : "-");
+  }
+  // A comparison needs its first.
+  if (out.front().status == CandidateStatus::kRefused)
+    std::swap(out[0], out[kPlaceOfOwn]);
+  return out;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,83 @@
+// FLIP of images of a high dynamic range: as a screen shows them at several exposures.
+#include <algorithm>
+#include <cmath>
+
+#include "src/measure/compare/flip.h"
+#include "src/base/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// Narkowicz's (2015) fit to the tone curve of ACES, without its own change of exposure:
+// (kTop[0] x^2 + kTop[1] x) / (kBottom[0] x^2 + kBottom[1] x + kBottom[2]).
+constexpr double kTop[] = {0.6 * 0.6 * 2.51, 0.6 * 0.03};
+constexpr double kBottom[] = {0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
+// What the curve maps to this is bright, and not yet burnt out.
+constexpr double kBright = 0.85;
+// Weights of luminance, with the digits that the authors give them.
+constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
+// Where the curve is as good as level, and squares are not yet infinite.
+constexpr double kLevel = 1e15;
+
+double ToneCurve(double x) {
+  x = x > 0 ? std::min(x, kLevel) : 0;  // a NaN is black
+  return std::min(1.0, (kTop[0] * x + kTop[1]) * x /
+                           ((kBottom[0] * x + kBottom[1]) * x + kBottom[2]));
+}
+
+// The larger root of ToneCurve(x) = kBright.
+double BrightInput() {
+  const double a = kTop[0] - kBright * kBottom[0], b = kTop[1] - kBright * kBottom[1],
+               c = -kBright * kBottom[2];
+  return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
+LinearImage Toned(const LinearImage& image, double exposure) {
+  const double gain = std::exp2(exposure);
+  LinearImage out = image;
+  for (Plane& plane : out.planes) {
+    for (float& value : plane) value = static_cast<float>(ToneCurve(gain * value));
+  }
+  return out;
+}
+
+}  // namespace
+
+FlipExposures ExposuresOf(const LinearImage& reference) {
+  constexpr double kLeast = 1e-30;  // of a luminance: its logarithm is wanted
+  std::vector<double> luminances;
+  for (std::size_t i = 0; i < reference.pixels(); ++i) {
+    double y = 0;
+    for (int c = 0; c < 3; ++c) y += kWeights[c] * reference.planes[c][i];
+    if (std::isfinite(y)) luminances.push_back(std::max(y, kLeast));
+  }
+  if (luminances.empty()) return {0, 1, 2};
+  const auto middle = luminances.begin() + static_cast<long>(luminances.size() / 2);
+  std::nth_element(luminances.begin(), middle, luminances.end());
+  const double median = *middle;
+  const double brightest = *std::max_element(luminances.begin(), luminances.end());
+  if (brightest <= kLeast) return {0, 1, 2};
+  FlipExposures out;
+  out.start = std::log2(BrightInput() / brightest);
+  // Where most of an image is black, the exposures end where nothing is left to see.
+  constexpr double kMost = 32;
+  out.stop = std::min(std::log2(BrightInput() / median), out.start + kMost);
+  out.count = std::max(2, static_cast<int>(std::ceil(out.stop - out.start)));
+  return out;
+}
+
+Plane HdrFlip(const LinearImage& reference, const LinearImage& test,
+              const FlipExposures& exposures, double pixels_per_degree) {
+  LL_CHECK(exposures.count >= 2);
+  Plane map(reference.pixels(), 0.0f);
+  const double step = (exposures.stop - exposures.start) / (exposures.count - 1);
+  for (int i = 0; i < exposures.count; ++i) {
+    const double exposure = exposures.start + i * step;
+    const Plane one =
+        LdrFlip(Toned(reference, exposure), Toned(test, exposure), pixels_per_degree);
+    for (std::size_t p = 0; p < map.size(); ++p) map[p] = std::max(map[p], one[p]);
+  }
+  return map;
+}
+
+}  // namespace lanelight

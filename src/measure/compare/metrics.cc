@@ -1,0 +1,267 @@
+#include "src/measure/compare/metrics.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "src/base/core/check.h"
+#include "src/base/core/error.h"
+#include "src/measure/compare/z_scores.h"
+#include "src/base/image/color_channels.h"
+#include "src/base/image/variance_unit.h"
+#include "src/base/stat/values.h"
+#include "src/base/stat/interval.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// One colour channel present in both images, with its variances (-1 = none).
+struct Channel {
+  std::string name;
+  int test, reference, test_variance, reference_variance;
+};
+
+std::vector<Channel> CommonChannels(const Image& test, const Image& reference,
+                                    bool exact_reference) {
+  const auto has_all = [&](const std::vector<std::string>& names) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      return test.FindChannel(name) >= 0 && reference.FindChannel(name) >= 0;
+    });
+  };
+  std::vector<Channel> channels;
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"R", "G", "B"}, std::vector<std::string>{"Y"}}) {
+    if (!channels.empty() || !has_all(names)) continue;
+    for (const std::string& name : names) {
+      channels.push_back(
+          {name, test.FindChannel(name), reference.FindChannel(name),
+           test.FindChannel("variance." + name),
+           exact_reference ? -1 : reference.FindChannel("variance." + name)});
+    }
+  }
+  if (channels.empty()) {
+    throw InputError(
+        fmt::format("the images share neither R, G, B nor Y: one has {}, the other {}",
+                    fmt::join(test.names, ", "), fmt::join(reference.names, ", ")));
+  }
+  return channels;
+}
+
+// Means of the tiles of one channel.
+class TileGrid {
+ public:
+  TileGrid(int width, int height, int tile)
+      : tile_(tile),
+        columns_((width + tile - 1) / tile),
+        tiles_(static_cast<std::size_t>(columns_) * ((height + tile - 1) / tile)) {}
+
+  void Add(int x, int y, double a, double b) {
+    Tile& tile = tiles_[static_cast<std::size_t>(y / tile_) * columns_ + x / tile_];
+    tile.test += a, tile.reference += b, ++tile.count;
+  }
+  void AppendErrors(double epsilon, std::vector<double>* errors) const {
+    for (const Tile& t : tiles_) {
+      if (t.count == 0) continue;
+      const double b = t.reference / t.count, d = t.test / t.count - b;
+      errors->push_back(d * d / (b * b + epsilon));
+    }
+  }
+
+ private:
+  struct Tile {
+    double test = 0, reference = 0, count = 0;
+  };
+  int tile_, columns_;
+  std::vector<Tile> tiles_;
+};
+
+// Mean without the largest `share` of the values.
+double TrimmedMean(std::vector<double> values, double share) {
+  const std::size_t keep =
+      values.size() -
+      static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  if (keep == 0) return kNan;
+  std::nth_element(values.begin(), values.begin() + (keep - 1), values.end());
+  double sum = 0;
+  for (std::size_t i = 0; i < keep; ++i) sum += values[i];
+  return sum / static_cast<double>(keep);
+}
+
+double Ratio(double test, double reference) {
+  return test == 0 && reference == 0 ? 1 : test / reference;
+}
+
+// Sums over all channels and pixels, on the way to a CompareResult.
+class Comparison {
+ public:
+  Comparison(const Image& test, const Image& reference, const CompareOptions& options)
+      : test_(test),
+        reference_(reference),
+        options_(options),
+        test_unit_(VarianceUnit(test)),
+        reference_unit_(VarianceUnit(reference)) {}
+
+  CompareResult Run() {
+    result_.width = test_.width;
+    result_.height = test_.height;
+    for (const Channel& channel :
+         CommonChannels(test_, reference_, options_.exact_reference)) {
+      AddChannel(channel);
+    }
+    return Finish();
+  }
+
+ private:
+  void AddChannel(const Channel& channel) {
+    result_.channels.push_back(channel.name);
+    const bool variances = channel.test_variance >= 0 || channel.reference_variance >= 0;
+    has_variance_ |= variances;
+    TileGrid tiles(test_.width, test_.height, options_.tile);
+    std::vector<TileGrid> squares;
+    for (int side : kFilterSides) {
+      squares.emplace_back(test_.width, test_.height, side);
+    }
+    double sum_a = 0, sum_b = 0;
+    std::uint64_t count = 0;
+    for (int y = 0; y < test_.height; ++y) {
+      for (int x = 0; x < test_.width; ++x) {
+        const double a = LinearValue(test_, x, y, channel.test);
+        const double b = LinearValue(reference_, x, y, channel.reference);
+        result_.invalid_test += !std::isfinite(a);
+        result_.invalid_reference += !std::isfinite(b);
+        if (!std::isfinite(a) || !std::isfinite(b)) continue;
+        AddSample(a, b);
+        tiles.Add(x, y, a, b);
+        for (TileGrid& grid : squares) grid.Add(x, y, a, b);
+        if (variances) z_.Add(a - b, Variance(channel, x, y));
+        sum_a += a, sum_b += b, ++count;
+      }
+    }
+    tiles.AppendErrors(options_.epsilon, &tile_errors_);
+    for (std::size_t k = 0; k < kFilters; ++k) {
+      squares[k].AppendErrors(options_.epsilon, &filtered_[k]);
+    }
+    const double n = static_cast<double>(count);
+    result_.mean_test.push_back(sum_a / n);
+    result_.mean_reference.push_back(sum_b / n);
+    result_.mean_ratio.push_back(Ratio(sum_a, sum_b));
+  }
+
+  double Variance(const Channel& channel, int x, int y) const {
+    double sum = 0;
+    if (channel.test_variance >= 0) {
+      sum += test_unit_ * LinearValue(test_, x, y, channel.test_variance);
+    }
+    if (channel.reference_variance >= 0) {
+      sum += reference_unit_ * LinearValue(reference_, x, y, channel.reference_variance);
+    }
+    return sum;
+  }
+
+  void AddSample(double a, double b) {
+    const double d = a - b;
+    squares_ += d * d;
+    absolute_ += std::abs(d);
+    percentage_ += std::abs(d) / (std::abs(b) + options_.epsilon);
+    peak_ = std::max(peak_, b);
+    relative_.push_back(d * d / (b * b + options_.epsilon));
+  }
+
+  CompareResult Finish() {
+    const double n = static_cast<double>(relative_.size());  // 0: every mean becomes NaN
+    result_.samples = relative_.size();
+    result_.mse = squares_ / n;
+    result_.rmse = std::sqrt(result_.mse);
+    result_.mae = absolute_ / n;
+    result_.mape = percentage_ / n;
+    result_.relmse = TrimmedMean(relative_, 0);
+    result_.relmse_trimmed = TrimmedMean(std::move(relative_), options_.trim);
+    for (std::size_t k = 0; k < kFilters; ++k) {
+      result_.relmse_filtered[k] = TrimmedMean(std::move(filtered_[k]), 0);
+    }
+    result_.psnr = 10 * std::log10(peak_ * peak_ / result_.mse);
+    result_.tile_relmse_max =
+        tile_errors_.empty()
+            ? kNan
+            : *std::max_element(tile_errors_.begin(), tile_errors_.end());
+    result_.tile_relmse_median = stat::Median(std::move(tile_errors_));
+    if (has_variance_) result_.z = z_.Finish();
+    return result_;
+  }
+
+  const Image& test_;
+  const Image& reference_;
+  const CompareOptions& options_;
+  const double test_unit_, reference_unit_;  // of their variances
+  CompareResult result_;
+  ZCollector z_;
+  bool has_variance_ = false;
+  std::vector<double> relative_, tile_errors_;
+  std::array<std::vector<double>, kFilters> filtered_;
+  double squares_ = 0, absolute_ = 0, percentage_ = 0, peak_ = 0;
+};
+
+nlohmann::json Numbers(const std::vector<double>& values) {
+  nlohmann::json array = nlohmann::json::array();
+  for (double v : values) array.push_back(NumberJson(v));
+  return array;
+}
+
+nlohmann::json ToJson(const ZScores& z) {
+  return {{"available", z.available},
+          {"count", z.count},
+          {"exact", z.exact},
+          {"mismatched", z.mismatched},
+          {"invalid", z.invalid},
+          {"mean", NumberJson(z.mean)},
+          {"standard_deviation", NumberJson(z.standard_deviation)},
+          {"beyond_2", NumberJson(z.beyond_2)},
+          {"beyond_3", NumberJson(z.beyond_3)},
+          {"ks_distance", NumberJson(z.ks_distance)}};
+}
+
+}  // namespace
+
+CompareResult CompareImages(const Image& test, const Image& reference,
+                            const CompareOptions& options) {
+  LL_CHECK(options.epsilon > 0 && options.tile > 0);
+  LL_CHECK(options.trim >= 0 && options.trim < 1);
+  if (test.width != reference.width || test.height != reference.height) {
+    throw InputError(fmt::format("the images differ in size: {} x {} and {} x {}",
+                                 test.width, test.height, reference.width,
+                                 reference.height));
+  }
+  return Comparison(test, reference, options).Run();
+}
+
+nlohmann::json ToJson(const CompareResult& r) {
+  return {
+      {"width", r.width},
+      {"height", r.height},
+      {"channels", r.channels},
+      {"samples", r.samples},
+      {"invalid_test", r.invalid_test},
+      {"invalid_reference", r.invalid_reference},
+      {"mse", NumberJson(r.mse)},
+      {"rmse", NumberJson(r.rmse)},
+      {"mae", NumberJson(r.mae)},
+      {"relmse", NumberJson(r.relmse)},
+      {"relmse_trimmed", NumberJson(r.relmse_trimmed)},
+      {"relmse_filtered", Numbers({r.relmse_filtered.begin(), r.relmse_filtered.end()})},
+      {"mape", NumberJson(r.mape)},
+      {"psnr", NumberJson(r.psnr)},
+      {"mean_test", Numbers(r.mean_test)},
+      {"mean_reference", Numbers(r.mean_reference)},
+      {"mean_ratio", Numbers(r.mean_ratio)},
+      {"tile_relmse_median", NumberJson(r.tile_relmse_median)},
+      {"tile_relmse_max", NumberJson(r.tile_relmse_max)},
+      {"z", ToJson(r.z)}};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,79 @@
+// How far an image is from a reference, and whether noise explains it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "src/base/stat/relative_error.h"
+#include "src/base/image/image.h"
+
+namespace lanelight {
+
+struct CompareOptions {
+  /// Added to the squared reference in relMSE (pbrt's imgtool uses 0.01), and to the
+  /// reference in MAPE.
+  double epsilon = kRelativeEpsilon;
+  /// Share of the largest per-sample errors that the trimmed measure leaves out.
+  double trim = 0.001;
+  int tile = 16;  // pixels per side of the tiles of the tile measures
+  /// The reference has no noise: z-scores are those of the variance of `test` alone.
+  bool exact_reference = false;
+};
+
+/// Sides of the box filters after which errors are told as well, in pixels: whether
+/// errors of neighbours have something in common, which a filter or the eye does not
+/// average away.
+inline constexpr int kFilterSides[] = {2, 4, 8};
+inline constexpr std::size_t kFilters = std::size(kFilterSides);
+
+/// Distribution of z = (test - reference) / sqrt(variance of test + variance of
+/// reference) over pixels and channels: standard normal if noise alone separates the
+/// images and the variances are right.
+struct ZScores {
+  bool available = false;        // at least one image carries variances
+  std::uint64_t count = 0;       // samples with a z-score
+  std::uint64_t exact = 0;       // zero variance, equal values: no z-score, no evidence
+  std::uint64_t mismatched = 0;  // zero variance, different values: certainly different
+  std::uint64_t invalid = 0;     // variance negative or not finite
+  double mean = 0, standard_deviation = 0;
+  double beyond_2 = 0, beyond_3 = 0;  // shares of |z| > 2 (normal: 0.0455), > 3 (0.0027)
+  double ks_distance = 0;  // Kolmogorov-Smirnov distance to the standard normal
+};
+
+/// Sums run over pixels and the colour channels R, G, B (or Y), leaving out samples that
+/// are not finite in either image. Without any finite sample the means are NaN: write a
+/// limit as !(relmse <= limit).
+struct CompareResult {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::uint64_t samples = 0;  // compared: pixels * channels less the invalid ones
+  std::uint64_t invalid_test = 0, invalid_reference = 0;  // NaN or infinite samples
+  double mse = 0, rmse = 0, mae = 0;
+  double relmse = 0;          // mean of (a-b)^2 / (b^2 + epsilon)
+  double relmse_trimmed = 0;  // the same without the largest `trim` share
+  /// relMSE of the means of squares with kFilterSides, from the image's corner on. Errors
+  /// of independent pixels fall as 1 / side^2.
+  std::array<double, kFilters> relmse_filtered = {};
+  double mape = 0;  // mean of |a-b| / (|b| + epsilon); 1 = 100 %
+  double psnr = 0;  // dB, peak = largest reference value; infinite if equal
+  std::vector<double> mean_test, mean_reference;  // per channel
+  std::vector<double> mean_ratio;                 // test / reference; 1 if both are 0
+  double tile_relmse_median = 0;  // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)
+  double tile_relmse_max = 0;     // over tiles and channels
+  ZScores z;
+};
+
+/// Compares the colour channels of two images (8-bit ones are decoded as sRGB). Variances
+/// are taken from the channels "variance.R", ... of each image that has them. Throws
+/// InputError that states both sizes if they differ, and if the colour channels do.
+CompareResult CompareImages(const Image& test, const Image& reference,
+                            const CompareOptions& options = {});
+
+/// All members, by name; numbers that are not finite become null.
+nlohmann::json ToJson(const CompareResult& result);
+
+}  // namespace lanelight

@@ -1,0 +1,154 @@
+#include "src/measure/live/contender.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "src/base/core/check.h"
+#include "src/base/core/stopwatch.h"
+#include "src/render/run/run.h"
+#include "src/render/wave/partition.h"
+
+namespace lanelight::live {
+namespace {
+
+// Errors are estimated when there are this many times the samples of the last time, and
+// from so many on: with fewer there is seldom an interval, and to say how many more it
+// would take costs several times as much as the estimate.
+constexpr double kLookRatio = 1.3;
+constexpr std::uint64_t kFirstLook = 8;
+// Nothing can be done meanwhile: of images with more pixels than these, only when an
+// estimate is this small a part of the time since the last one.
+constexpr std::uint64_t kQuickPixels = 1u << 16;
+constexpr double kLookShare = 0.1;
+
+bool HasControl(const Plan& plan) {
+  return SamplePlanes(plan.features).Has(PlaneGroup::kNumbers);
+}
+
+Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {
+  Job job = stage.job;
+  job.scene.view = view;
+  job.window = view.window;
+  return WithStrategy(std::move(job), strategy);
+}
+
+}  // namespace
+
+// Goes on from what the contender has, and keeps what the pass comes to.
+class Contender::Keeper : public RunKeeper {
+ public:
+  Keeper(Contender& contender, FilmAccumulator* before, Attendant& attendant)
+      : contender_(contender), before_(before), attendant_(attendant) {}
+
+  bool Restore(RunState& state) override {
+    if (contender_.record_.counts.samples == 0) return false;
+    if (before_ != nullptr) CopyFilm(state.films);
+    static_cast<RunRecord&>(state) = contender_.record_;
+    return true;
+  }
+  bool Due() const override { return attendant_.Due(); }
+  void Keep(RunState& state) override {
+    contender_.record_ = std::move(static_cast<RunRecord&>(state));
+    const Stopwatch watch;
+    attendant_.Attend();
+    contender_.attended_seconds_ += watch.CpuSeconds();
+  }
+
+ private:
+  void CopyFilm(Films& films) {
+    const auto from = before_->Columns(), to = films.Columns();
+    LL_CHECK_EQ(from.size(), to.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      std::memcpy(to[i].data, from[i].data, from[i].Bytes());
+    }
+  }
+
+  Contender& contender_;
+  FilmAccumulator* before_;  // null: the pass goes on with the film itself
+  Attendant& attendant_;
+};
+
+Contender::Contender(const Stage& stage, View view, const Strategy& strategy)
+    : view_(std::move(view)),
+      job_(JobOf(stage, view_, strategy)),
+      film_(MakeFilm(job_)),
+      has_control_(HasControl(job_.plan)),
+      cost_(view_.film.width, view_.film.height) {}
+
+void Contender::Pass(std::uint64_t spp, Attendant& attendant,
+                     const std::atomic<bool>& stop) {
+  const bool goes_on = record_.counts.samples > 0;
+  std::optional<FilmAccumulator> before;
+  if (has_control_ && goes_on) {
+    before = std::move(film_);
+    film_ = MakeFilm(job_);
+  }
+  Keeper keeper(*this, before ? &*before : nullptr, attendant);
+  RunOptions options;
+  options.spp = spp;
+  options.seed = job_.seed;
+  options.threads = job_.settings.threads;
+  options.stop = &stop;
+  options.keeper = &keeper;
+  options.on_task = [this](const PixelRect& tile, const RunCounts& counts) {
+    cost_.Add(tile, counts);
+  };
+  // Tasks of a pass of few samples are as large as those of a short render.
+  options.tiles = MakePartition(view_.window, spp - spp_, strategy()).tiles;
+  const double seconds_before = record_.counts.seconds;
+  const std::uint64_t samples_before = record_.counts.samples;
+  const RunResult result = Run(job_.scene, job_.plan, options, film_);
+  record_.training.note = result.training.note;
+  AddStages(result);
+  const double samples = double(record_.counts.samples - samples_before);
+  const double seconds = record_.counts.seconds - seconds_before;
+  if (samples > 0 && seconds > 0)
+    rate_ = samples / double(view_.window.pixels()) / seconds;
+  if (result.stop_reason != StopReason::kSamples) return;
+  spp_ = spp;
+  LookIfDue(stop);
+}
+
+void Contender::Fit() {
+  if (has_control_ && record_.counts.samples > 0) film_.FitControl();
+}
+
+void Contender::LookIfDue(const std::atomic<bool>& stop) {
+  if (spp_ < kFirstLook) return;
+  if (!looks_.empty()) {
+    const Look& last = looks_.back();
+    if (double(spp_) < kLookRatio * double(last.spp)) return;
+    const double since = cpu_seconds() - last.seconds;
+    if (view_.window.pixels() > kQuickPixels && since * kLookShare < look_seconds_)
+      return;
+  }
+  const Stopwatch watch;
+  ErrorEstimate error = EstimateError(film_, &stop);
+  look_seconds_ = watch.CpuSeconds();
+  if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
+}
+
+void Contender::AddStages(const RunResult& result) {
+  for (const auto* list : {&result.stages, &result.parts}) {
+    for (const StageProfile& stage : *list) {
+      const auto same = [&](const StageProfile& s) { return s.name == stage.name; };
+      const auto known = std::find_if(stages_.begin(), stages_.end(), same);
+      if (known == stages_.end()) {
+        stages_.push_back(stage);
+        continue;
+      }
+      known->calls += stage.calls;
+      known->items += stage.items;
+      known->lane_slots += stage.lane_slots;
+      known->seconds += stage.seconds;
+    }
+  }
+}
+
+std::size_t Contender::Bytes() const {
+  return view_.window.pixels() *
+         FilmAccumulator::BytesPerPixel(film_.groups(), Auxiliary::kNone);
+}
+
+}  // namespace lanelight::live

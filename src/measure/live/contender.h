@@ -1,0 +1,83 @@
+// One strategy that renders a view, in passes: one film that goes on, with the bits that
+// `lanelight render` would give it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/render/estimate/estimate.h"
+#include "src/measure/live/cost_map.h"
+#include "src/measure/live/view.h"
+
+namespace lanelight::live {
+
+/// Who may interrupt a pass for a moment.
+class Attendant {
+ public:
+  virtual ~Attendant() = default;
+  /// Called often, from any thread: whether Attend is due, true until it is called.
+  virtual bool Due() const = 0;
+  /// By the thread that renders, with nothing in flight: films may be read.
+  virtual void Attend() = 0;
+};
+
+/// How far the error had fallen after so many samples per pixel.
+struct Look {
+  std::uint64_t spp = 0;
+  double seconds = 0;  // processor time until then
+  ErrorEstimate error;
+};
+
+class Contender {
+ public:
+  /// Throws InputError if the scene does not take the strategy.
+  Contender(const Stage& stage, View view, const Strategy& strategy);
+
+  /// Renders until all pixels have `spp` samples, or `stop` is set; then some pixels may
+  /// have more than others. A later pass goes on from there.
+  void Pass(std::uint64_t spp, Attendant& attendant, const std::atomic<bool>& stop);
+  /// The correction by a control variate, where there is one, knows all samples so far.
+  void Fit();
+
+  const View& view() const { return view_; }
+  const Strategy& strategy() const { return job_.scene.strategy; }
+  const Plan& plan() const { return job_.plan; }
+  const FilmAccumulator& film() const { return film_; }
+  const CostMap& cost() const { return cost_; }
+  const RunRecord& record() const { return record_; }
+  /// Of all passes, by stage and part of tasks.
+  const std::vector<StageProfile>& stages() const { return stages_; }
+  /// Errors, estimated now and then, the last one some time ago.
+  const std::vector<Look>& looks() const { return looks_; }
+  /// Samples per pixel that all pixels have.
+  std::uint64_t spp() const { return spp_; }
+  /// Processor time of its rendering, training included, looks and pictures not.
+  double cpu_seconds() const { return record_.counts.cpu_seconds - attended_seconds_; }
+  /// Samples per pixel and second of the last passes; 0 before the first.
+  double rate() const { return rate_; }
+  /// What it has learned before, if it has: one line.
+  const std::string& training() const { return record_.training.note; }
+  std::size_t Bytes() const;
+
+ private:
+  class Keeper;
+
+  void AddStages(const RunResult& result);
+  void LookIfDue(const std::atomic<bool>& stop);
+
+  View view_;
+  const Job job_;
+  FilmAccumulator film_;
+  bool has_control_;  // planes of samples that films have from their beginning
+  CostMap cost_;
+  RunRecord record_;
+  std::vector<StageProfile> stages_;
+  std::vector<Look> looks_;
+  std::uint64_t spp_ = 0;
+  double attended_seconds_ = 0, look_seconds_ = 0, rate_ = 0;
+};
+
+}  // namespace lanelight::live

@@ -1,0 +1,45 @@
+#include "src/measure/live/door.h"
+
+#include <fmt/format.h>
+
+#include "src/measure/live/token.h"
+
+namespace lanelight::live {
+
+bool Door::IsOwnHost(const std::string& host) const {
+  return host == fmt::format("127.0.0.1:{}", port_) ||
+         host == fmt::format("localhost:{}", port_);
+}
+
+std::string Door::Address() const {
+  return fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
+}
+
+Decision Door::Decide(const Visit& visit) const {
+  if (!IsOwnHost(visit.host)) {
+    return {Answer::kRefused, 403, "the Host of the request is not this server's"};
+  }
+  if (visit.method != "GET") {
+    return {Answer::kRefused, 405, "only GET is understood"};
+  }
+  const std::size_t end = visit.target.find('/', 1);
+  const bool has_token =
+      end != std::string::npos && visit.target[0] == '/' &&
+      SameToken(std::string_view(visit.target).substr(1, end - 1), token_);
+  if (!has_token) {
+    return {Answer::kRefused, 404,
+            "there is nothing here; the address that `lanelight live` prints has a token "
+            "in it"};
+  }
+  const std::string rest = visit.target.substr(end);
+  if (rest == "/" && !visit.upgrade) return {Answer::kPage, 200, ""};
+  if (rest != "/socket" || !visit.upgrade) {
+    return {Answer::kRefused, 404, "only the page and its socket are here"};
+  }
+  if (visit.origin != "http://" + visit.host) {
+    return {Answer::kRefused, 403, "the Origin of the socket is not this server's page"};
+  }
+  return {Answer::kSocket, 101, ""};
+}
+
+}  // namespace lanelight::live

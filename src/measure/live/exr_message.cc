@@ -1,0 +1,60 @@
+// The file that a page saves.
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/base/core/input_file.h"
+#include "src/base/core/version.h"
+#include "src/measure/live/picture.h"
+#include "src/measure/live/state_json.h"
+#include "src/measure/live/token.h"
+#include "src/render/job/output.h"
+
+namespace lanelight::live {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A name that nobody else has; the file is gone when this is.
+class TemporaryFile {
+ public:
+  TemporaryFile() : path_(fs::temp_directory_path() / ("lanelight-" + MakeToken())) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+std::string ExrMessage(const Stage& stage, const Contender& contender) {
+  const FilmAccumulator& film = contender.film();
+  ExrOptions options;
+  options.x0 = film.x0();
+  options.y0 = film.y0();
+  options.full_width = contender.view().film.width;
+  options.full_height = contender.view().film.height;
+  options.color_space = contender.view().film.color_space;
+  options.attributes["spp"] = double(contender.spp());
+  options.attributes["renderTime"] = contender.cpu_seconds();
+  options.attributes["seed"] = std::to_string(stage.job.seed);
+  options.attributes["strategy"] = "path, " + ToText(contender.strategy());
+  options.attributes["version"] = std::string(FullVersion());
+  NoteVarianceUnit(film, options);
+  const TemporaryFile file;
+  WriteExr(file.path(), film.width(), film.height(),
+           FilmPlanes(film, stage.job.scene.compiled->scale), options);
+  const std::string name = fs::path(stage.path).stem().string() + "-" +
+                           std::to_string(contender.spp()) + "spp.exr";
+  return BinaryHead({{"kind", "file"}, {"name", name}}) + ReadWholeFile(file.path());
+}
+
+}  // namespace lanelight::live

@@ -1,0 +1,46 @@
+// Which of two contenders gets further, by what both estimate of their own errors.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/measure/live/contender.h"
+#include "src/base/stat/interval.h"
+
+namespace lanelight::live {
+
+/// What two contenders have in common: the other may cost more, or need more.
+enum class Pace { kTime, kSamples };
+
+/// Who is ahead, as far as the intervals show it.
+enum class Ahead { kUnknown, kA, kB };
+
+struct Ratio {
+  bool available = false;  // both have estimated their error
+  Interval interval;       // infinite or 0 where an end is not known
+  std::string why;         // an end is not known; or it is not available
+  /// By the last look whose interval excluded 1; it stays until a look shows the
+  /// contrary.
+  Ahead ahead = Ahead::kUnknown;
+  std::uint64_t since = 0;  // samples per pixel of A at the first look that showed it
+};
+
+/// The efficiency of `b` relative to `a`: of 1 / (relMSE x processor time), or of
+/// 1 / (relMSE x samples); above 1, `b` is better. Errors fall as 1 / cost, so that the
+/// two need not have cost the same. The interval joins those of two independent errors:
+/// their logarithms are a difference, of whose ends the distances add as squares
+/// (variance estimates recovery, Zou and Donner 2008). How much the clock scatters is not
+/// in it. `stretch` multiplies the distances; with 1 the interval holds at one look that
+/// was chosen beforehand, with kEstimateConfidence.
+Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch = 1);
+
+/// The efficiency by all looks: the interval is that of the last look, and intervals hold
+/// at all looks together with kEstimateConfidence (src/base/stat/confidence_sequence.h),
+/// so a viewer may stop at any of them. The squared sums of the pixels' errors, less what
+/// is expected of them, are a martingale whose variance grows with the square of the
+/// samples.
+Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace pace);
+Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace);
+
+}  // namespace lanelight::live

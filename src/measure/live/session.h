@@ -1,0 +1,91 @@
+// One page: what it looks at, what it compares, and what it has been sent. Only the
+// thread of the laboratory knows it.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/measure/live/commands.h"
+#include "src/measure/live/contender.h"
+
+namespace lanelight::live {
+
+/// To the page; `binary`: no text.
+using Send = std::function<void(std::string message, bool binary)>;
+
+/// What the session's thread is to render next.
+struct Work {
+  std::shared_ptr<Contender> contender;
+  std::uint64_t spp = 0;  // that all of its pixels are to have then
+  int slot = 0;
+  bool preview = false;  // at reduced resolution, to be shown at once
+};
+
+class Session {
+ public:
+  /// `command`: the words of a command line that renders the scene, without how much and
+  /// with what strategy.
+  Session(const Stage& stage, std::string command, Send send);
+
+  /// Does what the page asks for. A strategy that is refused is told as such.
+  void Do(const Command& command);
+
+  /// What to render now; nothing if the page waits for nothing, or not before When().
+  std::optional<Work> Next();
+  /// While the camera moves, nothing but previews is rendered: until then.
+  std::chrono::steady_clock::time_point When() const { return settled_; }
+  /// The work has been done, or stopped.
+  void Done(const Work& work, bool stopped);
+  /// What this slot renders cannot be rendered.
+  void Refuse(int slot, const std::string& why);
+
+  /// Sends pictures that have changed, and the state, if the page has drawn those before.
+  void Publish();
+  /// Seconds between two of them: often at first, then seldom.
+  double Interval() const;
+
+ private:
+  struct Slot {
+    std::string name;  // as the page has it; empty: nothing is rendered
+    std::optional<Strategy> strategy;
+    std::string refused;                   // why there is none
+    std::shared_ptr<Contender> contender;  // of the present view; null: not begun
+    SentPicture sent;
+    bool drawn = true;        // the page has drawn what it was sent
+    bool previewed = false;   // the present view has been shown
+    double preview_rate = 0;  // samples per second of previews
+  };
+
+  void Choose(const ChooseStrategy& choice);
+  void Move(const Eye& eye);
+  void KeepFew();
+  std::shared_ptr<Contender> Make(int slot);
+  std::optional<Work> NextPreview();
+  std::optional<Work> NextPass();
+  int PreviewFactor(const Slot& slot) const;
+  void SendPreview(const Work& work);
+  void SendPicture(int slot, const Contender& contender, SentPicture& sent);
+  void SendState();
+  void SendPixel(const Ask& ask);
+  void SendExr(int slot);
+  void SendText(const char* kind, const std::string& text);
+
+  const Stage& stage_;
+  std::string command_;
+  Send send_;
+  Eye eye_;
+  std::uint64_t view_ = 0;  // counts eyes
+  std::array<Slot, kSlots> slots_;
+  std::vector<std::shared_ptr<Contender>> others_;  // of this view, put aside
+  Pace pace_ = Pace::kTime;
+  bool paused_ = false, state_drawn_ = true;
+  Layer layer_ = Layer::kNone;
+  std::chrono::steady_clock::time_point began_, settled_, last_state_;
+};
+
+}  // namespace lanelight::live

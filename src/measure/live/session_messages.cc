@@ -1,0 +1,90 @@
+// What a page is sent: pictures, how far they are, and what it has asked for.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "src/base/core/json_text.h"
+#include "src/base/core/stopwatch.h"
+#include "src/measure/live/session.h"
+#include "src/measure/live/state_json.h"
+
+namespace lanelight::live {
+namespace {
+
+constexpr double kBetweenStates = 0.2;  // seconds, at least
+
+}  // namespace
+
+void Session::SendPreview(const Work& work) {
+  Slot& slot = slots_[static_cast<std::size_t>(work.slot)];
+  if (work.contender->view().factor == 1) {
+    SendPicture(work.slot, *work.contender, slot.sent);
+    return;
+  }
+  SentPicture sent;
+  sent.view = view_;
+  SendPicture(work.slot, *work.contender, sent);
+}
+
+void Session::Publish() {
+  for (int i = 0; i < kSlots; ++i) {
+    Slot& slot = slots_[static_cast<std::size_t>(i)];
+    if (!slot.contender || !slot.drawn) continue;
+    slot.contender->Fit();
+    SendPicture(i, *slot.contender, slot.sent);
+  }
+  if (state_drawn_ && SecondsSince(last_state_) > kBetweenStates) SendState();
+}
+
+double Session::Interval() const {
+  return std::clamp(SecondsSince(began_) / 10, 0.1, 0.5);
+}
+
+void Session::SendPicture(int index, const Contender& contender, SentPicture& sent) {
+  if (sent.view != view_ || sent.layer != layer_) sent = {view_, layer_, {}};
+  const nlohmann::json head = {{"kind", "picture"},
+                               {"slot", index},
+                               {"view", view_},
+                               {"factor", contender.view().factor},
+                               {"spp", contender.spp()}};
+  std::string message = EncodePicture(contender, head, sent);
+  if (message.empty()) return;
+  slots_[static_cast<std::size_t>(index)].drawn = false;
+  send_(std::move(message), true);
+}
+
+void Session::SendState() {
+  StateOfPage state = {stage_, eye_, view_, pace_, paused_, {}};
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    state.slots[i] = {slots_[i].name, slots_[i].refused, slots_[i].contender.get()};
+  }
+  send_(StateText(state, command_), false);
+  state_drawn_ = false;
+  last_state_ = std::chrono::steady_clock::now();
+}
+
+void Session::SendPixel(const Ask& ask) {
+  nlohmann::json slots = nlohmann::json::array();
+  for (const Slot& slot : slots_) {
+    slots.push_back(slot.contender ? PixelJson(*slot.contender, ask.x, ask.y)
+                                   : nlohmann::json());
+  }
+  send_(DumpJson({{"kind", "pixel"}, {"x", ask.x}, {"y", ask.y}, {"slots", slots}}),
+        false);
+}
+
+void Session::SendExr(int index) {
+  const Slot& slot = slots_[static_cast<std::size_t>(index)];
+  if (!slot.contender || slot.contender->spp() == 0) {
+    SendText("refused", "there is no whole picture yet to be saved");
+    return;
+  }
+  slot.contender->Fit();
+  send_(ExrMessage(stage_, *slot.contender), true);
+}
+
+void Session::SendText(const char* kind, const std::string& text) {
+  send_(DumpJson({{"kind", kind}, {"text", text}}), false);
+}
+
+}  // namespace lanelight::live

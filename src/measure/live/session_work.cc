@@ -1,0 +1,106 @@
+// What a page has rendered next: previews while the camera moves, then passes, in turn.
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/core/stopwatch.h"
+#include "src/measure/live/session.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/render/train/training.h"
+
+namespace lanelight::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of a preview, at most: it has to be there before the next move of the mouse.
+constexpr double kPreviewSeconds = 0.04;
+// The first one, of which no rate is known.
+constexpr double kFirstPreviewSamples = 16384;
+constexpr int kMostReduced = 16;
+
+// How many samples per pixel there are after the next pass of `seconds`; twice as many at
+// most, since rates are not known well at first.
+std::uint64_t NextSpp(const Contender& contender, double seconds) {
+  const std::uint64_t unit = contender.film().groups().unit, spp = contender.spp();
+  const double step = std::min(contender.rate() * seconds, std::max(1.0, double(spp)));
+  const auto units = static_cast<std::uint64_t>(std::max(1.0, step / double(unit)));
+  return spp + units * unit;
+}
+
+}  // namespace
+
+int Session::PreviewFactor(const Slot& slot) const {
+  const double samples =
+      slot.preview_rate > 0 ? slot.preview_rate * kPreviewSeconds : kFirstPreviewSamples;
+  const double pixels =
+      double(RenderedPixels(stage_.job.loaded->description.film).pixels());
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(pixels / samples))), 1,
+                    kMostReduced);
+}
+
+std::optional<Work> Session::Next() {
+  if (auto preview = NextPreview()) return preview;
+  if (paused_ || Clock::now() < settled_) return std::nullopt;
+  return NextPass();
+}
+
+// Where the first pass is as quick, it is the preview. The whole film is not made before:
+// it takes longer than a preview.
+std::optional<Work> Session::NextPreview() {
+  for (int i = 0; i < kSlots; ++i) {
+    Slot& slot = slots_[static_cast<std::size_t>(i)];
+    if (!slot.strategy || slot.previewed) continue;
+    if (slot.contender && slot.contender->spp() > 0) {
+      slot.previewed = true;
+      continue;
+    }
+    const int factor = PreviewFactor(slot);
+    const auto reduced = [&](const Strategy& strategy) {
+      return std::make_shared<Contender>(
+          stage_, MakeView(stage_, eye_, std::max(2, factor)), strategy);
+    };
+    if (factor == 1 && !slot.contender) slot.contender = Make(i);
+    auto preview = factor == 1 ? slot.contender : reduced(*slot.strategy);
+    // What has to be learned first would not be there in time.
+    if (NeedsTraining(preview->plan())) preview = reduced(Strategy{});
+    const std::uint64_t unit = preview->film().groups().unit;
+    return Work{std::move(preview), unit, i, true};
+  }
+  return std::nullopt;
+}
+
+std::optional<Work> Session::NextPass() {
+  const auto cost = [&](const Contender& c) {
+    return pace_ == Pace::kTime ? c.cpu_seconds() : double(c.spp());
+  };
+  std::optional<Work> work;
+  double other_spp = 0;
+  for (int i = 0; i < kSlots; ++i) {
+    Slot& slot = slots_[static_cast<std::size_t>(i)];
+    if (!slot.strategy) continue;
+    if (!slot.contender) slot.contender = Make(i);
+    other_spp = std::max(other_spp, double(slot.contender->spp()));
+    if (work && cost(*work->contender) <= cost(*slot.contender)) continue;
+    work = Work{slot.contender, 0, i, false};
+  }
+  if (!work) return work;
+  const double elapsed = SecondsSince(began_);
+  work->spp = NextSpp(*work->contender, std::clamp(elapsed / 4, 0.2, 2.0));
+  const auto most = static_cast<std::uint64_t>(other_spp);
+  if (pace_ == Pace::kSamples && work->contender->spp() < most) {
+    work->spp = std::min(work->spp, most);
+  }
+  if (work->spp > kMostSamplesPerPixel) return std::nullopt;
+  return work;
+}
+
+void Session::Done(const Work& work, bool stopped) {
+  if (!work.preview || stopped) return;
+  Slot& slot = slots_[static_cast<std::size_t>(work.slot)];
+  slot.previewed = true;
+  const double pixels = double(work.contender->view().window.pixels());
+  if (work.contender->rate() > 0) slot.preview_rate = work.contender->rate() * pixels;
+  SendPreview(work);
+}
+
+}  // namespace lanelight::live

@@ -1,0 +1,152 @@
+#include "src/measure/live/state_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "kernels/simd/target.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
+#include "src/base/core/version.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/vocabulary/strategy/strategies_json.h"
+
+namespace lanelight::live {
+namespace {
+
+using nlohmann::json;
+
+// Ends that are not known become null.
+json LookJson(const Look& look) {
+  const Interval& e = look.error.relmse;
+  return {{"spp", look.spp}, {"seconds", look.seconds}, {"relmse", e.value},
+          {"low", e.low},    {"high", e.high},          {"why", look.error.why}};
+}
+
+json LooksJson(const Contender& contender) {
+  json looks = json::array();
+  for (const Look& look : contender.looks()) looks.push_back(LookJson(look));
+  return looks;
+}
+
+json StagesJson(const Contender& contender) {
+  json stages = json::array();
+  for (const StageProfile& stage : contender.stages()) {
+    if (stage.calls == 0) continue;
+    json filled = nullptr;  // parts of tasks have no lanes
+    if (stage.lane_slots > 0) filled = stage.Occupancy();
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"items", stage.items},
+                      {"filled", filled}});
+  }
+  return stages;
+}
+
+json OmittedJson(const Plan& plan) {
+  json omitted = json::array();
+  for (const OmittedStage& stage : plan.omitted) {
+    omitted.push_back({{"name", stage.stage.name}, {"reason", stage.reason}});
+  }
+  return omitted;
+}
+
+json ContenderJson(const Contender& contender, const std::string& command) {
+  const RunCounts& counts = contender.record().counts;
+  const std::string strategy = ToText(contender.strategy());
+  return {
+      {"strategy", strategy},
+      {"spp", contender.spp()},
+      {"samples", counts.samples},
+      {"invalid", counts.health.Total()},
+      {"rays", counts.rays_closest + counts.rays_shadow},
+      {"seconds", contender.cpu_seconds()},
+      {"training", contender.training()},
+      {"looks", LooksJson(contender)},
+      {"stages", StagesJson(contender)},
+      {"omitted", OmittedJson(contender.plan())},
+      {"notes", contender.plan().notes},
+      {"command", fmt::format("{} -o out.exr --spp {} --strategy {}", command,
+                              std::max<std::uint64_t>(1, contender.spp()), strategy)}};
+}
+
+json SlotJson(const StateOfSlot& slot, const std::string& command) {
+  json out = {{"name", slot.name}, {"refused", slot.refused}};
+  if (slot.contender != nullptr) out.update(ContenderJson(*slot.contender, command));
+  return out;
+}
+
+json RatioJson(const StateOfPage& state) {
+  const Contender* const a = state.slots[0].contender;
+  const Contender* const b = state.slots[1].contender;
+  if (a == nullptr || b == nullptr || a == b) return nullptr;
+  const Ratio ratio = EfficiencyOf(*a, *b, state.pace);
+  json out = {{"why", ratio.why}};
+  if (!ratio.available) return out;
+  out["value"] = ratio.interval.value;
+  out["low"] = ratio.interval.low;
+  out["high"] = ratio.interval.high;
+  if (ratio.ahead != Ahead::kUnknown) {
+    out["ahead"] = ratio.ahead == Ahead::kB ? "B" : "A";
+    out["since"] = ratio.since;
+  }
+  return out;
+}
+
+const char* KindName(CameraKind kind) {
+  switch (kind) {
+    case CameraKind::kPerspective:
+      return "perspective";
+    case CameraKind::kOrthographic:
+      return "orthographic";
+    case CameraKind::kSpherical:
+      return "spherical";
+    case CameraKind::kRealistic:
+      return "realistic";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string HelloText(const Stage& stage) {
+  const SceneDescription& scene = stage.job.loaded->description;
+  const PixelRect window = RenderedPixels(scene.film);
+  json notes = json::array();
+  for (const Note& note : scene.notes) {
+    notes.push_back(note.where.ToString() + ": " + note.message);
+  }
+  return DumpJson({{"kind", "hello"},
+                   {"scene", stage.path},
+                   {"width", window.width()},
+                   {"height", window.height()},
+                   {"x0", window.x0},
+                   {"y0", window.y0},
+                   {"eye", ToJson(stage.eye)},
+                   {"camera", KindName(scene.camera.kind)},
+                   {"mirrored", scene.camera.world_from_camera.SwapsHandedness()},
+                   {"strategies", StrategiesJson()},
+                   {"scene_strategy", ToText(scene.strategy)},
+                   {"layers", LayersJson()},
+                   {"confidence", kEstimateConfidence},
+                   {"threads", ThreadCount(stage.job.settings.threads)},
+                   {"target", stage.job.plan.options.target.name()},
+                   {"version", FullVersion()},
+                   {"load_seconds", stage.job.loaded->load_seconds},
+                   {"build_seconds", stage.job.loaded->build_seconds},
+                   {"notes", notes}});
+}
+
+std::string StateText(const StateOfPage& state, const std::string& command) {
+  json slots = json::array();
+  for (const StateOfSlot& slot : state.slots) slots.push_back(SlotJson(slot, command));
+  return DumpJson({{"kind", "state"},
+                   {"view", state.view},
+                   {"eye", ToJson(state.eye)},
+                   {"moved", !(state.eye == state.stage.eye)},
+                   {"pace", state.pace == Pace::kTime ? "time" : "samples"},
+                   {"paused", state.paused},
+                   {"slots", slots},
+                   {"ratio", RatioJson(state)}});
+}
+
+}  // namespace lanelight::live

@@ -1,0 +1,71 @@
+#include "src/measure/live/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/scene/compile/camera.h"
+#include "src/scene/compile/footprint.h"
+#include "src/scene/compile/gbuffer.h"
+#include "src/scene/description/rendered_pixels.h"
+
+namespace lanelight::live {
+namespace {
+
+// How far in front of the camera the middle of the scene is: what a mouse turns about.
+double DistanceToMiddle(const Job& job) {
+  const CompiledScene& scene = *job.scene.compiled;
+  const Transform& t = job.loaded->description.camera.world_from_camera;
+  const Vec3d low = VecCast<double>(scene.geometry.bounds_min);
+  const Vec3d high = VecCast<double>(scene.geometry.bounds_max);
+  const double size = Length(high - low) / scene.scale;
+  const Vec3d middle = (low + high) / (2 * scene.scale) + scene.center;
+  const Vec3d forward = Normalize(t.Vector({0, 0, 1}));
+  const double along = Dot(middle - t.Point({0, 0, 0}), forward);
+  if (!(size > 0) || !std::isfinite(size)) return 1;  // nothing finite is there
+  return std::max(along, size / 8);
+}
+
+int Reduced(int pixels, int factor) { return (pixels + factor - 1) / factor; }
+
+Film ReducedFilm(const Film& film, int factor) {
+  Film out = film;
+  out.width = Reduced(film.width, factor);
+  out.height = Reduced(film.height, factor);
+  const PixelRect window = RenderedPixels(film);
+  out.crop[0] = window.x0 / factor;
+  out.crop[1] = Reduced(window.x1, factor);
+  out.crop[2] = window.y0 / factor;
+  out.crop[3] = Reduced(window.y1, factor);
+  return out;
+}
+
+}  // namespace
+
+Stage::Stage(const std::string& scene, const RenderSettings& settings)
+    : path(scene), job(PrepareJob(scene, settings)) {
+  job.plan.options.spectral_film = false;  // nobody sees more than colours
+  eye = EyeOf(job.loaded->description.camera, DistanceToMiddle(job));
+}
+
+View MakeView(const Stage& stage, const Eye& eye, int factor) {
+  const SceneDescription& scene = stage.job.loaded->description;
+  const CompiledScene& compiled = *stage.job.scene.compiled;
+  const Frame frame = {compiled.center, compiled.scale};
+  View view;
+  view.eye = eye;
+  view.factor = factor;
+  view.described = MovedCamera(scene.camera, stage.eye, eye);
+  view.film = factor > 1 ? ReducedFilm(scene.film, factor) : scene.film;
+  Camera camera = view.described;
+  // What is seen does not change by a rounded size.
+  if (factor > 1 && !(camera.frame_aspect > 0)) {
+    camera.frame_aspect = double(scene.film.width) / scene.film.height;
+  }
+  view.window = RenderedPixels(view.film);
+  view.camera = CompileCamera(camera, view.film, frame);
+  view.footprint = CompileFootprint(view.camera, camera, view.film, scene.sampler.spp);
+  view.gbuffer = CompileGbufferSpace(view.film, camera, frame);
+  return view;
+}
+
+}  // namespace lanelight::live

@@ -1,0 +1,30 @@
+// What of a compiled scene hangs on the camera and on the size of the film: all that is
+// made anew when a page moves the camera. Trees, lights and textures stay.
+#pragma once
+
+#include "src/measure/live/eye.h"
+#include "src/render/job/job.h"
+
+namespace lanelight::live {
+
+/// A scene that pages look at, compiled once.
+struct Stage {
+  std::string path;  // of the scene file
+  Job job;
+  Eye eye;  // of the scene's own camera
+
+  /// Compiles the scene. Throws InputError as PrepareJob does.
+  Stage(const std::string& scene, const RenderSettings& settings);
+};
+
+struct View : CompiledView {
+  Eye eye;
+  int factor = 1;  // one pixel of it stands for so many of the image in each direction
+  Camera described;
+  PixelRect window;
+};
+
+/// Throws InputError for an eye that cannot be.
+View MakeView(const Stage& stage, const Eye& eye, int factor);
+
+}  // namespace lanelight::live

@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+"""Turns the report's pages and plots into one C++ file: embed_page.py PAGE_DIR PYTHON_DIR OUTPUT.cc
+
+Makes each page of PAGE_DIR/page.html, with its styles and scripts in it, puts their hashes
+into the content security policy, and cuts the result at the line <!-- data -->. Standard
+library only.
+"""
+
+import base64
+import hashlib
+import pathlib
+import re
+import sys
+
+# Of the pages: what stands where page.html has these words; styles after base.css, table.css
+# and plots.css, and before print.css; scripts, in this order.
+PLOTS = "logaxis logplot_draw logplot guides plot_save plot_export curves"
+PAGES = {
+    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
+             "images",
+             f"""dom format data view strategies whisker table hero warnings summary ranking
+             ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
+             controls readout figures figures_level insets maps stages levels glossary main"""),
+    "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
+                  "images",
+                  f"""dom format data view strategies whisker table hero summary
+                  ranking_columns {PLOTS} tone picture difference controls figures
+                  figures_level insets paper_text paper_main"""),
+    "ComparePage": ({"NAME": "compare", "TABS": "Images",
+                     "FILES": "what compare --json prints"}, "images",
+                    """dom format data view tone picture pan pane difference comparator controls
+                    readout maps histogram compare_tiles compare_numbers compare_main"""),
+    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
+                  f"""dom format data view strategies whisker table {PLOTS} stages tone picture
+                  rates sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
+                  sweep_table sweep_headline sweep_summary sweep_main"""),
+    "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
+                  "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
+                  bench_rows bench_main"""),
+    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
+                   """dom format data strategies whisker table logaxis stress_data
+                   stress_scale stress_plot plot_save stress_export stress_tiles stress_about stress_detail
+                   stress_strategies stress_table stress_summary stress_main"""),
+    "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
+                  "CONNECT": "; connect-src 'self'"}, "live",
+                 """dom format strategies whisker logaxis tone live_socket live_camera
+                 live_shader live_screen live_place live_viewer live_controls live_readout
+                 live_strategy live_presets live_score live_plot live_stages live_save
+                 live_main"""),
+}
+DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
+PIECE = 12000  # characters of one literal; compilers must take 65535
+
+HEADER = """// Written by src/measure/report/embed_page.py; not to be edited.
+#include "src/measure/report/page_text.h"
+
+namespace lanelight {
+"""
+
+
+def digest(text):
+    hashed = hashlib.sha256(text.encode("utf-8")).digest()
+    return f"'sha256-{base64.b64encode(hashed).decode()}'"
+
+
+def inline(page_dir, tag, files):
+    """The files in elements of their own, and their hashes."""
+    elements, hashes = [], []
+    for file in files:
+        text = "\n" + (page_dir / file).read_text(encoding="utf-8").strip() + "\n"
+        if f"</{tag}" in text.lower() or "<!--" in text:
+            raise SystemExit(f"embed_page: {file} contains </{tag} or <!--")
+        elements.append(f"<{tag}>{text}</{tag}>")
+        hashes.append(digest(text))
+    return "\n".join(elements), " ".join(hashes)
+
+
+def refuse_twins(page_dir, scripts):
+    """A name that two scripts of a page declare stops the second one."""
+    declared = {}
+    for file in scripts:
+        text = (page_dir / file).read_text(encoding="utf-8")
+        for name in re.findall(r"(?m)^(?:const|let|class|(?:async )?function\*?) +(\w+)", text):
+            if declared.setdefault(name, file) != file:
+                raise SystemExit(f"embed_page: {name} is declared in {declared[name]} and {file}")
+
+
+def assemble(page_dir, words, style, scripts):
+    has_plots = PLOTS in scripts  # those of uPlot
+    styles = ["base.css", "table.css", "plots.css", *(f"{name}.css" for name in style.split()),
+              "print.css"]
+    scripts = [f"{name}.js" for name in scripts.split()]
+    refuse_twins(page_dir, scripts)
+    licence = ""
+    if has_plots:
+        styles.insert(0, "vendor/uPlot.min.css")
+        scripts.insert(0, "vendor/uPlot.iife.min.js")
+        text = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
+        licence = f"<!--\nuPlot 1.6.32\n{text}\n-->\n"
+    style_text, style_hashes = inline(page_dir, "style", styles)
+    script_text, script_hashes = inline(page_dir, "script", scripts)
+    theme_text, theme_hash = inline(page_dir, "script", ["theme.js"])
+    html = (page_dir / "page.html").read_text(encoding="utf-8")
+    for marker, text in {"CONNECT": "", **words, STYLES: licence + style_text, SCRIPTS: script_text,
+                         "<!-- theme -->": theme_text, "STYLE_HASHES": style_hashes,
+                         "SCRIPT_HASHES": f"{theme_hash} {script_hashes}"}.items():
+        if marker not in html:
+            raise SystemExit(f"embed_page: page.html has no {marker}")
+        html = html.replace(marker, text)
+    return html.split(DATA)
+
+
+def literal(name, text):
+    pieces = [text[i : i + PIECE] for i in range(0, len(text), PIECE)]
+    if ")LL\"" in text:
+        raise SystemExit('embed_page: the page contains )LL"')
+    # Short literals appended at run time: one long one would exceed what the standard
+    # asks of compilers.
+    lines = [f"std::string {name}() {{", "  std::string text;"]
+    lines += [f'  text += R"LL({piece})LL";' for piece in pieces]
+    return "\n".join(lines + ["  return text;", "}", ""])
+
+
+def plot_script(python_dir):
+    """lanelight_plot.py with the module that it imports in place of the import."""
+    script, draw = ((python_dir / f"lanelight_{name}.py").read_text(encoding="utf-8")
+                    for name in ("plot", "draw"))
+    whole, count = re.subn(r"(?m)^from lanelight_draw import .*\n", lambda _: draw, script)
+    if count != 1:
+        raise SystemExit("embed_page: lanelight_plot.py imports lanelight_draw not once")
+    return whole
+
+
+def main():
+    page_dir, python_dir, output = map(pathlib.Path, sys.argv[1:])
+    body = HEADER
+    for name, page in PAGES.items():
+        head, tail = assemble(page_dir, *page)
+        body += "\n" + literal(f"{name}Head", head)
+        body += "\n" + literal(f"{name}Tail", tail)
+    body += "\n" + literal("PlotScript", plot_script(python_dir))
+    output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
+
+
+main()

@@ -1,0 +1,115 @@
+#include "src/measure/stress/cases/points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/measure/stress/cases/scene_text.h"
+
+namespace lanelight::stress {
+
+std::vector<double> Decades(double first, double last, double step) {
+  std::vector<double> values;
+  const int count = static_cast<int>(std::floor((last - first) / step + 1.5));
+  for (int i = 0; i < count; ++i) values.push_back(std::pow(10, first + i * step));
+  return values;
+}
+
+Axis LogAxis(std::string name, std::string unit, Promise promise,
+             std::vector<double> quick, std::vector<double> full) {
+  if (full.empty()) full = quick;
+  return {std::move(name), std::move(unit),  true,           promise.low,
+          promise.high,    std::move(quick), std::move(full)};
+}
+
+Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
+                 Promise promise) {
+  std::vector<double> quick, full;
+  for (int k = exponents.low; k <= exponents.high; k += exponents.step) {
+    quick.push_back(std::pow(10.0, k));
+  }
+  for (int k = 3 * exponents.low; k <= 3 * exponents.high; ++k) {
+    full.push_back(std::pow(10.0, k / 3.0));
+  }
+  return LogAxis(std::move(name), std::move(unit),
+                 {std::pow(10, promise.low) * 0.99, std::pow(10, promise.high) * 1.01},
+                 std::move(quick), std::move(full));
+}
+
+SceneText Setup(const std::string& text, const Quality& quality, const Effort& effort) {
+  SceneText scene;
+  scene.text = text;
+  scene.settings.resolution = {quality.size, quality.size};
+  scene.settings.spp = effort(quality.quick, quality.full);
+  scene.settings.seed = effort.seed;
+  scene.settings.target = effort.target.name();
+  scene.settings.max_depth = quality.depth;
+  scene.settings.strategy = ParseStrategy(quality.strategy, {});
+  return scene;
+}
+
+Point Expect(double expected, const SceneText& scene) {
+  Point point = MeanOf(RenderText(scene));
+  point.expected = expected;
+  point.tolerance = kFloatError * std::abs(expected);
+  return point;
+}
+
+Point Expect(double expected, const std::string& text, const Quality& quality,
+             const Effort& effort) {
+  Point point = Expect(expected, Setup(text, quality, effort));
+  point.tolerance = quality.relative * std::abs(expected);
+  return point;
+}
+
+std::vector<Point> ExpectBothWays(double expected, const std::string& text,
+                                  Quality quality, const Effort& effort) {
+  quality.strategy = "directions=bsdf";
+  const Point bsdf = Expect(expected, text, quality, effort);
+  quality.strategy = "";
+  quality.quick *= 16;
+  return {Named("bsdf", bsdf), Named("mis", Expect(expected, text, quality, effort))};
+}
+
+Point PlaneFurnace(double expected, const std::string& material, double cosine,
+                   const Effort& effort) {
+  return Expect(expected, ViewOfPlane(cosine) + Sky(1) + Plane(material), {.depth = 1},
+                effort);
+}
+
+Point Named(const std::string& series, Point point) {
+  point.series = series;
+  return point;
+}
+
+Point NotMeasured(const std::string& series, const std::string& why) {
+  Point point;
+  point.series = series;
+  point.not_measured = why;
+  return point;
+}
+
+Point WithRare(Point point, double rare, double difference) {
+  const double samples = double(point.samples);
+  const double deviation = difference * std::sqrt(rare * (1 - rare) / samples);
+  point.standard_error = std::max(point.standard_error, deviation);
+  point.tolerance += 3 * difference / samples;
+  return point;
+}
+
+Point BoundPoint(double worst, double bound) {
+  Point point;
+  point.measured = worst;
+  point.expected = bound;
+  return point;
+}
+
+Point NoFailures(std::uint64_t failures, std::uint64_t trials) {
+  Point point;
+  point.failures = failures;
+  point.trials = trials;
+  point.measured = trials > 0 ? double(failures) / double(trials) : 0;
+  return point;
+}
+
+}  // namespace lanelight::stress

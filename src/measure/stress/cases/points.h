@@ -1,0 +1,99 @@
+// What cases are made of: axes, renders of a text held against an expected value, rates
+// and bounds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/measure/stress/scene_point.h"
+#include "src/measure/stress/stress_case.h"
+
+namespace lanelight::stress {
+
+/// What means of images may be off by besides noise, of themselves (docs/numbers.md).
+inline constexpr double kFloatError = 1e-5;
+
+/// The part of an axis that is promised.
+struct Promise {
+  double low, high;
+};
+
+/// 10^first, 10^(first + step), ..., up to 10^last.
+std::vector<double> Decades(double first, double last, double step = 1);
+
+/// A logarithmic axis; without `full` its values are the quick ones.
+Axis LogAxis(std::string name, std::string unit, Promise promise,
+             std::vector<double> quick, std::vector<double> full = {});
+
+struct Exponents {
+  int low, high, step = 1;
+};
+/// 10^low to 10^high, every `step` decades; three values a decade with full effort.
+/// `promise`: exponents too.
+Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
+                 Promise promise);
+
+/// A case that is not a map.
+inline Axis Single() { return {}; }
+
+/// A case but for its group and its truth.
+struct CaseText {
+  std::string name, extreme, must;
+  Axis axis;
+  decltype(Case::measure) measure;
+  std::string source = {};
+};
+/// Adds cases of one group and truth.
+struct CaseAdder {
+  std::vector<Case>& cases;
+  const char* group;
+  Truth truth;
+
+  void operator()(const CaseText& text) const {
+    cases.push_back({text.name, group, text.extreme, text.must, text.source, truth,
+                     text.axis, text.measure});
+  }
+};
+
+/// How a text is rendered.
+struct Quality {
+  std::uint64_t quick = 64, full = 4096;  // samples per pixel
+  int depth = 5;
+  int size = 8;  // pixels per side
+  std::string strategy = {};
+  double relative = kFloatError;  // tolerance, of what is expected
+};
+
+SceneText Setup(const std::string& text, const Quality& quality, const Effort& effort);
+
+/// Renders and expects this mean, within kFloatError of it.
+Point Expect(double expected, const SceneText& scene);
+/// The same within the tolerance of the quality.
+Point Expect(double expected, const std::string& text, const Quality& quality,
+             const Effort& effort);
+/// Renders it twice: paths that find the sky by hitting it, where every sample of a
+/// convex shape is its albedo exactly, and, with 16 times the samples, the usual ones
+/// with shadow rays. Two series.
+std::vector<Point> ExpectBothWays(double expected, const std::string& text,
+                                  Quality quality, const Effort& effort);
+/// A plane of a material between two skies of radiance 1, seen under this cosine: what a
+/// single event makes of them.
+Point PlaneFurnace(double expected, const std::string& material, double cosine,
+                   const Effort& effort);
+
+/// The same, as a point of a series.
+Point Named(const std::string& series, Point point);
+/// A point of a series that is not measured, and why.
+Point NotMeasured(const std::string& series, const std::string& why);
+/// The point of a mean of two outcomes `difference` apart, the rarer with probability
+/// `rare`: the scatter of the samples alone says nothing where the rare one did not come.
+/// A few of them by chance are tolerated.
+Point WithRare(Point point, double rare, double difference);
+
+/// For Truth::kBound: the largest of errors against what it may be.
+Point BoundPoint(double worst, double bound);
+/// For Truth::kRate: failures among trials, of which none is promised.
+Point NoFailures(std::uint64_t failures, std::uint64_t trials);
+
+}  // namespace lanelight::stress

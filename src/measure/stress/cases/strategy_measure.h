@@ -1,0 +1,37 @@
+// One scene, rendered with every choice of every axis of a strategy.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src/measure/stress/cases/points.h"
+
+namespace lanelight::stress {
+
+/// What is rendered, and what is known beforehand of how strategies fare.
+struct StrategyScene {
+  std::string text;
+  double expected = 0;
+  Quality quality;
+  /// Probability that a sample of this strategy finds the light that matters; 1: no
+  /// rarity.
+  std::function<double(const std::string& strategy)> chance = [](const std::string&) {
+    return 1.0;
+  };
+  /// Why a strategy is left out here; empty: it is not.
+  std::function<std::string(const std::string& strategy)> spared =
+      [](const std::string&) { return std::string(); };
+};
+
+/// Directions that know nothing of lights: tiny ones are found by chance.
+bool FindsLightsByChance(const std::string& strategy);
+/// Renders a pilot of its own first.
+bool HasPilot(const std::string& strategy);
+
+/// One point for each choice, all others as by default; series are called what
+/// --strategy takes. Seconds are without pilots, which are the same for any length.
+/// What a scene refuses, or what too few samples say nothing of, is not measured.
+std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort);
+
+}  // namespace lanelight::stress

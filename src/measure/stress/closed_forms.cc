@@ -1,0 +1,107 @@
+#include "src/measure/stress/closed_forms.h"
+
+#include "src/base/core/pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+namespace lanelight::stress {
+namespace {
+
+// What crosses the coat of a thickness from outside at `cosine`, or, with 1 / eta, from
+// inside: the way through it is as long as its direction inside is slant.
+double Passes(double cosine, double eta, double thickness, bool from_inside) {
+  const double inside = from_inside ? cosine : RefractedCosine(cosine, eta);
+  return (1 - FresnelDielectric(cosine, eta)) * std::exp(-thickness / inside);
+}
+
+}  // namespace
+
+double ClosedRoom(double emission, double albedo, double depth) {
+  if (albedo == 1) return emission * (depth + 1);
+  // 1 - albedo^(depth + 1) without cancellation.
+  return emission * -std::expm1((depth + 1) * std::log(albedo)) / (1 - albedo);
+}
+
+double SphereIrradiance(double radius, double distance, double cosine) {
+  const double sine = radius / distance;
+  return kPi * sine * sine * cosine;
+}
+
+double PolygonIrradiance(std::span<const Vec3d> corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3d a = corners[i], b = corners[(i + 1) % corners.size()];
+    const Vec3d plane = Cross(a, b);
+    sum += std::atan2(Length(plane), Dot(a, b)) * plane.z / Length(plane);
+  }
+  return std::abs(sum) / 2;
+}
+
+double SquareSolidAngle(double half, double height) {
+  return 4 * std::atan(half * half / height / std::hypot(std::sqrt(2.0) * half, height));
+}
+
+double RefractedCosine(double cosine, double eta) {
+  // eta^2 - 1 + c^2 in factors: no digits are lost for eta near 1.
+  const double g2 = (eta - 1) * (eta + 1) + cosine * cosine;
+  return g2 <= 0 ? 0 : std::sqrt(g2) / eta;
+}
+
+double FresnelDielectric(double cosine, double eta) {
+  const double t = RefractedCosine(cosine, eta);
+  if (t == 0) return 1;
+  const double s = (cosine - eta * t) / (cosine + eta * t);
+  const double p = (eta * cosine - t) / (eta * cosine + t);
+  return (s * s + p * p) / 2;
+}
+
+double FresnelConductor(double cosine, double eta, double k) {
+  const std::complex<double> n(eta, k);
+  const std::complex<double> t = std::sqrt(n * n - (1 - cosine) * (1 + cosine));
+  const double s = std::norm((cosine - t) / (cosine + t));
+  const double p = std::norm((n * n * cosine - t) / (n * n * cosine + t));
+  return (s + p) / 2;
+}
+
+double CoatFurnace(const Coat& coat, double cosine) {
+  constexpr int kSteps = 100000;
+  double exit = 0, inner = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double c = std::sqrt((i + 0.5) / kSteps);  // 2 c dc = d(c^2)
+    exit += Passes(c, 1 / coat.eta, coat.thickness, true) / kSteps;
+    inner +=
+        FresnelDielectric(c, 1 / coat.eta) * std::exp(-2 * coat.thickness / c) / kSteps;
+  }
+  const double q = coat.albedo * inner;
+  const double series = q == 1 ? coat.bounces : (1 - std::pow(q, coat.bounces)) / (1 - q);
+  return FresnelDielectric(cosine, coat.eta) +
+         Passes(cosine, coat.eta, coat.thickness, false) * coat.albedo * series * exit;
+}
+
+double LayersAtNormal(std::span<const double> index, int depth) {
+  const int faces = static_cast<int>(index.size()) - 1;
+  // Importance that heads down to face i, and up to it.
+  std::vector<double> down(faces + 1), up(faces + 1);
+  down[0] = 1;
+  double arrived = 0;
+  for (int event = 0; event < depth; ++event) {
+    std::vector<double> next_down(faces + 1), next_up(faces + 1);
+    for (int i = 0; i < faces; ++i) {
+      const double a = index[i], b = index[i + 1];
+      const double amplitude = (a - b) / (a + b), r = amplitude * amplitude;
+      // Radiance is spread by the square of the index: to go from a to b, (a / b)^2.
+      const double below = down[i] * (1 - r) * (a / b) * (a / b) + up[i] * r;
+      const double above = up[i] * (1 - r) * (b / a) * (b / a) + down[i] * r;
+      (i + 1 < faces ? next_down[i + 1] : arrived) += below;
+      (i > 0 ? next_up[i - 1] : arrived) += above;
+    }
+    down = std::move(next_down);
+    up = std::move(next_up);
+  }
+  return arrived;
+}
+
+}  // namespace lanelight::stress

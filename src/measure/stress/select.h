@@ -1,0 +1,22 @@
+// Which cases somebody means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/measure/stress/stress_case.h"
+
+namespace lanelight::stress {
+
+/// The cases that any of `words` names, group by group, else in their own order; all of
+/// them without words. A
+/// word is the name of a case or of a group, or a pattern of the shell (* ? [...]) for
+/// either. Throws InputError for a word that names nothing, with the nearest name.
+std::vector<Case> SelectCases(std::vector<Case> cases,
+                              const std::vector<std::string>& words);
+
+/// Every `parts`-th case, from the `part`-th on (both from 1): a share of the work for a
+/// process of its own.
+std::vector<Case> PartOf(const std::vector<Case>& cases, int part, int parts);
+
+}  // namespace lanelight::stress

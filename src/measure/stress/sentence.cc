@@ -1,0 +1,61 @@
+// What a run came to, in a sentence.
+#include <fmt/format.h>
+
+#include "src/measure/stress/stress_json.h"
+
+namespace lanelight::stress {
+namespace {
+
+std::string Cases(int count) {
+  return fmt::format("{} case{}", count, count == 1 ? "" : "s");
+}
+
+// "a", "a and b", "a, b and 3 more".
+std::string List(const std::vector<std::string>& names, std::size_t most) {
+  std::string text;
+  const std::size_t shown = names.size() > most ? most : names.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == names.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + names[i];
+  }
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+std::vector<std::string> NamesOf(const SuiteResult& result, Outcome outcome) {
+  std::vector<std::string> names;
+  for (const CaseResult& one : result.cases) {
+    if (one.outcome == outcome) names.push_back(one.about.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string Sentence(const SuiteResult& result) {
+  const std::string on = " on " + List(result.options.targets, 8);
+  const std::vector<std::string> failed = NamesOf(result, Outcome::kFailed);
+  const int total = static_cast<int>(result.cases.size());
+  const int judged = total - result.Count(Outcome::kUnfinished);
+  if (total == 0) return "There was no case to measure.";
+  std::string text;
+  if (failed.empty()) {
+    text = (judged == 1 ? "The one case is" : fmt::format("All {} are", Cases(judged))) +
+           " good" + on;
+  } else {
+    text = fmt::format("{} of {} fail{}{}: {}", failed.size(), Cases(judged),
+                       failed.size() == 1 ? "s" : "", on, List(failed, 3));
+  }
+  const int weak = result.Count(Outcome::kWeak);
+  if (weak > 0) {
+    text += fmt::format("; in {} {} some points are too noisy to say much", weak,
+                        failed.empty() ? "of them" : "more");
+  }
+  if (judged < total) {
+    text += fmt::format("; {} {} not measured to the end", Cases(total - judged),
+                        total - judged == 1 ? "was" : "were");
+  }
+  return text + ".";
+}
+
+}  // namespace lanelight::stress

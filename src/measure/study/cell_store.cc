@@ -1,0 +1,129 @@
+#include "src/measure/study/cell_store.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/base/core/check.h"
+#include "src/base/core/error_text.h"
+#include "src/base/core/hash.h"
+#include "src/base/core/json_text.h"
+#include "src/base/state/state_file.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kFormat = 2;  // of the files; another one is not read
+
+Json IdentityOfCells(const std::string& strategy, std::uint64_t spp) {
+  return {{"format", kFormat}, {"strategy", strategy}, {"spp", spp}};
+}
+
+// Calls with_member(name, member) for what is kept of a stage, which may be const.
+template <class Stage, class Do>
+void ForEachMember(Stage& stage, const Do& with_member) {
+  with_member("name", stage.name);
+  with_member("calls", stage.calls);
+  with_member("items", stage.items);
+  with_member("lane_slots", stage.lane_slots);
+  with_member("seconds", stage.seconds);
+  with_member("bytes_per_item", stage.bytes_per_item);
+}
+
+std::string ReportOf(const Cells& cells) {
+  Json json = {{"repetitions", Json::array()}, {"stages", Json::array()}};
+  for (const Measurement& m : cells.repetitions) json["repetitions"].push_back(ToJson(m));
+  for (const StageProfile& s : cells.stages) {
+    Json& stage = json["stages"].emplace_back();
+    ForEachMember(s, [&](const char* name, const auto& value) { stage[name] = value; });
+  }
+  return DumpJson(json);
+}
+
+void ReadReport(const Json& json, Cells& cells) {
+  for (const Json& m : json.at("repetitions")) {
+    cells.repetitions.push_back(MeasurementFromJson(m));
+  }
+  for (const Json& stage : json.at("stages")) {
+    ForEachMember(cells.stages.emplace_back(),
+                  [&](const char* name, auto& value) { stage.at(name).get_to(value); });
+  }
+}
+
+constexpr char kFirst[] = "first";
+
+}  // namespace
+
+CellStore::CellStore(std::string folder, const PixelRect& window)
+    : folder_(std::move(folder)), window_(window) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw InputError("cannot make '" + folder_ + "': " + error.message());
+}
+
+std::string CellStore::Path(const std::string& strategy, std::uint64_t spp) const {
+  return fmt::format("{}/{:016x}-{}.cells", folder_, Hash64(strategy), spp);
+}
+
+Cells CellStore::Load(const std::string& strategy, std::uint64_t spp) const {
+  Cells cells;
+  cells.moments = Moments(window_.pixels());
+  const std::string path = Path(strategy, spp);
+  std::error_code error;
+  if (!fs::exists(path, error)) return cells;
+  try {
+    const StateFile file(path);
+    FromJsonOf(path, [&] {
+      if (ParseJson(file.identity()) != IdentityOfCells(strategy, spp)) {
+        throw InputError("'" + path + "' is of another strategy or version");
+      }
+      ReadReport(ParseJson(file.report()), cells);
+    });
+    if (file.window() != window_) {
+      throw InputError("'" + path + "' is of an image of another size");
+    }
+    cells.first.resize(window_.pixels());
+    file.ReadPixels({cells.moments.Restore(cells.repetitions.size()),
+                     MakeStateColumn<double>(kFirst, "", cells.first)},
+                    window_);
+    return cells;
+  } catch (const InputError& damage) {
+    throw InputError(WithoutPrefix(damage) +
+                     "; remove it, and its renders are done again");
+  }
+}
+
+void CellStore::Save(const std::string& strategy, std::uint64_t spp,
+                     const Cells& cells) const {
+  LL_CHECK_EQ(cells.moments.count(), std::uint64_t{cells.repetitions.size()});
+  StateContent content;
+  content.identity = DumpJson(IdentityOfCells(strategy, spp));
+  content.report = ReportOf(cells);
+  content.window = window_;
+  content.tiles = {window_};
+  content.compress = false;  // after each of many short renders
+  content.pixels = {
+      cells.moments.Column(),
+      MakeStateColumn<double>(kFirst, "the first render: R, G, B", cells.first)};
+  WriteState(content, Path(strategy, spp));
+}
+
+void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum) {
+  for (const StageProfile& m : more) {
+    const auto same = [&](const StageProfile& s) { return s.name == m.name; };
+    const auto found = std::find_if(sum.begin(), sum.end(), same);
+    if (found == sum.end()) {
+      sum.push_back(m);
+      continue;
+    }
+    found->calls += m.calls;
+    found->items += m.items;
+    found->lane_slots += m.lane_slots;
+    found->seconds += m.seconds;
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,128 @@
+// Which strategy gives the least error for the time: efficiencies, ranks, and how far a
+// budget's sample counts can be trusted.
+#include <algorithm>
+#include <cmath>
+
+#include "src/measure/study/analysis.h"
+
+namespace lanelight {
+namespace {
+
+class Comparison {
+ public:
+  Comparison(const SceneRuns& runs, const StudyOptions& options, SceneAnalysis& out)
+      : runs_(runs), options_(options), out_(out) {}
+
+  // All strategies with runs, by the repetitions that all of them have.
+  void Run() {
+    repetitions_ = static_cast<std::size_t>(options_.Repetitions());
+    for (std::size_t i = 0; i < out_.strategies.size(); ++i) {
+      if (!out_.strategies[i].HasRuns()) continue;
+      out_.ranking.push_back(i);
+      repetitions_ = std::min(repetitions_, out_.strategies[i].AtLevel().repetitions);
+    }
+    if (out_.ranking.empty()) return;
+    out_.baseline = out_.ranking.front();
+    FindDoubts();
+    Rank();
+    SortRanking();
+  }
+
+ private:
+  // Errors that fall otherwise than 1 / samples make the efficiency depend on the number
+  // of samples, like its power -(1 + 2 order). With a budget that number is what pilots
+  // made of it: its spread, and how far the time was missed, are doubts of the comparison
+  // at equal time.
+  void FindDoubts() {
+    if (!options_.budget || !options_.spp.empty()) return;
+    std::vector<double> times;
+    for (std::size_t i : out_.ranking) times.push_back(TimeOf(i));
+    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+    const double usual = times[times.size() / 2];
+    for (std::size_t i : out_.ranking) {
+      StrategyAnalysis& s = out_.strategies[i];
+      const double missed = std::log(TimeOf(i) / usual);
+      s.budget_doubt = Sensitivity(s) * std::hypot(runs_.strategies[i].count_spread,
+                                                   std::isfinite(missed) ? missed : 0);
+    }
+  }
+
+  double TimeOf(std::size_t i) const {
+    return out_.strategies[i].AtLevel().cpu_seconds.value;
+  }
+
+  // |1 + 2 order|, the larger one of its bounds; an error that does not fall at all if
+  // the order is not known.
+  static double Sensitivity(const StrategyAnalysis& s) {
+    if (!s.order_relmse) return 1;
+    const Interval& order = *s.order_relmse;
+    double most = std::abs(1 + 2 * order.value);
+    if (!order.HasBounds()) return std::max(most, 1.0);
+    for (double bound : {order.low, order.high}) {
+      most = std::max(most, std::abs(1 + 2 * bound));
+    }
+    return most;
+  }
+
+  std::vector<stat::Cost> CostsAt(const StrategyAnalysis& strategy) const {
+    const stat::Level& level = strategy.costs[strategy.at];
+    std::vector<stat::Cost> costs;
+    for (std::size_t r = 0; r < repetitions_; ++r) {
+      costs.push_back({std::max(0.0, level.error[r]), level.seconds[r]});
+    }
+    return costs;
+  }
+
+  Interval Relative(std::span<const stat::Cost> other_costs,
+                    std::span<const stat::Cost> baseline_costs, std::size_t other) const {
+    if (other == out_.baseline) return WithoutBounds(1);  // nothing is estimated
+    const double doubt = std::hypot(out_.strategies[out_.baseline].budget_doubt,
+                                    out_.strategies[other].budget_doubt);
+    return stat::Widened(
+        stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence), doubt,
+        options_.confidence);
+  }
+
+  void Rank() {
+    std::vector<std::vector<stat::Cost>> costs;
+    std::vector<double> doubts;
+    for (std::size_t i : out_.ranking) {
+      costs.push_back(CostsAt(out_.strategies[i]));
+      doubts.push_back(out_.strategies[i].budget_doubt);
+    }
+    const auto trimmed = [&](std::size_t i) {
+      return std::span(out_.strategies[i].trimmed).first(repetitions_);
+    };
+    const auto ranks = stat::RankByEfficiency(costs, options_.confidence, doubts);
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      const std::size_t i = out_.ranking[k];
+      StrategyAnalysis& strategy = out_.strategies[i];
+      strategy.rank = ranks[k];
+      strategy.efficiency = Relative(costs[k], costs.front(), i);
+      strategy.efficiency_trimmed = Relative(trimmed(i), trimmed(out_.baseline), i);
+    }
+  }
+
+  void SortRanking() {
+    std::sort(out_.ranking.begin(), out_.ranking.end(),
+              [&](std::size_t a, std::size_t b) {
+                const double ea = out_.strategies[a].efficiency->value;
+                const double eb = out_.strategies[b].efficiency->value;
+                return ea != eb ? ea > eb : a < b;
+              });
+  }
+
+  const SceneRuns& runs_;
+  const StudyOptions& options_;
+  SceneAnalysis& out_;
+  std::size_t repetitions_ = 0;
+};
+
+}  // namespace
+
+void CompareStrategies(const SceneRuns& runs, const StudyOptions& options,
+                       SceneAnalysis& analysis) {
+  Comparison(runs, options, analysis).Run();
+}
+
+}  // namespace lanelight

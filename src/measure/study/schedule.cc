@@ -1,0 +1,176 @@
+#include "src/measure/study/schedule.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "src/render/estimate/estimate.h"
+#include "src/base/stat/interval.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint64_t kMostSpp = 1u << 20;
+constexpr double kLeastSeconds = 1e-9;  // what a coarse clock cannot show
+
+std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+double StandardDeviation(const std::vector<double>& values) {
+  double mean = 0, squares = 0;
+  for (double v : values) mean += v / double(values.size());
+  for (double v : values) squares += (v - mean) * (v - mean);
+  return std::sqrt(squares / double(values.size() - 1));
+}
+
+class Pilots {
+ public:
+  Pilots(const Job& job, const std::vector<Strategy>& strategies, double seconds,
+         const std::atomic<bool>* stop)
+      : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
+
+  std::vector<Calibration> Run() {
+    for (std::size_t i = 0; i < strategies_.size() && !Stopped(); ++i) {
+      pilots_.push_back({WarmUp(strategies_[i]), {}, {}});
+    }
+    for (int round = 0; round < kPilotRounds; ++round) {
+      for (std::size_t i = 0; i < pilots_.size() && !Stopped(); ++i) Measure(i);
+    }
+    if (Stopped()) return {};
+    std::vector<Calibration> out;
+    for (const Pilot& pilot : pilots_) out.push_back(Evaluate(pilot));
+    return out;
+  }
+
+ private:
+  struct Pilot {
+    std::uint64_t spp = 1;
+    // Of the processor; `few`: of a quarter of the samples.
+    std::vector<double> seconds, few;
+    double for_small_error = std::numeric_limits<double>::infinity();
+    std::uint64_t FewSpp() const { return std::max<std::uint64_t>(spp / 4, 1); }
+  };
+  struct Seconds {
+    double wall = 0, cpu = 0;
+  };
+
+  bool Stopped() const { return stop_ != nullptr && *stop_; }
+
+  JobRun Render(const Strategy& strategy, std::uint64_t spp) {
+    return RunJob(WithRender(job_, strategy, spp, job_.seed), {}, stop_);
+  }
+
+  static Seconds SecondsOf(const RunResult& result) {
+    return {std::max(result.seconds, kLeastSeconds),
+            std::max(result.cpu_seconds, kLeastSeconds)};
+  }
+
+  // Squared errors fall as 1 / samples.
+  static double ForSmallError(const FilmAccumulator& film, std::uint64_t spp) {
+    const ErrorEstimate error = EstimateError(film);
+    if (!error.available) return std::numeric_limits<double>::infinity();
+    return double(spp) * error.relmse.value / (kSmallError * kSmallError);
+  }
+
+  // Renders of doubling size until one is as long as a pilot: its samples. What they
+  // load, build and allocate for the first time does not count.
+  std::uint64_t WarmUp(const Strategy& strategy) {
+    const double wanted = std::clamp(seconds_ / 2, kShortestPilot, kLongestPilot);
+    std::uint64_t spp = 1;
+    Render(strategy, spp);
+    // A half, or the next would be too long.
+    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMostSpp &&
+           !Stopped()) {
+      spp *= 2;
+    }
+    return spp;
+  }
+
+  void Measure(std::size_t i) {
+    Pilot& pilot = pilots_[i];
+    pilot.few.push_back(SecondsOf(Render(strategies_[i], pilot.FewSpp()).result).cpu);
+    const JobRun run = Render(strategies_[i], pilot.spp);
+    const Seconds taken = SecondsOf(run.result);
+    pilot.for_small_error = ForSmallError(run.film, pilot.spp);
+    pilot.seconds.push_back(taken.cpu);
+    wall_per_cpu_.push_back(taken.wall / taken.cpu);
+  }
+
+  Calibration Evaluate(const Pilot& pilot) const {
+    std::vector<double> logarithms;
+    for (double s : pilot.seconds) logarithms.push_back(std::log(s));
+    // The standard error of a median of normal values.
+    const double spread = StandardDeviation(logarithms) *
+                          std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
+    const double samples =
+        SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
+                        {double(pilot.spp), stat::Median(pilot.seconds)},
+                        {double(pilot.FewSpp()), stat::Median(pilot.few)});
+    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, pilot.for_small_error};
+  }
+
+  const Job& job_;
+  const std::vector<Strategy>& strategies_;
+  double seconds_;
+  const std::atomic<bool>* stop_;
+  std::vector<Pilot> pilots_;
+  std::vector<double> wall_per_cpu_;
+};
+
+}  // namespace
+
+double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& few) {
+  const double mean = pilot.seconds / pilot.samples;
+  const double more = pilot.samples - few.samples;
+  const double slope = more > 0 ? (pilot.seconds - few.seconds) / more : mean;
+  const double of_sample = std::clamp(slope, mean / 4, mean);
+  return (budget - (pilot.seconds - of_sample * pilot.samples)) / of_sample;
+}
+
+std::vector<Calibration> Calibrate(const Job& job,
+                                   const std::vector<Strategy>& strategies,
+                                   double seconds, const std::atomic<bool>* stop) {
+  return Pilots(job, strategies, seconds, stop).Run();
+}
+
+std::uint64_t DefaultLargest(const Calibration& baseline) {
+  const double enough = std::clamp(baseline.for_small_error, 1.0, double(kLeastLargest));
+  return std::max(std::bit_floor(static_cast<std::uint64_t>(baseline.samples)),
+                  std::bit_ceil(static_cast<std::uint64_t>(std::ceil(enough))));
+}
+
+std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
+  std::vector<std::uint64_t> counts;
+  for (std::uint64_t n = 1; n < largest; n *= 2) counts.push_back(n);
+  const int shift = std::max(0, static_cast<int>(std::bit_width(largest)) - 7);
+  counts.push_back(largest >> shift << shift);
+  return Sorted(counts);
+}
+
+void ChooseCounts(const StudyOptions& options, const Job& job,
+                  std::vector<StrategyRuns>& strategies, const std::atomic<bool>* stop) {
+  std::vector<StrategyRuns*> runs;
+  std::vector<Strategy> calibrated;
+  const bool each = options.spp.empty() && options.budget;
+  for (StrategyRuns& s : strategies) {
+    if (s.status != RunStatus::kOk) continue;
+    if (each || calibrated.empty()) calibrated.push_back(s.named.strategy);
+    runs.push_back(&s);
+    s.counts = Sorted(options.spp);
+  }
+  if (!options.spp.empty() || runs.empty()) return;
+  const std::vector<Calibration> found =
+      Calibrate(job, calibrated, options.budget.value_or(kDefaultStudySeconds), stop);
+  for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
+    const Calibration& c = found[each ? i : 0];
+    runs[i]->counts =
+        CountsUpTo(each ? static_cast<std::uint64_t>(c.samples) : DefaultLargest(c));
+    runs[i]->count_spread = each ? c.spread : 0;
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,151 @@
+// A study of one scene in a paragraph.
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/stat/values.h"
+#include "src/measure/study/analysis.h"
+
+namespace lanelight {
+namespace {
+
+class Writer {
+ public:
+  Writer(const SceneRuns& runs, const SceneAnalysis& analysis)
+      : runs_(runs), analysis_(analysis) {}
+
+  std::string Text() {
+    if (analysis_.ranking.empty()) return "No strategy has finished a render.";
+    Winner();
+    Target();
+    Order();
+    Warnings();
+    return text_;
+  }
+
+ private:
+  const std::string& NameOf(std::size_t i) const {
+    return runs_.strategies[i].named.name;
+  }
+  const StrategyAnalysis& Of(std::size_t i) const { return analysis_.strategies[i]; }
+  void Say(const std::string& sentence) { AddSentence(sentence, text_); }
+
+  std::string List(const std::vector<std::size_t>& indices) const {
+    return NamesText(runs_, indices, indices.size());
+  }
+
+  void Winner() {
+    const std::size_t best = analysis_.ranking.front();
+    const Interval& gain = *Of(best).efficiency;
+    if (!std::isfinite(gain.value) || Of(best).AtLevel().relmse.value <= 0) {
+      return Say("No error is left to compare: the strategies reach the reference.");
+    }
+    std::vector<std::size_t> first;
+    for (std::size_t i : analysis_.ranking) {
+      if (Of(i).rank.best == 1) first.push_back(i);
+    }
+    const std::size_t repetitions = Of(best).AtLevel().repetitions;
+    if (repetitions < 3) {
+      return Say(fmt::format(
+          "{} has the least error for the time here, {} times the efficiency of {}; {} "
+          "repetition{} cannot say how sure that is.",
+          NameOf(best), EstimateText(gain), NameOf(analysis_.baseline), repetitions,
+          repetitions == 1 ? "" : "s"));
+    }
+    const std::string amount =
+        best == analysis_.baseline
+            ? "the baseline"
+            : fmt::format("{} times the efficiency of {}", EstimateText(gain),
+                          NameOf(analysis_.baseline));
+    if (first.size() == 1) {
+      return Say(fmt::format("{} gives the least error for the time: {}.", NameOf(best),
+                             amount));
+    }
+    Say(
+        fmt::format("{} gives the least error for the time in these renders ({}), but {} "
+                    "not certainly behind.",
+                    NameOf(best), amount, Others(first)));
+  }
+
+  // "A and B are", "27 others are".
+  std::string Others(const std::vector<std::size_t>& first) const {
+    std::vector<std::size_t> others;
+    for (std::size_t i : first) {
+      if (i != analysis_.ranking.front()) others.push_back(i);
+    }
+    if (others.size() == 1) return NameOf(others.front()) + " is";
+    if (others.size() > kMostNames) return fmt::format("{} others are", others.size());
+    return List(others) + " are";
+  }
+
+  void Target() {
+    const std::size_t best = analysis_.ranking.front();
+    const auto& mine = Of(best).to_target;
+    const auto& base = Of(analysis_.baseline).to_target;
+    if (!mine || !base || best == analysis_.baseline) return;
+    Say(
+        fmt::format("To a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
+                    "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
+                    analysis_.target_relmse, mine->seconds.value, mine->samples.value,
+                    mine->extrapolated ? " (extrapolated)" : "",
+                    NameOf(analysis_.baseline), base->seconds.value, base->samples.value,
+                    base->extrapolated ? " (extrapolated)" : ""));
+  }
+
+  void Order() {
+    const auto& order = Of(analysis_.ranking.front()).order;
+    if (!order) return;
+    Say(fmt::format("Its RMSE falls with the number of samples to the power {}{}.",
+                    EstimateText(*order),
+                    order->HasBounds() && order->high < -0.5
+                        ? ", faster than independent samples"
+                        : ""));
+  }
+
+  void TrimmedWinner() {
+    const auto better = [&](std::size_t a, std::size_t b) {
+      return Of(a).efficiency_trimmed->value < Of(b).efficiency_trimmed->value;
+    };
+    const std::size_t best =
+        *std::max_element(analysis_.ranking.begin(), analysis_.ranking.end(), better);
+    if (best == analysis_.baseline) return;
+    Say(fmt::format(
+        "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
+        NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
+        NameOf(analysis_.baseline)));
+  }
+
+  void Warnings() {
+    Say(CalibrationText(runs_, analysis_));
+    std::vector<std::size_t> heavy, failed;
+    for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
+      if (Of(i).heavy_tailed) heavy.push_back(i);
+      if (runs_.strategies[i].status == RunStatus::kFailed) failed.push_back(i);
+    }
+    if (!heavy.empty()) {
+      Say(fmt::format(
+          "Rare bright samples carry much of the error of {}: intervals there "
+          "may not hold, and bias cannot be tested.",
+          NamesText(runs_, heavy)));
+      TrimmedWinner();
+    }
+    Say(BiasText(runs_, analysis_));
+    if (!failed.empty()) Say("Failed: " + List(failed) + ".");
+    if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
+      Say("The reference is too noisy for the smallest errors: more than half of what "
+          "was measured there is its own.");
+    }
+    if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
+  }
+
+  const SceneRuns& runs_;
+  const SceneAnalysis& analysis_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  return Writer(runs, analysis).Text();
+}
+
+}  // namespace lanelight

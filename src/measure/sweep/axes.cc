@@ -1,0 +1,114 @@
+#include "src/measure/sweep/axes.h"
+
+#include "src/render/job/setting.h"
+#include "src/vocabulary/strategy/named_strategy.h"
+
+namespace lanelight {
+namespace {
+
+// What of an axis the list of settings does not say; `before` and `after` stand around
+// its value in the names of cells.
+struct AxisInfo {
+  const char *name, *column, *title, *before = "", *after = "", *key = name;
+};
+
+constexpr AxisInfo kAxes[kNumAxes] = {
+    {"scene", "scene", "Scene"},
+    {"resolution", "resolution_pixels", "Resolution (pixels)"},
+    {"max-depth", "max_depth", "Maximum depth", "depth"},
+    {"build", "build", "Build of the trees"},
+    {"simd", "simd_target", "SIMD target", "", "", "target"},
+    {"threads", "threads", "Threads", "", "threads"},
+    {"strategy", "strategy", "Strategy"},
+    {"spp", "spp", "Samples per pixel", "", "spp"},
+    {"time", "time_seconds", "Time budget (s)", "", "s"},
+    {"target-relmse", "target_relmse", "Target relative MSE", "relmse"},
+    {"target-rmse", "target_rmse", "Target RMSE", "rmse"},
+    {"seed", "seed", "Seed", "seed"},
+};
+
+const AxisInfo& Info(Axis axis) { return kAxes[static_cast<std::size_t>(axis)]; }
+
+// What Highway calls the targets of processors; which of them there are is another
+// question (AvailableTargets()).
+const std::vector<std::string> kTargets = {
+    "AVX3_SPR", "AVX3_ZEN4", "AVX3_DL", "AVX3",        "AVX2", "SSE4", "SSSE3",
+    "SSE2",     "SVE2_128",  "SVE_256", "SVE2",        "SVE",  "NEON", "NEON_WITHOUT_AES",
+    "PPC10",    "PPC9",      "PPC8",    "WASM_EMU256", "WASM", "RVV",  "EMU128",
+    "SCALAR"};
+
+std::string Canonical(const std::string& name, const std::string& text) {
+  const Axis axis = *SweepAxisOf(name);
+  switch (axis) {
+    case Axis::kScene:
+      return ReadValue(TextType{"the name of a scene"}, text);
+    case Axis::kTarget:  // of any machine
+      return ReadValue(TargetType(kTargets), text);
+    default:
+      RenderSettings settings;
+      SettingNamed(name).read(settings, text);
+      return *SettingNamed(Name(axis)).text(settings);
+  }
+}
+
+}  // namespace
+
+const char* Name(Axis axis) { return Info(axis).name; }
+const char* Key(Axis axis) { return Info(axis).key; }
+const char* Column(Axis axis) { return Info(axis).column; }
+const char* Title(Axis axis) { return Info(axis).title; }
+
+ValueForm AxisFormOf(const std::string& name) {
+  return SweepAxisOf(name) == Axis::kScene ? ValueForm::kText : SettingNamed(name).form;
+}
+
+std::string ValueInNames(Axis axis, const std::string& value) {
+  return Info(axis).before + value + Info(axis).after;
+}
+
+std::vector<std::string> AxisNames() {
+  std::vector<std::string> names;
+  for (const AxisInfo& axis : kAxes) names.push_back(axis.name);
+  return names;
+}
+
+std::optional<Axis> SweepAxisOf(const std::string& name) {
+  for (int i = 0; i < kNumAxes; ++i) {
+    if (name == kAxes[i].name) return static_cast<Axis>(i);
+  }
+  if (name == WrittenBy(SettingNamed(Name(Axis::kTargetRelmse)))) {
+    return Axis::kTargetRelmse;
+  }
+  return std::nullopt;
+}
+
+std::optional<Axis> AxisOfKey(const std::string& key) {
+  for (int i = 0; i < kNumAxes; ++i) {
+    if (key == kAxes[i].key) return static_cast<Axis>(i);
+  }
+  return std::nullopt;
+}
+
+std::string CanonicalValue(const std::string& name, const std::string& text,
+                           const SourceLocation& where) {
+  if (SweepAxisOf(name) == Axis::kStrategy) {
+    StrategyNamed(text, where, {});  // throws
+    return text;
+  }
+  return ReadAt(where, name, [&] { return Canonical(name, text); });
+}
+
+void ApplyValues(const AxisValues& values, RenderSettings& settings) {
+  for (int i = 0; i < kNumAxes; ++i) {
+    const auto axis = static_cast<Axis>(i);
+    const auto& value = Get(values, axis);
+    if (!value || axis == Axis::kScene || axis == Axis::kStrategy) continue;
+    if (axis == Axis::kTarget) {
+      settings.target = *value;  // which this machine need not have
+    } else {
+      SettingNamed(Name(axis)).read(settings, *value);
+    }
+  }
+}
+
+}  // namespace lanelight

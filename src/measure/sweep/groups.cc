@@ -1,0 +1,222 @@
+#include "src/measure/sweep/groups.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/stat/values.h"
+#include "src/base/stat/efficiency.h"
+#include "src/base/stat/hypothesis.h"
+#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/measure/sweep/sweep_folder.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+using Costs = std::map<std::string, stat::Cost>;  // by seed
+
+constexpr const char* kMeans[] = {
+    "samples", "render_seconds",  "cpu_seconds",       "relmse",
+    "rmse",    "rays_per_second", "samples_per_second"};
+// Comparing each with each takes a bootstrap for every pair.
+constexpr std::size_t kMostRanked = 64;
+
+double MeasureOf(const Json& cell, const char* name) {
+  const Json value = cell.at("measured").value(name, Json());
+  return value.is_number() ? value.get<double>() : std::nan("");
+}
+
+// Cells without a known error have no cost.
+Costs CostsOf(const CellGroup& group, const std::vector<Json>& cells) {
+  Costs costs;
+  for (const std::size_t i : group.cells) {
+    const stat::Cost cost = {MeasureOf(cells[i], "relmse"),
+                             MeasureOf(cells[i], "cpu_seconds")};
+    if (!std::isfinite(cost.error) || !std::isfinite(cost.seconds)) continue;
+    costs[cells[i].at("values").value(Key(Axis::kSeed), "")] = cost;
+  }
+  return costs;
+}
+
+// Repetitions of all, of the seeds that all have.
+std::vector<std::vector<stat::Cost>> PairedCosts(const std::vector<Costs>& all) {
+  std::vector<std::vector<stat::Cost>> paired(all.size());
+  for (const auto& [seed, unused] : all[0]) {
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const Costs& c) { return c.count(seed) == 0; })) {
+      continue;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) paired[i].push_back(all[i].at(seed));
+  }
+  return paired;
+}
+
+Json MeansJson(const CellGroup& group, const std::vector<Json>& cells) {
+  Json means = Json::object();
+  for (const char* name : kMeans) {
+    std::vector<double> values;
+    for (const std::size_t i : group.cells) values.push_back(MeasureOf(cells[i], name));
+    means[name] = IntervalJson(stat::MeanInterval(values, kSweepConfidence));
+  }
+  return means;
+}
+
+// By context.
+std::map<std::size_t, Costs> BaselineCosts(const std::vector<CellGroup>& groups,
+                                           const std::vector<Json>& cells,
+                                           const std::string& baseline) {
+  std::map<std::size_t, Costs> costs;
+  for (const CellGroup& group : groups) {
+    if (group.strategy == baseline) costs[group.context] = CostsOf(group, cells);
+  }
+  return costs;
+}
+
+struct Contender {
+  std::string strategy;
+  Costs costs;
+};
+
+Json LeaderJson(const std::vector<Contender>& contenders, const std::string& baseline) {
+  std::vector<Costs> all;
+  for (const Contender& c : contenders) all.push_back(c.costs);
+  const auto paired = PairedCosts(all);
+  if (paired[0].empty()) return nullptr;
+  std::size_t base = 0, best = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (contenders[i].strategy == baseline) base = i;
+  }
+  const double confidence =
+      1 - stat::SidakLevel(1 - kSweepConfidence, static_cast<int>(all.size()) - 1);
+  std::vector<Interval> ratios;
+  for (const auto& costs : paired) {
+    ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
+    if (ratios.back().value > ratios[best].value) best = ratios.size() - 1;
+  }
+  Json json = {{"best", contenders[best].strategy},
+               {"baseline", contenders[base].strategy},
+               {"efficiency", best == base ? IntervalJson(WithoutBounds(1))
+                                           : IntervalJson(ratios[best])},
+               {"strategies", all.size()},
+               {"seeds", paired[0].size()},
+               {"equals", nullptr}};
+  if (all.size() > kMostRanked) return json;
+  const auto ranks = stat::RankByEfficiency(paired, kSweepConfidence);
+  json["equals"] = std::count_if(ranks.begin(), ranks.end(),
+                                 [](const stat::RankRange& r) { return r.best == 1; }) -
+                   (ranks[best].best == 1);
+  return json;
+}
+
+// Values of a group that are not of its strategy.
+std::map<std::string, std::string> ContextOf(const CellGroup& group) {
+  std::map<std::string, std::string> values;
+  for (const auto& [axis, value] : group.values) {
+    const bool strategy = axis == Key(Axis::kStrategy) || !AxisOfKey(axis);
+    if (!strategy) values[axis] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::string BaselineOf(const Sweep& sweep) {
+  std::string first;
+  for (const SweepCell& cell : sweep.cells) {
+    const std::string strategy = Get(cell.values, Axis::kStrategy).value_or("");
+    if (strategy == kDefaultStrategyName) return strategy;
+    if (first.empty()) first = strategy;
+  }
+  return first;
+}
+
+std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& cells,
+                                  const std::map<std::string, std::string>& scenes) {
+  std::vector<CellGroup> groups;
+  std::map<std::map<std::string, std::string>, std::size_t> known, contexts;
+  for (const SweepCell& cell : sweep.cells) {
+    CellGroup group;
+    for (int i = 0; i < kNumAxes; ++i) {
+      const auto& value = cell.values[static_cast<std::size_t>(i)];
+      if (value) group.values[Key(static_cast<Axis>(i))] = *value;
+    }
+    group.values.erase(Key(Axis::kSeed));
+    group.values[Key(Axis::kScene)] = scenes.at(*Get(cell.values, Axis::kScene));
+    group.strategy = Get(cell.values, Axis::kStrategy).value_or("");
+    group.context = contexts.try_emplace(ContextOf(group), contexts.size()).first->second;
+    std::vector<StrategyPlace> places = {{group.strategy, {}}};
+    if (const auto found = sweep.places.find(group.strategy);
+        found != sweep.places.end()) {
+      places = found->second;
+    }
+    for (const StrategyPlace& place : places) {
+      CellGroup one = group;
+      if (!place.family.empty()) one.values[Key(Axis::kStrategy)] = place.family;
+      one.values.insert(place.parameters.begin(), place.parameters.end());
+      const auto [entry, is_new] = known.try_emplace(one.values, groups.size());
+      if (is_new) groups.push_back(std::move(one));
+      if (cells[cell.index].at("status") == Name(CellState::kDone)) {
+        groups[entry->second].cells.push_back(cell.index);
+      }
+    }
+  }
+  return groups;
+}
+
+Json GroupsJson(const std::vector<CellGroup>& groups, const std::vector<Json>& cells,
+                const std::string& baseline) {
+  const auto baselines = BaselineCosts(groups, cells, baseline);
+  Json json = Json::array();
+  for (const CellGroup& group : groups) {
+    if (group.cells.empty()) continue;
+    Json one = {
+        {"values", group.values}, {"cells", group.cells}, {"efficiency", nullptr}};
+    if (!group.strategy.empty()) one["strategy"] = group.strategy;
+    if (group.cells.size() > 1) one["measured"] = MeansJson(group, cells);
+    const auto base = baselines.find(group.context);
+    if (base != baselines.end() && !group.strategy.empty()) {
+      const auto pairs = PairedCosts({base->second, CostsOf(group, cells)});
+      if (!pairs[0].empty()) {
+        one["efficiency"] = IntervalJson(
+            group.strategy == baseline
+                ? WithoutBounds(1)  // nothing is estimated
+                : stat::EfficiencyRatio(pairs[0], pairs[1], kSweepConfidence));
+      }
+    }
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& cells,
+                 const std::string& baseline) {
+  std::map<std::size_t, std::vector<Contender>> contexts;
+  std::map<std::size_t, const CellGroup*> samples;
+  for (const CellGroup& group : groups) {
+    Costs costs = CostsOf(group, cells);
+    std::vector<Contender>& in = contexts[group.context];
+    if (costs.empty() || std::any_of(in.begin(), in.end(), [&](const Contender& c) {
+          return c.strategy == group.strategy;
+        })) {
+      continue;
+    }
+    in.push_back({group.strategy, std::move(costs)});
+    samples[group.context] = &group;
+  }
+  std::map<std::string, Json> last;  // by scene
+  std::vector<std::string> order;
+  for (const auto& [context, contenders] : contexts) {
+    if (contenders.size() < 2) continue;
+    Json leader = LeaderJson(contenders, baseline);
+    if (leader.is_null()) continue;
+    leader["values"] = ContextOf(*samples[context]);
+    const std::string scene = leader["values"].at(Key(Axis::kScene));
+    if (last.count(scene) == 0) order.push_back(scene);
+    last[scene] = std::move(leader);
+  }
+  Json json = Json::array();
+  for (const std::string& scene : order) json.push_back(last[scene]);
+  return json;
+}
+
+}  // namespace lanelight

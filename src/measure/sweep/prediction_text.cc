@@ -1,0 +1,76 @@
+#include <cmath>
+
+#include "src/measure/sweep/prediction.h"
+
+namespace lanelight {
+namespace {
+
+std::string TextOf(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
+
+std::string BytesText(double bytes) {
+  constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  while (bytes >= 1000 && unit < 4) {
+    bytes /= 1000;
+    ++unit;
+  }
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
+
+struct Sums {
+  std::size_t done = 0, failing = 0, unknown = 0, estimated = 0;
+  double seconds = 0, bytes = 0;
+
+  void Add(const CellPrediction& p) {
+    if (p.done) {
+      ++done;
+    } else if (!p.message.empty()) {
+      ++failing;
+    } else if (!std::isfinite(p.seconds)) {
+      ++unknown;
+    } else {
+      estimated += !p.measured;
+      seconds += p.seconds;
+      bytes += p.bytes;
+    }
+  }
+};
+
+std::string Row(const SweepCell& cell, const CellPrediction& p) {
+  if (p.done) return fmt::format("{:>10} {:>10}  {}\n", "done", "", cell.name);
+  if (!p.message.empty()) {
+    return fmt::format("{:>10} {:>10}  {}: {}\n", "will fail", "", cell.name, p.message);
+  }
+  return fmt::format("{:>10} {:>10}  {}\n",
+                     TextOf(p.seconds, "{:.3g}") + (p.measured ? " " : "~"),
+                     std::isfinite(p.bytes) ? BytesText(p.bytes) : "-", cell.name);
+}
+
+}  // namespace
+
+std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction) {
+  std::string text = fmt::format("{:>9}  {:>10}  cell\n", "seconds", "space");
+  Sums sums;
+  for (const SweepCell& cell : sweep.cells) {
+    text += Row(cell, prediction.cells[cell.index]);
+    sums.Add(prediction.cells[cell.index]);
+  }
+  text += fmt::format("\n{} cells, {} combinations excluded; {} are done",
+                      sweep.cells.size(), sweep.excluded, sums.done);
+  if (sums.failing > 0) text += fmt::format(", {} will fail", sums.failing);
+  if (sums.unknown > 0)
+    text += fmt::format(", {} take nobody knows how long", sums.unknown);
+  text += fmt::format("\n{} of {} combinations of scene and strategy were tried",
+                      prediction.pilots, prediction.combinations);
+  if (sums.estimated > 0) {
+    text += fmt::format("; {} cells (~) are judged by the others", sums.estimated);
+  }
+  if (prediction.pilots == 0) return text + "\n";
+  return text +
+         fmt::format("\nthe rest: {:.3g} hours on this machine by one process, {}\n",
+                     sums.seconds / 3600, BytesText(sums.bytes));
+}
+
+}  // namespace lanelight

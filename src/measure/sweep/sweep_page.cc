@@ -1,0 +1,146 @@
+#include "src/measure/sweep/sweep_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "src/render/job/machine_json.h"
+#include "src/scene/description/scene_names.h"
+#include "src/measure/sweep/results.h"
+#include "src/measure/sweep/sweep_folder.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+bool AreNumbers(const std::vector<std::string>& values) {
+  return std::all_of(values.begin(), values.end(), [](const std::string& text) {
+    char* end = nullptr;
+    const double x = std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0' && std::isfinite(x);
+  });
+}
+
+// Values in the order of the grid.
+Json AxisJson(const std::vector<CellGroup>& groups, const std::string& name) {
+  std::vector<std::string> values;
+  std::set<std::string> seen;
+  bool unset = false;
+  for (const CellGroup& group : groups) {
+    const auto value = group.values.find(name);
+    unset |= value == group.values.end();
+    if (value == group.values.end() || !seen.insert(value->second).second) continue;
+    values.push_back(value->second);
+  }
+  const std::optional<Axis> axis = AxisOfKey(name);
+  return {{"name", name},       {"title", axis ? Title(*axis) : name},
+          {"parameter", !axis}, {"numeric", axis != Axis::kScene && AreNumbers(values)},
+          {"values", values},   {"unset", unset}};
+}
+
+// Those of the grid but the seed, each open part of strategies before the amounts.
+Json AxesJson(const Sweep& sweep, const std::vector<CellGroup>& groups) {
+  std::vector<std::string> names;
+  for (const Axis axis : sweep.UsedAxes()) {
+    if (axis != Axis::kSeed) names.push_back(Key(axis));
+    if (axis != Axis::kStrategy) continue;
+    for (const CellGroup& group : groups) {
+      for (const auto& [name, unused] : group.values) {
+        if (AxisOfKey(name)) continue;
+        if (std::find(names.begin(), names.end(), name) == names.end()) {
+          names.push_back(name);
+        }
+      }
+    }
+  }
+  Json axes = Json::array();
+  for (const std::string& name : names) axes.push_back(AxisJson(groups, name));
+  return axes;
+}
+
+// What the file says of each scene to its name.
+std::map<std::string, std::string> NamesOfScenes(const Sweep& sweep) {
+  std::vector<std::string> texts, paths;
+  std::set<std::string> seen;
+  for (const SweepCell& cell : sweep.cells) {
+    const std::string& text = *Get(cell.values, Axis::kScene);
+    if (!seen.insert(text).second) continue;
+    texts.push_back(text);
+    paths.push_back(sweep.ScenePath(cell));
+  }
+  const std::vector<std::string> names = SceneNames(paths);
+  std::map<std::string, std::string> result;
+  for (std::size_t i = 0; i < texts.size(); ++i) result[texts[i]] = names[i];
+  return result;
+}
+
+Json MachinesJson(const std::vector<Json>& cells) {
+  std::vector<MachineInfo> machines;
+  for (const Json& cell : cells) {
+    if (cell.at("status") != Name(CellState::kDone)) continue;
+    AddMachine(MachineFromJson(cell.at("machine")), machines);
+  }
+  return ToJson(machines);
+}
+
+// Ten thousand cells fit into a page: stages are numbers of four digits without names.
+Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
+  Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
+               {"message", cell.at("message")}, {"values", cell.at("values")},
+               {"measured", Json::object()},    {"stages", Json::array()}};
+  for (const auto& [name, value] : cell.at("measured").items()) {
+    if (IsOnPage(name)) json["measured"][name] = value;
+  }
+  for (const std::string& name : stage_names) {
+    const auto stage = cell.at("stages").find(name);
+    if (stage == cell.at("stages").end()) {
+      json["stages"].push_back(nullptr);
+    } else {
+      const double seconds = stage->get<double>();
+      json["stages"].push_back(std::stod(fmt::format("{:.4g}", seconds)));
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& cells) {
+  return GroupCells(sweep, cells, NamesOfScenes(sweep));
+}
+
+Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
+               const std::vector<CellGroup>& groups) {
+  const std::vector<std::string> stages = StageNames(cells);
+  const std::map<std::string, std::string> scenes = NamesOfScenes(sweep);
+  const std::string baseline = BaselineOf(sweep);
+  Json page_cells = Json::array();
+  std::set<std::string> seeds;
+  for (const Json& cell : cells) {
+    page_cells.push_back(PageCell(cell, stages));
+    Json& values = page_cells.back()["values"];
+    values["scene"] = scenes.at(values["scene"]);
+    seeds.insert(values.value(Key(Axis::kSeed), ""));
+  }
+  return {{"schema", 2},
+          {"kind", "lanelight-sweep"},
+          {"file", std::filesystem::path(sweep.path).filename().string()},
+          {"settings", sweep.settings.texts},
+          {"excluded", sweep.excluded},
+          {"axes", AxesJson(sweep, groups)},
+          {"seeds", seeds.size()},
+          {"baseline", baseline.empty() ? Json() : Json(baseline)},
+          {"stages", stages},
+          {"machines", MachinesJson(cells)},
+          {"groups", GroupsJson(groups, cells, baseline)},
+          {"leaders", LeadersJson(groups, cells, baseline)},
+          {"cells", page_cells}};
+}
+
+}  // namespace lanelight

@@ -1,0 +1,124 @@
+#include "src/measure/throughput/throughput_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/version.h"
+#include "src/render/job/machine_json.h"
+#include "src/base/stat/values.h"
+#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy.h"
+#include "src/measure/throughput/throughput_comparison.h"
+#include "src/measure/throughput/throughput_warnings.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+// The rate over that of as many times one thread; null without a row of one.
+Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
+                        const ThroughputRow& row) {
+  if (row.threads == 1) return IntervalJson(WithoutBounds(1));  // nothing is estimated
+  for (const ThroughputRow& one : rows) {
+    if (one.scene != row.scene || one.target != row.target || one.threads != 1) continue;
+    const Interval ratio = RateRatioOf(row.Rate(), one.Rate());
+    const double n = row.threads;
+    return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
+  }
+  return nullptr;
+}
+
+Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
+  Json groups = Json::array(), stages = Json::array();
+  for (const StageGroup& g : StageGroups(row)) {
+    groups.push_back(
+        {{"name", g.name}, {"ns_per_sample", g.ns_per_sample}, {"lanes", g.Lanes()}});
+  }
+  for (const StageProfile& s : row.counts.stages) {
+    stages.push_back({{"name", s.name},
+                      {"items", s.items},
+                      {"lanes", s.Occupancy()},
+                      {"ns_per_sample", 1e9 * s.seconds / double(row.counts.samples)}});
+  }
+  return {{"scene", row.scene},
+          {"target", row.target},
+          {"strategy", row.strategy},
+          {"threads", row.threads},
+          {"resolution", {row.width, row.height}},
+          {"spp", row.spp},
+          {"seconds", row.seconds},
+          {"cpu_seconds", row.cpu_seconds},
+          {"waiting", row.Waiting()},
+          {"samples", row.counts.samples},
+          {"rays",
+           {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},
+          {"samples_per_second", IntervalJson(row.Rate())},
+          {"samples_per_cpu_second", IntervalJson(row.CpuRate())},
+          {"parallel_efficiency", ParallelEfficiency(rows, row)},
+          {"rays_per_second", double(row.rays()) / row.Seconds().value},
+          {"bytes_per_path", row.bytes_per_path},
+          {"wavefront", row.wavefront},
+          {"groups", groups},
+          {"stages", stages}};
+}
+
+}  // namespace
+
+Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
+  Json out = {{"schema", kBenchSchema},
+              {"machine", ToJson(ThisMachine())},
+              {"program", FullVersion()},
+              {"confidence", kBenchConfidence},
+              {"busy", BusyReasons(rows, ThisMachine())},
+              {"warnings", ThroughputWarnings(rows, within)},
+              {"rows", Json::array()}};
+  for (const ThroughputRow& row : rows) out["rows"].push_back(ToJson(row, rows));
+  return out;
+}
+
+std::string KnownRow::Key() const {
+  const std::string changes = ChoicesNotIn(ToText(Strategy{}), strategy);
+  return fmt::format("{}, {}, {} thread{}, {}x{}, {} spp{}{}", scene, target, threads,
+                     threads == 1 ? "" : "s", width, height, spp,
+                     changes.empty() ? "" : ", ", changes);
+}
+
+KnownThroughput ThroughputFromJson(const Json& json) {
+  KnownThroughput known;
+  known.machine = json.at("machine").at("text");
+  known.program = json.at("program");
+  known.busy = json.at("busy");
+  const auto interval = [](const Json& rate) {
+    return Interval{rate.at("value"), rate.at("low"), rate.at("high")};
+  };
+  for (const Json& row : json.at("rows")) {
+    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
+                          row.at("threads"), row.at("resolution").at(0),
+                          row.at("resolution").at(1), row.at("spp"),
+                          interval(row.at("samples_per_second")),
+                          interval(row.at("samples_per_cpu_second"))});
+  }
+  return known;
+}
+
+KnownThroughput ReadThroughput(const std::string& path) {
+  return FromJsonOf(path, [&] {
+    const Json json = ParseJson(ReadWholeFile(path));
+    if (!json.contains("rows") || !json.contains("program")) {
+      throw InputError(
+          fmt::format("'{}' is not what `lanelight bench --json` writes", path));
+    }
+    if (!json.contains("busy")) {
+      throw InputError(fmt::format(
+          "'{}' is of an older version, which chose samples per pixel by the clock: "
+          "measure again with `lanelight bench --json`",
+          path));
+    }
+    return ThroughputFromJson(json);
+  });
+}
+
+}  // namespace lanelight

@@ -1,0 +1,109 @@
+// How far a render is from the converged image, estimated from its own samples.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "src/base/stat/relative_error.h"
+#include "src/base/core/vec.h"
+#include "src/render/films/accumulator.h"
+#include "src/base/image/pixel_rect.h"
+#include "src/base/stat/interval.h"
+
+namespace lanelight {
+
+/// Estimates of what `lanelight compare` would measure against the converged image, with
+/// intervals that contain it with probability kEstimateConfidence.
+inline constexpr double kEstimateConfidence = 0.95;
+
+/// Where the samples cannot tell an upper end, it is infinite, and `low` is what the
+/// error is at least, with probability kEstimateConfidence.
+/// ErrorEstimate::why of an image whose samples are all black.
+inline constexpr const char* kNoLight =
+    "no light reached the image; does the scene have a light?";
+
+struct ErrorEstimate {
+  bool available = false;     // at least one pixel has two independent observations
+  bool has_interval = false;  // `rmse` and `relmse` both have an upper end
+  Interval rmse;              // sqrt(mean of the variance of the pixel mean)
+  Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
+  std::string why;            // an upper end is missing, and what would give it; or empty
+  std::uint64_t pixels = 0;   // that the estimate rests on
+  /// Pixels of equal relative error that would scatter as much: few if few pixels carry
+  /// most of the error.
+  double effective_pixels = 0;
+};
+
+/// What is known of one pixel; `known` false leaves it out.
+struct PixelEstimate {
+  bool known = false;
+  Rgb mean, variance;  // `variance` >= 0: estimated, of the mean
+  double freedom = 1;  // degrees of freedom of `variance`: observations - 1, at least 1
+};
+
+/// Averages run over the pixels with a variance and over the three channels.
+///
+/// With m the mean of G independent groups (a pixel) around mu and v = s^2 / G, the
+/// difference (m - mu)^2 - v is 1 / (G (G - 1)) times the sum of the products of
+/// different groups' deviations, so its variance is 2 sigma^4 / (G (G - 1)) whatever the
+/// distribution: a bright sample that is in m is in v as well. Pixels being independent,
+/// true over estimated error is close to an F variable with k1 = (sum t)^2 / sum t^2 and
+/// k2 = (sum t)^2 / sum (t^2 / (G - 1)) degrees of freedom (Satterthwaite 1946), t being
+/// the share of a pixel, its channels together. s^4 (G - 1) / (G + 1) stands for sigma^4
+/// (and (sum t)^2 is less its own variance, so that one pixel has k1 = 1, k2 = G - 1),
+/// too large for long-tailed distributions: where rare samples carry the error, intervals
+/// are wide and cover more than they say.
+///
+/// The relative error divides by the unknown mu^2 + kRelativeEpsilon. In place of m,
+/// whose error is that of v too, stands the mean of m and the mean n of the eight
+/// neighbours with weights a and v, a being the mean of (m - n)^2 - v around the pixel
+/// (at least 0): empirical Bayes with the neighbourhood as prior. It has the variance
+/// b = a v / (a + v), and what is known of mu is taken to be a gamma distribution of this
+/// mean and variance (of shape 1 at least: mean^2 / variance counts the bright samples
+/// that a pixel has met, and it has met one). The median of mu gives the estimate; by how
+/// much v / (mu^2 + kRelativeEpsilon) is larger at the lower end of mu is how much a
+/// pixel may add, and the independent pixels' additions are squared, summed, and joined
+/// with the upper end (the method of variance estimates recovery, Zou and Donner 2008).
+/// So a few pixels with one bright sample each, at the edge of a lamp, say, widen the
+/// interval upwards by what they may cost if they are really dark.
+///
+/// Where the noise is as large as the image, n is noisy as well, and 1 / n^2 too large on
+/// average, by 3 var(n) / n^4 to second order: 1 / (n^2 + 3 var(n)) is not. The estimate
+/// with weights a and the neighbourhood's mean variance, which does not mistake a pixel
+/// without bright samples for one without noise, is the other extreme; the lower end is
+/// moved by the logarithm of their ratio, as variances add.
+///
+/// Variance and weight of a pixel are not independent: rare samples are bright ones, so
+/// that a pixel's mean is high when its variance is. To first order that takes
+/// 2 gamma sqrt(r) of a pixel's relative error r away, gamma being the skewness of its
+/// mean; over scenes the loss was found to be kSkew sqrt(relmse) up to kMostSkewed, give
+/// or take kSkewDoubt sqrt(relmse) (bench/calibrate/): the former is given back, the
+/// latter widens the interval.
+///
+/// Holds for two groups or more, best for four. What no group has sampled cannot be seen.
+/// Where the upper end is more than kMostTimes the estimate, it would say nothing: there
+/// is none. Nor is there where directions find lamps by chance alone, and all samples
+/// together are expected to have met what shines less than kLeastMet times: what none has
+/// met is in no estimate.
+///
+/// `stop`: once it is set, nothing more is computed, and what is returned says nothing
+/// (`available` is false); null: never.
+ErrorEstimate EstimateError(const FilmAccumulator& film,
+                            const std::atomic<bool>* stop = nullptr);
+inline constexpr double kMostTimes = 32, kLeastMet = 50;
+inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
+
+/// The same for any source of pixels of the window, which may be asked from several
+/// threads at once. `dependents`: SampleGroups; pixels then count for so much less.
+ErrorEstimate EstimateError(const PixelRect& window,
+                            const std::function<PixelEstimate(int, int)>& pixel,
+                            double dependents = 1,
+                            const std::atomic<bool>* stop = nullptr);
+
+/// Interval of the true error: the estimate times quantiles of the F distribution with
+/// k1 and k2 degrees of freedom.
+Interval ErrorInterval(double estimate, double k1, double k2);
+
+}  // namespace lanelight

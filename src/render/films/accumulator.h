@@ -1,0 +1,135 @@
+// The film: sums in double, per pixel and channel, of samples by observation, so that a
+// billion samples lose nothing and dependent samples (one randomisation of a
+// low-discrepancy sequence) count as one observation.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "src/base/core/column.h"
+#include "src/base/core/vec.h"
+#include "src/render/films/bucket_film.h"
+#include "src/render/films/regression_film.h"
+#include "src/render/films/replicate_sums.h"
+#include "src/vocabulary/path/sample_planes.h"
+
+namespace lanelight {
+
+class FilmAccumulator {
+ public:
+  /// A film of the pixels [x0, x0+width) x [y0, y0+height) of the full image, whose
+  /// samples count as `groups` says.
+  FilmAccumulator(int x0, int y0, int width, int height, const SampleGroups& groups,
+                  Auxiliary auxiliary);
+
+  int x0() const { return x0_; }
+  int y0() const { return y0_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const SampleGroups& groups() const { return groups_; }
+  /// Of SampleGroups: a pilot may decide that paths serve their block.
+  void set_dependents(double dependents) { groups_.dependents = dependents; }
+  /// Of ChanceOfLight (src/scene/prepare/chance_of_light.h).
+  double chance_of_light() const { return chance_of_light_; }
+  void set_chance_of_light(double chance) { chance_of_light_ = chance; }
+  bool has_aov() const { return !aov_.empty(); }
+  bool has_gbuffer() const { return !gbuffer_.empty(); }
+  static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
+
+  /// From here on (before any sample), samples have further planes: the numbers of
+  /// control=regression, whose fit is multiplied by `coefficient`. After FitControl, Mean
+  /// and Variance are those of the corrected samples.
+  void UseRegression(double coefficient);
+  void FitControl();
+  /// From here on (before any sample) samples have their wavelengths as well, and the
+  /// film keeps means by bucket.
+  void UseBuckets(const SpectralBuckets& buckets);
+  /// Null without.
+  const SpectralBuckets* buckets() const {
+    return bucket_film_ ? &bucket_film_->buckets() : nullptr;
+  }
+  /// Returns the effect of the control variate; empty without UseRegression.
+  std::optional<ControlReport> Control() const;
+
+  /// Planes that a film takes of a sample, at most.
+  static constexpr int kMostPlanes =
+      kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kRadiance) +
+      NumPlanes(PlaneGroup::kTriple) + NumPlanes(PlaneGroup::kNumbers);
+
+  /// Adds `count` consecutive samples of one pixel; planes[p][i] is plane p (in the order
+  /// of SamplePlanes) of the i-th. Must be called with the samples of a pixel in order.
+  /// Safe for different pixels from different threads.
+  void AddSamples(int x, int y, const float* const* planes, std::uint32_t count);
+
+  std::uint64_t Samples(int x, int y) const { return samples_[Index(x, y)]; }
+  /// Mean of all samples; zero without samples.
+  Rgb Mean(int x, int y) const;
+  /// Estimated variance of Mean() per channel, from the scatter of observations;
+  /// NaN-free: zero where there are fewer than two (see HasVariance).
+  Rgb Variance(int x, int y) const;
+  bool HasVariance(int x, int y) const { return Observations(x, y) >= 2; }
+  /// Independent observations of a pixel.
+  std::uint64_t Observations(int x, int y) const {
+    return groups_.Observations(Samples(x, y));
+  }
+  /// Mean of an auxiliary plane.
+  double Aov(int x, int y, int plane) const;
+  /// Of a plane of the g-buffer; the first, the share of samples that hit something,
+  /// over all samples, the others over those. Zero where there are none.
+  double Gbuffer(int x, int y, int plane) const;
+  /// Of a bucket: mean over the samples of the mean radiance at those of its wavelengths
+  /// that paths carry, in units of WhiteRadiance() before exposure. Zero without samples,
+  /// and of a bucket in which paths carry none.
+  double Bucket(int x, int y, int bucket) const;
+
+  /// All that AddSamples has brought, by pixel, row by row: a film of the same pixels,
+  /// planes and groups that is given these goes on from there.
+  std::vector<MutableStateColumn> Columns();
+
+ private:
+  // Of a pixel whose observations are single units.
+  struct UnitSums {
+    double sum[3] = {};
+    double squares[3] = {};  // of the units' means
+  };
+  struct Open {
+    double sum[3] = {};
+  };
+  struct AovSums {
+    double of[kAovPlanes] = {};
+  };
+  struct GbufferSums {
+    double of[kGbufferPlanes] = {};
+  };
+  void AddColors(std::size_t index, const float* const* planes, std::uint32_t count);
+  void AddPlanes(PlaneGroup group, const float* const* planes, std::uint32_t count,
+                 std::span<double> sums);
+  Rgb Sum(std::size_t index) const;
+  Rgb UnitVariance(std::size_t index) const;
+  Rgb ReplicateVariance(std::size_t index) const;
+
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x - x0_);
+  }
+
+  int x0_, y0_, width_, height_;
+  SampleGroups groups_;
+  double chance_of_light_ = 1;
+  std::vector<std::uint64_t> samples_;
+  std::vector<ReplicateSums> replicates_;  // with replicates
+  std::vector<UnitSums> units_;            // without
+  std::vector<Open> open_;                 // sums of incomplete pairs; without replicates
+  std::vector<AovSums> aov_;
+  std::vector<GbufferSums> gbuffer_;
+  std::unique_ptr<BucketFilm> bucket_film_;
+  FeatureSet features_;  // of renders that it takes samples of
+  SamplePlanes planes_;  // that it takes
+  std::unique_ptr<RegressionFilm> control_;
+};
+
+}  // namespace lanelight

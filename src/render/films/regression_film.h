@@ -1,0 +1,136 @@
+// The fit of control=regression (kernels/control/regression.cc): polynomials in the
+// numbers of a path's first choices, and these choices themselves, fitted to one half of
+// a pixel's samples and its neighbours', are subtracted from the other half.
+//
+//   estimator   1/n (sum over half A of (f - c b_B.phi) + sum over half B of
+//               (f - c b_A.phi)), b_X by least squares from the samples of half X
+//   functions   phi_j: Legendre polynomials, orthonormal over uniform numbers, of degrees
+//   1
+//               in the position in the pixel (2 functions); 1 and 2 in each of the
+//               numbers of the first scattered direction, and the product (5); 1 in those
+//               of the point on a light at the same event, and the product (3); the first
+//               two choices between lobes (2). Each has mean 0 whatever the path did
+//               before, and so any two are uncorrelated: least squares is b_j = Cov(f,
+//               phi_j) / E[phi_j^2], function by function
+//   unbiased    b_B depends on samples that are independent of half A, where phi has mean
+//               0: E[b_B.phi] = 0 (a fit to the samples that it corrects is off by E[b
+//               phi], of order (skewness) / n)
+//   variance    1 - c (2 - c) R^2 of that without control, least at c = 1 whatever the
+//               scene, and O(functions / n) of it for the errors of the coefficients
+//
+// Sums are of a half's samples in their order, so that they do not depend on how these
+// come in. Those of single precision that only coefficients need end with kMostFitted
+// samples: nothing more is to be learned.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/base/core/column.h"
+#include "src/base/core/vec.h"
+#include "src/base/image/pixel_rect.h"
+#include "src/render/films/replicate_sums.h"
+#include "src/vocabulary/path/first_numbers.h"
+
+namespace lanelight {
+
+/// Effect of control=regression over an image.
+struct ControlReport {
+  double coefficient = 0;  // c above; the paper's equation 7 has the opposite sign
+  double correlation = 0;  // of f and its fit, over the variance of all pixels, channels
+};
+
+/// What the film knows of a pixel's f: the other half of what a fit needs.
+struct ControlledColors {
+  const std::vector<std::uint64_t>& samples;
+  const std::vector<ReplicateSums>& replicates;  // empty without replicates
+};
+
+/// Consecutive samples of one pixel, plane by plane.
+struct ControlledSamples {
+  std::uint64_t first = 0;  // number of the first one
+  std::uint32_t count = 0;
+  const float* const* colors = nullptr;
+  const float* const* planes = nullptr;  // the numbers
+};
+
+/// Sums of one film, by pixel index y * width + x. The halves alternate between units of
+/// samples, or between replicates (src/vocabulary/path/replicates.h).
+class RegressionFilm {
+ public:
+  /// The bits of codes (src/vocabulary/path/first_numbers.h): position in the pixel,
+  /// direction, point on a light, choices.
+  static constexpr int kPlanes = kFirstNumbers;
+  static constexpr int kFunctions = 12;
+  /// Pixels know of each other within blocks of so many squared, from the image's origin
+  /// on: how a render is cut does not matter.
+  static constexpr int kBlock = 4;
+  static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
+
+  /// Units are single samples, or there are replicates (GroupsOf).
+  RegressionFilm(const PixelRect& window, const SampleGroups& groups, double coefficient);
+  static std::size_t BytesPerPixel(const SampleGroups& groups);
+
+  /// Values of the functions.
+  static void Functions(const float* codes, float* phi);
+
+  /// Adds a pixel's samples, in order. Safe for different pixels from different threads.
+  void Add(std::size_t pixel, const ControlledSamples& samples);
+  /// Fits the coefficients to all samples so far; before, they are 0.
+  void Fit(const ControlledColors& colors);
+  /// Returns what to subtract from the sum of f over all `samples` samples.
+  Rgb Correction(std::size_t pixel, std::uint64_t samples) const;
+  /// Subtracts the same from the sums of its replicates.
+  void CorrectReplicates(std::size_t pixel, ReplicateSums& sums) const;
+  /// Returns the sum of squares of the corrected units about their mean. Without
+  /// replicates.
+  Rgb ResidualSquares(std::size_t pixel, std::uint64_t samples) const;
+  ControlReport Report(const ControlledColors& colors) const;
+  /// Returns all that has been added; coefficients are not part of it.
+  std::vector<MutableStateColumn> Columns();
+
+ private:
+  using Values = std::array<float, kFunctions>;
+  struct Colors {
+    double f[3] = {}, ff[3] = {};
+  };
+  // Over the first kMostFitted samples, of which a half has half.
+  struct Products {
+    Values squares = {}, products[3] = {};  // of phi, of f and phi
+    Values once = {}, twice = {};           // of g phi^2, of g^2 phi^2; g: mean of f
+  };
+  template <class T>
+  using Halves = std::array<T, 2>;
+  // What comes of a fit, by channel.
+  struct Fitted {
+    float corrections[kReplicates][3] = {};
+    float products[3] = {}, squares[3] = {};  // sums of f times the fit, of its square
+  };
+  struct Scatter;
+
+  std::uint32_t TurnOf(std::uint64_t sample) const {
+    return static_cast<std::uint32_t>(sample / groups_.unit % turns_);
+  }
+  const Values& Sums(std::size_t pixel, std::size_t turn) const {
+    return sums_[pixel * turns_ + turn];
+  }
+  double SamplesOfHalf(std::uint64_t samples, int half) const;
+  Scatter ScatterOf(const ControlledColors& colors, std::size_t pixel, int half) const;
+  void AddHalf(std::size_t pixel, std::uint32_t half, const ControlledSamples& samples,
+               std::uint32_t begin, std::span<const float[kFunctions]> phi);
+  void FitBlock(const ControlledColors& colors, std::span<const std::size_t> pixels);
+  void Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples, int half);
+
+  PixelRect window_;
+  SampleGroups groups_;
+  double coefficient_;
+  std::uint32_t turns_;       // replicates, or halves
+  std::vector<Values> sums_;  // of phi, by pixel and turn
+  std::vector<Halves<Colors>> colors_;
+  std::vector<Halves<Products>> products_;
+  std::vector<Fitted> fitted_;
+};
+
+}  // namespace lanelight

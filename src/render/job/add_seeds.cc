@@ -1,0 +1,67 @@
+#include "src/render/job/add_seeds.h"
+
+#include "src/base/core/check.h"
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/render/films/for_each_pixel.h"
+
+namespace lanelight {
+namespace {
+
+// What a replicate or unit of the sum is made of must not depend on the order of samples.
+void CheckWhole(const MergedRender& render) {
+  if (render.missing > 0) {
+    throw InputError(fmt::format(
+        "seed {} lacks {} pixels: only whole renders of different seeds can be added",
+        render.seeds.front(), render.missing));
+  }
+  const SampleGroups& groups = render.film->groups();
+  const std::uint64_t turn = groups.unit * (groups.replicates ? kReplicates : 1);
+  bool whole_turns = true;
+  for (const PixelRect& tile : render.tiles) {
+    ForEachPixel(tile, [&](int x, int y) {
+      whole_turns = whole_turns && render.film->Samples(x, y) % turn == 0;
+    });
+  }
+  if (render.least == render.most && whole_turns) return;
+  throw InputError(
+      fmt::format("seed {} has {} to {} samples per pixel: renders of different seeds "
+                  "can be added if "
+                  "all their pixels have as many, a multiple of {}",
+                  render.seeds.front(), render.least, render.most, turn));
+}
+
+template <class T>
+void AddColumn(const MutableStateColumn& sum, const MutableStateColumn& more) {
+  T* const to = static_cast<T*>(sum.data);
+  const T* const from = static_cast<const T*>(more.data);
+  ParallelForRange(sum.rows * sum.ValuesPerRow(), 1 << 16,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) to[i] += from[i];
+                   });
+}
+
+}  // namespace
+
+void AddSeed(MergedRender& sum, MergedRender& more) {
+  if (sum.seeds.size() == 1) CheckWhole(sum);
+  CheckWhole(more);
+  const auto columns = sum.film->Columns(), others = more.film->Columns();
+  LL_CHECK_EQ(columns.size(), others.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].name == "weights") continue;  // each had its own
+    columns[i].type == StateType::kUint64
+        ? AddColumn<std::uint64_t>(columns[i], others[i])
+        : AddColumn<double>(columns[i], others[i]);
+  }
+  sum.run.counts.Add(more.run.counts);
+  for (const MachineInfo& machine : more.machines) AddMachine(machine, sum.machines);
+  sum.seeds.push_back(more.seeds.front());
+  sum.identity["seed"] = sum.seeds;
+  sum.head["settings"]["seed"] = sum.seeds;
+  sum.least += more.least;
+  sum.most += more.most;
+  sum.head["settings"]["spp"] = sum.least;
+}
+
+}  // namespace lanelight

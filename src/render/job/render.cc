@@ -1,0 +1,206 @@
+#include "src/render/job/render.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "src/base/core/error.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
+#include "src/base/core/stopwatch.h"
+#include "src/render/films/for_each_pixel.h"
+#include "src/base/image/png.h"
+#include "src/render/job/display.h"
+#include "src/render/job/identity.h"
+#include "src/render/job/output.h"
+#include "src/render/job/saving.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
+                const RenderTargets& targets, Saver& saver, RenderReport& report) {
+  const Stopwatch watch;
+  report.exr = targets.exr;
+  saver.Save(report.exr, [&](const std::string& path) {
+    WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
+             OutputOptions(facts.identity, facts.head,
+                           {report.result, report.result.training.changes, report.error},
+                           film, targets.image.half));
+  });
+  report.png = targets.png;
+  saver.Save(report.png, [&](const std::string& path) {
+    WritePng(path, FilmImage(film, facts.color_space), targets.image.exposure);
+  });
+  report.write_seconds = watch.Seconds();
+}
+
+// Every sample is black; false without samples.
+bool IsBlack(const FilmAccumulator& film) {
+  bool black = true, sampled = false;
+  ForEachPixel(film, [&](int x, int y) {
+    sampled |= film.Samples(x, y) > 0;
+    black &= film.Mean(x, y) == Rgb{};
+  });
+  return black && sampled;
+}
+
+// Without any sample there is no image.
+RenderTargets PartialTargets(RenderTargets targets, bool any) {
+  for (std::string* path : {&targets.exr, &targets.png}) {
+    *path = any ? PartialPath(*path) : "";
+  }
+  targets.json = PartialPath(targets.json);
+  return targets;
+}
+
+// Pixels of the film that a job renders: with --part those of its tiles.
+std::uint64_t PixelsOf(const Job& job, const RunOptions& options) {
+  if (options.tiles.empty()) return job.window.pixels();
+  std::uint64_t pixels = 0;
+  for (const PixelRect& tile : options.tiles) pixels += tile.pixels();
+  return pixels;
+}
+
+// All ranks are to render the same, bit by bit.
+void AgreeOnJob(const Job& job, RankGroup& group) {
+  const std::string own = DumpJson(IdentityOf(job));
+  group.Gather(own, [&](int rank, std::string_view its) {
+    const std::string differs =
+        IdentityDifferences(ParseJson(own), "rank 0", ParseJson(std::string(its)), "it");
+    if (differs.empty()) return;
+    throw InputError(
+        fmt::format("{} would render something else:{}", group.Name(rank), differs));
+  });
+}
+
+// Where a rank fails: what was done is kept, and the user is to know.
+[[noreturn]] void GiveUp(const RankFailure& failure, const CheckpointSettings& settings,
+                         Checkpoint& checkpoint) {
+  checkpoint.Finish();
+  if (settings.path.empty() || !checkpoint.kept()) throw failure;
+  throw RankFailure(fmt::format("{}\nwhat was done is kept: go on with --resume '{}'",
+                                failure.what(), settings.path));
+}
+
+Display::OnProblem Problems(const RenderHooks& hooks) {
+  return [&hooks](const std::string& problem) {
+    if (hooks.on_problem) hooks.on_problem(problem);
+  };
+}
+
+// Options of a run that is shown while it goes on: in words, and in a viewer.
+struct ShownRun {
+  ShownRun(const Job& job, const RenderTargets& targets, const RenderHooks& hooks,
+           const FilmAccumulator& film, const std::string& scene)
+      : options(RunOptionsOf(job)), error(job.target) {
+    options.stop = hooks.stop;
+    options.group = hooks.group;
+    options.on_training = hooks.on_training;
+    if (hooks.on_progress) {
+      if (hooks.tells_error) error.Listen(job.window.pixels(), options);
+      options.on_progress = [&](const Progress& p) { hooks.on_progress(error.At(p)); };
+    }
+    if (!targets.display) return;
+    display.emplace(*targets.display, targets.exr.empty() ? scene : targets.exr, film,
+                    job.loaded->description.film.color_space, Problems(hooks));
+    options.on_tile = [&](const FilmAccumulator& so_far, const PixelRect& place) {
+      display->Changed(so_far, place);
+    };
+  }
+  // Its options refer to it.
+  ShownRun(const ShownRun&) = delete;
+  ShownRun& operator=(const ShownRun&) = delete;
+
+  RunOptions options;
+  ErrorSoFar error;
+  std::optional<Display> display;
+};
+
+}  // namespace
+
+Rendering RenderToFiles(const Job& job, const std::string& scene,
+                        const RenderTargets& targets, const RenderHooks& hooks) {
+  const ThreadLimit threads(job.settings.threads);
+  RenderFacts facts;
+  facts.identity = IdentityOf(job);
+  facts.head = HeadJson(job, scene, targets.image.half);
+  facts.scale = job.scene.compiled->scale;
+  facts.color_space = job.loaded->description.film.color_space;
+  Rendering out;
+  out.report.scene = scene;
+  out.report.half = targets.image.half;
+  out.report.load_seconds = job.loaded->load_seconds;
+  out.report.build_seconds = job.loaded->build_seconds;
+  out.report.trees = job.loaded->trees;
+  FilmAccumulator film = MakeFilm(job);
+  ShownRun shown(job, targets, hooks, film, scene);
+  std::optional<Checkpoint> checkpoint;
+  if (targets.checkpoint.Any()) {
+    checkpoint.emplace(job, targets.checkpoint, facts.head, Problems(hooks));
+    shown.options.tiles = checkpoint->tiles();
+    shown.options.keeper = &*checkpoint;
+  }
+  facts.pixels = PixelsOf(job, shown.options);
+  if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
+  try {
+    out.report.result = Run(job.scene, job.plan, shown.options, film);
+  } catch (const RankFailure& failure) {
+    if (checkpoint) GiveUp(failure, targets.checkpoint, *checkpoint);
+    throw;
+  }
+  if (checkpoint) {
+    out.problems = checkpoint->Finish();
+    out.state_kept = checkpoint->kept();
+  }
+  if (shown.display) shown.display->Finish(film);
+  if (hooks.on_rendered) hooks.on_rendered();
+  WriteRendering(film, facts, targets, hooks.members, out);
+  return out;
+}
+
+void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop) {
+  FilmAccumulator film = MakeFilm(job);
+  RunOptions options = RunOptionsOf(job);
+  options.stop = stop;
+  options.group = &group;
+  AgreeOnJob(job, group);
+  ServeRun(job.scene, job.plan, options, film);
+}
+
+std::string PartialPath(const std::string& path) {
+  if (path.empty() || path == "-") return path;
+  const std::filesystem::path whole = path;
+  return whole.parent_path() /
+         (whole.stem().string() + ".partial" + whole.extension().string());
+}
+
+void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
+                    const RenderTargets& asked, const Json& members, Rendering& out) {
+  const std::uint64_t sampled = SampledPixels(film);
+  out.report.unsampled_pixels =
+      std::uint64_t(film.width()) * static_cast<std::uint64_t>(film.height()) - sampled;
+  out.report.partial = sampled < facts.pixels && !facts.partial;
+  if (sampled >= facts.pixels) {
+    out.report.error = EstimateError(film);
+  } else {
+    out.report.error.why =
+        fmt::format("{} pixels have no sample", facts.pixels - sampled);
+  }
+  const RenderTargets targets =
+      out.report.partial ? PartialTargets(asked, sampled > 0) : asked;
+  out.report.black = IsBlack(film);
+  Saver saver;
+  SaveImages(film, facts, targets, saver, out.report);
+  if (!targets.json.empty()) {
+    out.json = ToJson(out.report, facts.head);
+    out.json.update(members);
+  }
+  if (targets.json != "-") saver.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
+  const std::vector<std::string>& problems = saver.problems();
+  out.problems.insert(out.problems.end(), problems.begin(), problems.end());
+}
+
+}  // namespace lanelight

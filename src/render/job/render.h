@@ -1,0 +1,80 @@
+// A render from a job to its files.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/base/core/connection.h"
+#include "src/render/job/checkpoint.h"
+#include "src/render/job/error_so_far.h"
+#include "src/render/job/job.h"
+#include "src/render/job/report.h"
+
+namespace lanelight {
+
+/// Where results go; an empty path: nowhere.
+struct RenderTargets {
+  std::string exr, png;
+  std::string json;  // "-": only into Rendering::json
+  ImageSettings image;
+  CheckpointSettings checkpoint;
+  std::optional<Endpoint> display;  // a viewer that shows the image so far
+};
+
+struct RenderHooks {
+  std::function<void(const RenderProgress&)> on_progress;
+  bool tells_error = false;  // progress has the error so far, which costs a little
+  std::function<void()> on_training;  // RunOptions
+  std::function<void()> on_rendered;  // before anything is written
+  /// Of a state or watched image that could not be written, or a viewer that is not
+  /// there; from any thread.
+  std::function<void(const std::string&)> on_problem;
+  RankGroup* group = nullptr;               // who renders; null: this process alone
+  const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
+  nlohmann::json members = nlohmann::json::object();  // of the report, beside its own
+};
+
+struct Rendering {
+  RenderReport report;
+  nlohmann::json json;                // the report, if the targets have one
+  std::vector<std::string> problems;  // of writing; see Saver
+  bool state_kept = false;            // the last state is on the disk
+};
+
+/// Renders the job, estimates the error, and writes images and report; `scene`: name of
+/// the scene in the report. What cannot be written where it should is kept elsewhere, and
+/// so is an image with pixels that have no sample (PartialPath()).
+/// With a checkpoint the state is kept all along, and the render goes on from one. Throws
+/// InputError for a state that it cannot go on from.
+Rendering RenderToFiles(const Job& job, const std::string& scene,
+                        const RenderTargets& targets, const RenderHooks& hooks);
+
+/// The same for a worker (src/base/core/rank_group.h): nothing is written.
+void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
+
+/// What a film is of.
+struct RenderFacts {
+  nlohmann::json identity, head;  // src/render/job/identity.h, HeadJson
+  double scale = 1;               // CompiledScene::scale
+  std::string color_space;        // that the film holds (src/base/image/color_spaces.h)
+  /// Pixels that are to have samples: all of the film, or those of a part. Images with
+  /// fewer go to PartialPath(), unless `partial` asks for them.
+  std::uint64_t pixels = 0;
+  bool partial = false;
+};
+
+/// Where an image with pixels that have no sample goes: out.partial.exr for out.exr. So
+/// it never replaces a better one.
+std::string PartialPath(const std::string& path);
+
+/// The second half of it, for a film whoever has rendered it. `members`: of the report,
+/// beside its own. out.report.result is what it came to.
+void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
+                    const RenderTargets& targets, const nlohmann::json& members,
+                    Rendering& out);
+
+}  // namespace lanelight

@@ -1,0 +1,52 @@
+// Everything about a render or a plan that a script may want, as JSON. The schema is
+// documented in docs/output.md ("JSON report"); kReportSchema changes when a member
+// changes its meaning or goes away, not when one is added.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/render/job/job.h"
+#include "src/render/estimate/estimate.h"
+
+namespace lanelight {
+
+inline constexpr int kReportSchema = 3;
+
+struct RenderReport {
+  std::string scene, exr, png;  // png empty: not written
+  RunResult result;
+  ErrorEstimate error;
+  std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
+  /// Pixels were left without a sample: images and report are in partial files, and those
+  /// of the names that were asked for are as they were. Without any sample there is none.
+  bool partial = false;
+  bool black = false;  // all samples are black
+  double load_seconds = 0, build_seconds = 0, write_seconds = 0;
+  TreeReport trees;
+  bool half = false;
+};
+
+nlohmann::json ToJson(const Plan& plan);
+nlohmann::json ToJson(const ErrorEstimate& error);
+/// What a report says whatever the render comes to; `scene`: its name.
+nlohmann::json HeadJson(const Job& job, const std::string& scene, bool half);
+/// All of it; `head` is of HeadJson.
+nlohmann::json ToJson(const RenderReport& report, const nlohmann::json& head);
+
+/// Returns the strategy that rendered the image: the job's, with the changes that its
+/// trial run has made.
+Strategy StrategyInForce(const RunResult& result, const Job& job);
+
+/// How the sample points are randomised.
+std::string PointsText(const Job& job);
+
+/// Name and version of the libraries in use, and of the compiler.
+std::vector<std::pair<std::string, std::string>> LibraryVersions();
+
+/// Name, lanes and alternatives of a SIMD target.
+nlohmann::json TargetJson(SimdTarget target);
+
+}  // namespace lanelight

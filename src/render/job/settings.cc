@@ -1,0 +1,185 @@
+#include "src/render/job/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/base/core/error.h"
+#include "src/base/image/image.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/render/train/training.h"
+
+namespace lanelight {
+namespace {
+
+// A scene's own crop window, carried over to another resolution.
+void ScaleCrop(Film& film, int width, int height) {
+  const double sx = double(width) / film.width, sy = double(height) / film.height;
+  film.crop[0] = static_cast<int>(std::ceil(film.crop[0] * sx));
+  film.crop[1] = static_cast<int>(std::ceil(film.crop[1] * sx));
+  film.crop[2] = static_cast<int>(std::ceil(film.crop[2] * sy));
+  film.crop[3] = static_cast<int>(std::ceil(film.crop[3] * sy));
+}
+
+void CheckSize(const Film& film) {
+  if (film.width < 1 || film.height < 1 || film.width > kMaxImageSide ||
+      film.height > kMaxImageSide) {
+    throw InputError(
+        fmt::format("resolution {}x{} is not supported: each side must be 1 to {}",
+                    film.width, film.height, kMaxImageSide));
+  }
+}
+
+void CheckCrop(const Film& film) {
+  const PixelRect w = RenderedPixels(film);
+  if (w.x0 < 0 || w.y0 < 0 || w.x1 > film.width || w.y1 > film.height || w.x0 >= w.x1 ||
+      w.y0 >= w.y1) {
+    throw InputError(
+        fmt::format("crop window {},{},{},{} is empty or leaves the image of {}x{} "
+                    "pixels; x0,y0,x1,y1 "
+                    "are pixels, x1 and y1 exclusive",
+                    w.x0, w.y0, w.x1, w.y1, film.width, film.height));
+  }
+}
+
+void CheckSpp(std::int64_t spp) {
+  if (spp >= 1 && static_cast<std::uint64_t>(spp) <= kMaxSpp) return;
+  throw InputError(
+      fmt::format("{} samples per pixel are not supported: 1 to {}", spp, kMaxSpp));
+}
+
+void CheckSppSetting(std::uint64_t spp) {
+  constexpr auto kMost = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMost)));
+}
+
+void CheckTarget(const std::optional<double>& target) {
+  if (!target || (*target > 0 && std::isfinite(*target))) return;
+  throw InputError(
+      fmt::format("a target error of {} is not supported: finite and above 0", *target));
+}
+
+void ApplyFilm(const RenderSettings& settings, Film& film) {
+  CheckSize(film);
+  if (settings.resolution) {
+    const auto [width, height] = *settings.resolution;
+    ScaleCrop(film, width, height);
+    film.width = width;
+    film.height = height;
+    CheckSize(film);
+  }
+  if (settings.crop) {
+    const auto [x0, y0, x1, y1] = *settings.crop;
+    const int bounds[4] = {x0, x1, y0, y1};
+    std::copy(bounds, bounds + 4, film.crop);
+    // All zero would mean the whole image.
+    if (x0 == 0 && y0 == 0 && x1 == 0 && y1 == 0) film.crop[1] = film.crop[3] = -1;
+  }
+  CheckCrop(film);
+}
+
+// A film that keeps spectra needs wavelengths.
+void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
+                       std::optional<Transport>& transport) {
+  const bool rgb = asked ? *asked == AskedTransport::kRgb : transport == Transport::kRgb;
+  if (rgb) {
+    throw InputError(fmt::format(
+        "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
+        "leave it out, or use Film \"rgb\"",
+        asked ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
+  }
+  transport = Transport::kSpectral;
+}
+
+// Nothing is left where the scene is to decide.
+void ApplyTransport(const std::optional<AskedTransport>& asked,
+                    std::optional<Transport>& transport) {
+  if (!asked) return;
+  transport.reset();
+  if (*asked == AskedTransport::kRgb) transport = Transport::kRgb;
+  if (*asked == AskedTransport::kSpectral) transport = Transport::kSpectral;
+}
+
+}  // namespace
+
+void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
+  ApplyFilm(settings, scene.film);
+  if (settings.spp) CheckSppSetting(*settings.spp);
+  CheckTarget(settings.target_relmse);
+  CheckTarget(settings.target_rmse);
+  if (!settings.spp && !settings.seconds && !HasTarget(settings))
+    CheckSpp(scene.sampler.spp);
+  if (settings.seconds && !(*settings.seconds > 0 && *settings.seconds <= 1e9)) {
+    throw InputError(
+        fmt::format("a time budget of {} s is not supported: above 0, at most "
+                    "1e9 seconds",
+                    *settings.seconds));
+  }
+  if (settings.max_depth) scene.integrator.max_depth = *settings.max_depth;
+  std::optional<Transport>& transport = scene.integrator.transport;
+  if (scene.film.buckets.count > 0) {
+    ApplySpectralFilm(settings.transport, transport);
+  } else {
+    ApplyTransport(settings.transport, transport);
+  }
+  const int depth = scene.integrator.max_depth;
+  if (depth < 0 || depth > kMaxDepth) {
+    throw InputError(
+        fmt::format("maximum depth {} is not supported: 0 to {}", depth, kMaxDepth));
+  }
+  if (settings.wavefront > kMaxWavefront) {
+    throw InputError(fmt::format("a wavefront of {} paths is not supported: 1 to {}",
+                                 settings.wavefront, kMaxWavefront));
+  }
+  if (settings.points) scene.strategy.points = *settings.points;
+  if (DecidesByDefault(settings, scene)) scene.strategy.decide = Decide::kPilot;
+  Apply(settings.strategy, scene.strategy);
+  if (settings.seed) scene.sampler.seed = *settings.seed;
+  if (settings.gbuffer) scene.film.gbuffer = *settings.gbuffer;
+}
+
+bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene) {
+  if (settings.decision == DefaultDecision::kNever || !settings.strategy.text.empty() ||
+      !scene.integrator.strategy.empty()) {
+    return false;
+  }
+  if (settings.decision == DefaultDecision::kAlways) return true;
+  if (settings.seconds) return *settings.seconds >= kLeastDecidedSeconds;
+  const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
+  // Towards a target nobody knows: as many as that takes at least.
+  const std::uint64_t own =
+      HasTarget(settings) ? kPilotSpp : static_cast<std::uint64_t>(scene.sampler.spp);
+  const double samples = double(settings.spp.value_or(own)) * double(pixels);
+  return samples >= double(DecidedBy(pixels));
+}
+
+bool HasTarget(const RenderSettings& settings) {
+  return settings.target_relmse || settings.target_rmse;
+}
+
+Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film) {
+  if (film.gbuffer != Gbuffer::kNone) return Auxiliary::kGbuffer;
+  return settings.aov ? Auxiliary::kAov : Auxiliary::kNone;
+}
+
+CompileOptions CompileOptionsOf(const RenderSettings& settings) {
+  CompileOptions options;
+  options.scattering = settings.scattering;
+  options.build = settings.build.value_or(options.build);
+  options.leaf_triangles = LeafTrianglesFor(SimdTarget(settings.target).lanes());
+  options.copied_triangles = settings.copied_triangles;
+  options.known_tree = settings.known_tree.get();
+  return options;
+}
+
+PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
+  PlanOptions options;
+  options.target = SimdTarget(settings.target);
+  options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  options.auxiliary = AuxiliaryOf(settings, scene.film);
+  options.spectral_film = scene.film.buckets.count > 0;
+  options.wavefront = settings.wavefront;
+  return options;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,94 @@
+// What a render is asked to do beyond what the scene file says, and the limits of both.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/scene/compile/compile.h"
+#include "src/scene/description/description.h"
+#include "src/render/plan/plan.h"
+#include "src/render/run/run.h"
+
+namespace lanelight {
+
+/// Whether decide=pilot is the default of a render that is asked for no strategy, neither
+/// by its settings nor by the scene.
+enum class DefaultDecision {
+  kNever,
+  kIfLong,  // if the pilot takes a small share of it: see DecidesByDefault
+  kAlways,
+};
+
+/// What paths are to carry; kByScene: see ChooseTransport (src/render/job/transport.h).
+enum class AskedTransport { kRgb, kSpectral, kByScene };
+
+/// Of instances, copied into the world if nothing else is asked for: about 25 MB.
+inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
+inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
+
+/// How images are written.
+struct ImageSettings {
+  bool half = false;    // colours of the EXR in 16 bits
+  bool png = false;     // in a sweep: beside each EXR
+  double exposure = 0;  // of the PNG, stops
+};
+
+/// Overrides of the scene file; what is empty stays as the scene says.
+struct RenderSettings {
+  std::optional<std::uint64_t> spp;
+  std::optional<double> seconds;  // time budget instead of samples
+  /// Errors at which to stop; samples and seconds then are the most that it may take.
+  std::optional<double> target_relmse, target_rmse;
+  std::optional<std::array<int, 2>> resolution;
+  std::optional<std::array<int, 4>> crop;  // x0, y0, x1, y1 in pixels, end exclusive
+  std::optional<int> max_depth;
+  std::optional<std::uint64_t> seed;
+  std::optional<Points> points;
+  StrategyChanges strategy;  // to the scene's
+  DefaultDecision decision = DefaultDecision::kNever;
+  std::optional<Scattering> scattering;
+  std::optional<AskedTransport> transport;
+  /// That are to be rendered in turn (WithStrategy), beside the scene's: kByScene chooses
+  /// what none of them refuses.
+  std::vector<Strategy> compared;
+  std::optional<BuildQuality> build;                  // of the trees over shapes
+  std::shared_ptr<const KnownTree> known_tree;        // as in CompileOptions
+  std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
+  std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
+  bool aov = false;
+  std::optional<Gbuffer> gbuffer;
+  bool skip_unsupported = false;
+  ImageSettings image;
+  int threads = 0;     // 0: all cores
+  std::string target;  // SIMD; empty: the best available
+};
+
+bool HasTarget(const RenderSettings& settings);
+
+/// What may be asked for at most.
+inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
+inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
+inline constexpr int kMaxDepth = 1 << 20;
+inline constexpr int kMaxThreads = 1024;
+
+/// Puts the overrides into the description; with kByScene it says nothing of transport
+/// afterwards. A crop window of the scene is scaled along
+/// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
+/// that are out of range, wherever they come from.
+void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
+
+/// Whether decide=pilot is in force though nobody asked for it: with kIfLong, for 4
+/// seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
+bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
+inline constexpr double kLeastDecidedSeconds = 4;
+
+/// What such a render of a film tells of first hits.
+Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film);
+
+CompileOptions CompileOptionsOf(const RenderSettings& settings);
+PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene);
+
+}  // namespace lanelight

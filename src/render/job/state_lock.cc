@@ -1,0 +1,54 @@
+#include "src/render/job/state_lock.h"
+
+#include <unistd.h>
+
+#include <climits>
+
+#include "src/base/core/error.h"
+#include "src/base/image/atomic_file.h"
+
+namespace lanelight {
+namespace {
+
+std::string WhoAmI() {
+  char host[HOST_NAME_MAX + 1] = "";
+  gethostname(host, sizeof(host) - 1);
+  return fmt::format("process {} on {}", getpid(), host);
+}
+
+}  // namespace
+
+StateLock::StateLock(const std::string& path,
+                     const std::function<void(const std::string&)>& on_problem) {
+  do {
+    lock_.reset();
+    file_.emplace(LinkTarget(path) + ".lock");
+    if (!file_->locking()) {
+      on_problem(fmt::format(
+          "{}: this file system knows no locks: see to it that nobody else keeps '{}'",
+          file_->path(), path));
+      unlink(file_->path().c_str());
+      file_.reset();
+      return;
+    }
+    lock_ = file_->Take("state");
+    if (!lock_) {
+      const std::string who = file_->Note();
+      throw InputError(fmt::format(
+          "'{}' is being kept by {}: let that end or stop it, or keep this state "
+          "in another file",
+          path, who.empty() ? "another process" : who));
+    }
+    // Who had it before may have removed the file just after it was opened here.
+  } while (!file_->IsNamed());
+  file_->SetNote(WhoAmI());
+  // Only who keeps a state writes it: with the lock, nobody is at work on these.
+  RemoveTemporaries(path);
+}
+
+// Removed first, unlocked then: nobody else can have the lock of a file that is there.
+StateLock::~StateLock() {
+  if (file_ && file_->IsNamed()) unlink(file_->path().c_str());
+}
+
+}  // namespace lanelight

@@ -1,0 +1,73 @@
+#include "src/render/job/transport.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "src/scene/compile/transport.h"
+#include "src/base/image/wavelengths.h"
+
+namespace lanelight {
+namespace {
+
+std::vector<Index> MaterialsOf(const SceneDescription& scene) {
+  std::vector<Index> used;
+  for (const Shape& shape : scene.shapes) used.push_back(shape.material);
+  for (const ObjectDefinition& object : scene.objects) {
+    for (const Shape& shape : object.shapes) used.push_back(shape.material);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+bool EmitsCarried(const OwnSpectrum& spectrum) {
+  if (spectrum == nullptr) return true;
+  for (int nm = kFirstCarriedNm; nm <= kLastCarriedNm; ++nm) {
+    if ((*spectrum)(nm) > 0) return true;
+  }
+  return false;
+}
+
+// Why these strategies do not go with wavelengths; empty if they do.
+std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
+  for (const Strategy& s : strategies) {
+    if (s.reuse != Reuse::kNone && disperses) {
+      return "reuse=block is asked for, and glass disperses";
+    }
+  }
+  return "";
+}
+
+// And why the scene does not.
+std::string Refusal(const SceneDescription& scene) {
+  const auto dark = [](const auto& light) { return !EmitsCarried(light.spectrum); };
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), dark) ||
+      std::any_of(scene.area_lights.begin(), scene.area_lights.end(), dark) ||
+      std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) {
+        return m.emission != Rgb{} && !EmitsCarried(m.emission_spectrum);
+      })) {
+    return fmt::format("a light emits nothing from {} to {} nm", kFirstCarriedNm,
+                       kLastCarriedNm);
+  }
+  return "";
+}
+
+}  // namespace
+
+TransportChoice ChooseTransport(const SceneDescription& scene,
+                                std::span<const Strategy> strategies) {
+  const std::vector<Index> used = MaterialsOf(scene);
+  const std::optional<SpectrumUser> user = FindSpectrum(scene, used);
+  if (!user) return {.why = "nothing in the scene has a spectrum"};
+  const std::string has =
+      user->what + (user->disperses ? " disperses" : " has a spectrum");
+  std::string refusal = Refusal(strategies, user->disperses);
+  if (refusal.empty()) refusal = Refusal(scene);
+  if (refusal.empty()) return {Transport::kSpectral, has, {}, false};
+  return {Transport::kRgb, fmt::format("{}, though {}", refusal, has), user->where, true};
+}
+
+}  // namespace lanelight

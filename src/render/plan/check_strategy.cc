@@ -1,0 +1,146 @@
+#include "src/render/plan/check_strategy.h"
+
+#include "src/base/core/error.h"
+#include "src/vocabulary/path/features.h"
+#include "src/render/plan/plan_features.h"
+
+namespace lanelight {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+[[noreturn]] void Refuse(const std::string& message) {
+  throw InputError("strategy: " + message);
+}
+
+// A sample of a block is not what one path has brought.
+void CheckReuse(const Strategy& s, const FeatureSet& plan) {
+  if (s.reuse == Reuse::kNone) return;
+  if (plan.HasAll({Feature::kReuse, Feature::kSpectralFilm})) {
+    Refuse(
+        "reuse=block does not work with Film \"spectral\": what a block shares out are "
+        "colours, not wavelengths; use reuse=none, or Film \"rgb\"");
+  }
+  if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
+    Refuse(
+        "reuse=block does not work with --transport spectral where glass disperses, "
+        "which leaves some paths one wavelength of three: --transport rgb renders with "
+        "it");
+  }
+  if (s.Splits()) {
+    Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
+           Name(s.roulette) + ": use roulette=throughput");
+  }
+  if (s.control != Control::kNone) {
+    Refuse(std::string("control=") + Name(s.control) +
+           " needs samples of one path each, which reuse=block does not leave: leave out "
+           "one of the two");
+  }
+}
+
+// What the checks of single keys know.
+struct Checked {
+  const Strategy& strategy;
+  const FeatureSet &scene, &plan;  // features
+  const PlanOptions& options;
+  Notes& notes;
+
+  void Note(const std::string& choice, const std::string& why) const {
+    notes.push_back(choice + " has no effect" + why);
+  }
+};
+
+void NoteLights(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.light_selection != LightSelection::kPower && !c.scene.Has(Feature::kManyLights)) {
+    c.Note(std::string("light-selection=") + Name(s.light_selection),
+           ": there are no two lights to choose from");
+  }
+  if (s.light_points != LightPoints::kArea && !SamplesFlatLights(c.plan)) {
+    c.Note(std::string("light-points=") + Name(s.light_points),
+           ": no triangle or rectangle that emits is sampled");
+  }
+  if (s.light_candidates != LightCandidates::kSingle && !SamplesOfLightDiffer(c.plan)) {
+    c.Note("light-candidates=resampled", c.plan.Has(Feature::kLights)
+                                             ? ": all samples of the only light are alike"
+                                             : ": no light is sampled");
+  }
+  if (s.directions == Directions::kLight && !c.scene.Has(Feature::kLights)) {
+    c.notes.push_back(
+        "directions=light: there is no light to sample, only what the camera "
+        "sees itself or in mirrors");
+  }
+  if (s.shadow_roulette != ShadowRoulette::kNone && !c.plan.Has(Feature::kLights)) {
+    c.Note("shadow-roulette=contribution", ": no light is sampled");
+  }
+  if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
+      !c.plan.Has(Feature::kLights)) {
+    c.Note("pairs=antithetic:light", ": no light is sampled");
+  }
+}
+
+void NoteEnvironment(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.environment != EnvironmentPoints::kCompensated) return;
+  if (!c.scene.Has(Feature::kInfiniteImage)) {
+    c.Note("environment=compensated", ": there is no environment image");
+  } else if (s.directions != Directions::kMis) {
+    c.Note("environment=compensated",
+           std::string(" with directions=") + Name(s.directions) +
+               ": only with directions=mis do scattered rays find what light samples "
+               "leave out");
+  }
+}
+
+void NoteMedia(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.distances != Distances::kExponential &&
+      !c.plan.Has(Feature::kEquiangularDistances)) {
+    c.Note("distances=equiangular",
+           ": there is no homogeneous medium that scatters, or no light with a place");
+  }
+}
+
+void NotePaths(const Checked& c) {
+  const Strategy& s = c.strategy;
+  if (s.roulette != Roulette::kThroughput && s.roulette != Roulette::kNone &&
+      c.options.max_depth <= 1) {
+    c.Note(std::string("roulette=") + Name(s.roulette),
+           ": paths end after one scattering event");
+  }
+  if (s.reuse != Reuse::kNone && !c.plan.Has(Feature::kReuse)) {
+    c.Note(std::string("reuse=") + Name(s.reuse),
+           c.scene.Has(Feature::kMedia) ? ": there are media"
+           : c.scene.Has(Feature::kMovingInstances)
+               ? ": shapes move, and paths of a block are of different times"
+               : ": no path scatters a second time from a diffuse surface");
+  }
+  if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
+    c.Note("decide=pilot", ": with reuse=block asked for it tries nothing else");
+  }
+}
+
+}  // namespace
+
+Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
+  const Strategy s = PlannedStrategy(scene, options);
+  const FeatureSet plan = PlanFeatures(scene, options);
+  CheckReuse(s, plan);
+  Notes notes;
+  const Checked checked = {s, scene.compiled->features, plan, options, notes};
+  NoteLights(checked);
+  NoteEnvironment(checked);
+  NoteMedia(checked);
+  NotePaths(checked);
+  if (s.control == Control::kRegression && !plan.Has(Feature::kRegressionControl)) {
+    checked.Note("control=regression", ": nothing scatters");
+  } else if (s.control == Control::kRegression && s.points != Points::kIndependent) {
+    notes.push_back(std::string("control=regression gains little with points=") +
+                    Name(s.points) +
+                    ", which integrate polynomials well already: its place is "
+                    "points=independent");
+  }
+  return notes;
+}
+
+}  // namespace lanelight

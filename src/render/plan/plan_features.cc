@@ -1,0 +1,159 @@
+#include "src/render/plan/plan_features.h"
+
+#include "src/vocabulary/path/block.h"
+#include "src/vocabulary/path/choice_features.h"
+#include "src/vocabulary/path/light_shapes.h"
+
+namespace lanelight {
+namespace {
+
+// Rays can meet something. Without (no shape, or none that can be seen) there is nothing
+// but the environment.
+bool HasSurfaces(const FeatureSet& f) {
+  return f.HasAny({Feature::kTriangles, Feature::kSpheres, Feature::kLargeSpheres,
+                   Feature::kDisks, Feature::kPlanes, Feature::kCurves});
+}
+
+// Only emission seen directly is left: nothing is shaded and no light is sampled.
+void RemoveScattering(FeatureSet& f) {
+  f.Remove({Feature::kLights, Feature::kManyLights, Feature::kMis, Feature::kRefraction});
+  f.Remove({Feature::kTextures, Feature::kUv, Feature::kTangents, Feature::kVertexNormals,
+            Feature::kTexturedRoughness, Feature::kTexturedColor1, Feature::kTexturedCoat,
+            Feature::kTexturePlaces, Feature::kMix, Feature::kBumps, Feature::kNormalMaps,
+            Feature::kTextureFootprints, Feature::kPlainSpectra, Feature::kSpectralColor1,
+            Feature::kDispersion});
+}
+
+bool HasAnyOf(const FeatureSet& f, std::uint32_t shade_kinds) {
+  FeatureSet kinds;
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    if ((shade_kinds >> k & 1) != 0) kinds.Add(ShadeFeature(static_cast<ShadeKind>(k)));
+  }
+  return f.HasAny(kinds);
+}
+
+// There is something to serve, and something to serve it with.
+void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& f) {
+  // Vertices of other paths would be of other times.
+  if (f.HasAny({Feature::kMedia, Feature::kMovingInstances})) return;
+  if (options.max_depth < 2) return;
+  if (!HasAnyOf(f, kEvenSidedKinds | kGlossyKinds)) return;
+  f.Add(TurnsOn(strategy.reuse));
+  if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
+}
+
+bool HasDeltaLights(const FeatureSet& f) { return f.HasAny(LightsWith(kDeltaLight)); }
+
+void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
+  f.Add(TurnsOn(strategy.directions));
+  if (!strategy.SamplesHittableLights()) {
+    // Scattered rays count in full, so they carry no density; what is left to sample are
+    // the lights that no ray can hit.
+    f.Remove(Feature::kMis);
+    if (f.Has(Feature::kUnseenLights)) {
+      f.Add(Feature::kSampledHittableLights);  // prepared_scene.cc: no other is selected
+    } else if (!HasDeltaLights(f)) {
+      f.Remove({Feature::kLights, Feature::kManyLights});
+    }
+  }
+  if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
+  if (!f.Has(Feature::kLights)) return;
+  if (SamplesFlatLights(f)) f.Add(TurnsOn(strategy.light_points));
+  // directions=light counts no hit of what it samples.
+  if (f.Has(Feature::kProjectedLights) && f.Has(Feature::kMis) &&
+      strategy.directions == Directions::kMis) {
+    f.Add(Feature::kProjectedHits);
+  }
+  if (SamplesOfLightDiffer(f)) f.Add(TurnsOn(strategy.light_candidates));
+  f.Add(TurnsOn(strategy.shadow_roulette));
+}
+
+void AddMedia(const Strategy& strategy, const CompiledScene& scene, FeatureSet& f) {
+  f.Add(Feature::kOtherEvents);
+  if (!f.Has(Feature::kLights)) return;
+  if (HasAnchors(strategy, scene)) f.Add(TurnsOn(strategy.distances));
+}
+
+void AddControl(const Strategy& strategy, FeatureSet& f) {
+  if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
+  f.Add(TurnsOn(strategy.control));
+}
+
+}  // namespace
+
+bool SamplesFlatLights(const FeatureSet& f) {
+  return f.Has(Feature::kSampledHittableLights) &&
+         f.HasAny({Feature::kTriangleLights, Feature::kRectangleLights});
+}
+
+bool SamplesOfLightDiffer(const FeatureSet& f) {
+  return f.Has(Feature::kManyLights) || (f.Has(Feature::kLights) && !HasDeltaLights(f));
+}
+
+FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) {
+  const Strategy strategy = PlannedStrategy(scene, options);
+  FeatureSet f = scene.compiled->features;
+  // Media dim what the camera sees, and need a surface's columns to find where they end.
+  const bool media = f.Has(Feature::kMedia);
+  if (media || (options.max_depth > 0 && HasSurfaces(f))) {
+    f.Add(Feature::kScatters);
+    AddLightSampling(strategy, f);
+    if (media) AddMedia(strategy, *scene.compiled, f);
+    if (f.Has(Feature::kLights) && !f.Has(Feature::kInterfaces)) {
+      f.Add(Feature::kOpaqueShadows);
+    }
+    if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
+    AddReuse(strategy, options, f);
+    // What it compares serves no other pixels.
+    if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
+  } else {
+    RemoveScattering(f);
+  }
+  f.Add(AuxiliaryFeatures(options.auxiliary));
+  if (f.Has(Feature::kGbuffer) && HasSurfaces(f)) f.Add(Feature::kUv);
+  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.pairs));
+  AddControl(strategy, f);
+  if (options.spectral_film && !options.training) f.Add(Feature::kSpectralFilm);
+  if (options.training) f.Add(*options.training);
+  return f;
+}
+
+Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options) {
+  Strategy strategy = options.strategy.value_or(scene.strategy);
+  if (!options.training) return strategy;
+  if (!options.own_points) {
+    strategy.points = Points::kIndependent;
+    strategy.reuse = Reuse::kNone;
+  }
+  strategy.pairs = Pairs::kNone;
+  strategy.control = Control::kNone;
+  return strategy;
+}
+
+FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options) {
+  const Strategy strategy = PlannedStrategy(scene, options);
+  FeatureSet f = scene.compiled->features;
+  RemoveScattering(f);
+  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.pairs));
+  return f;
+}
+
+bool SeesLightsApart(const PreparedScene& scene) {
+  const FeatureSet& f = scene.compiled->features;
+  return scene.strategy.seen_lights == SeenLights::kApart &&
+         !f.Has(Feature::kMedia) &&             // which dim what is seen
+         !f.Has(Feature::kMovingCamera) &&      // which blurs all edges
+         !scene.view.film.response.limits() &&  // which are of single samples
+         f.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
+}
+
+PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,
+                        std::string_view changes) {
+  if (!options.strategy) options.strategy = scene.strategy;
+  ApplyStrategy(changes, {}, *options.strategy);
+  return options;
+}
+
+}  // namespace lanelight

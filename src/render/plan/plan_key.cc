@@ -1,0 +1,77 @@
+#include "src/render/plan/plan_key.h"
+
+#include <fmt/format.h>
+
+#include "src/base/core/hash.h"
+#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/render/plan/plan_features.h"
+
+namespace lanelight {
+namespace {
+
+std::uint64_t HashLights(const LightChances& chances) {
+  StreamHash hash;
+  hash.AddArray(chances.pmf);
+  hash.AddArray(chances.alias_q);
+  hash.AddArray(chances.alias);
+  hash.AddArray(chances.tree.nodes);
+  hash.AddArray(chances.tree.far);
+  return hash.Digest();
+}
+
+std::string FeaturesText(const FeatureSet& features) {
+  std::string text;
+  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+    text += features.Has(static_cast<Feature>(i)) ? '1' : '0';
+  }
+  return text;
+}
+
+// Of the strategy that the plan is for; what no stage of the plan reads is left out.
+std::string ParametersText(const Strategy& s, const FeatureSet& features) {
+  const PointsParameters points = MakePointsParameters(s.points);
+  const PairParameters pairs = MakePairParameters(s);
+  const MisParameters mis = MakeMisParameters(s);
+  const SampleGroups groups = GroupsOf(s);
+  std::string text = fmt::format("points {} {} pairs {} {} groups {} {} mis {} {} {}",
+                                 points.group_shift, points.pmj02 != nullptr,
+                                 pairs.dimensions, pairs.depths, groups.unit,
+                                 groups.replicates, mis.square, mis.linear, mis.hits);
+  if (features.Has(Feature::kReuse)) {
+    text += fmt::format(" reuse {} {}", s.reused_paths, Name(s.block_layout));
+  }
+  if (features.HasAny({Feature::kRoulette, Feature::kSplitting})) {
+    const RouletteParameters r = MakeRouletteParameters(s);
+    text += fmt::format(" roulette {} {} {} {} {}", Name(s.roulette), r.termination,
+                        r.floor, r.first, r.scale);
+  }
+  if (features.Has(Feature::kContributionShadowRoulette)) {
+    text += fmt::format(" shadow floor {}", s.ShadowFloor());
+  }
+  if (features.Has(Feature::kRegressionControl)) {
+    text += fmt::format(" control {} {}", Name(s.control),
+                        s.coefficient ? fmt::format("{}", *s.coefficient) : "optimal");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string PlanKey(const PreparedScene& scene, const Plan& plan) {
+  std::string key = FeaturesText(plan.features);
+  for (const PlannedStage& planned : plan.stages) {
+    key += fmt::format(" {} {}", planned.stage.name,
+                       reinterpret_cast<std::uintptr_t>(planned.kernel));
+  }
+  key += fmt::format(" depth {} ", plan.options.max_depth);
+  key += ParametersText(PlannedStrategy(scene, plan.options), plan.features);
+  if (plan.features.HasAll({Feature::kInfiniteImage, Feature::kLights}) &&
+      CompensatesEnvironment(scene.strategy)) {
+    key += " environment compensated";
+  }
+  if (SeesLightsApart(scene)) key += " seen lights apart";
+  return key + fmt::format(" lights {:016x}", HashLights(*scene.chances));
+}
+
+}  // namespace lanelight

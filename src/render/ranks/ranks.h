@@ -1,0 +1,14 @@
+// How a program joins the ranks that were started together. There are two of these:
+// alone.cc, and mpi_group.cc; a program is linked with one of them.
+#pragma once
+
+#include <memory>
+
+#include "src/base/core/rank_group.h"
+
+namespace lanelight {
+
+/// Before anything else; both are as main has them.
+std::unique_ptr<RankGroup> JoinRanks(int* argc, char*** argv);
+
+}  // namespace lanelight

@@ -1,0 +1,77 @@
+#include "src/render/run/held_tiles.h"
+
+#include <cstring>
+
+#include "src/base/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// 3 to 25 MB: memory that is used again and again, and not asked for anew.
+constexpr std::uint64_t kPixelsOfPiece = 1 << 15;
+
+// Calls copy(address, bytes) for each row of each tile in each column of the films.
+template <class Copy>
+void ForEachRow(std::span<const HeldTile> held, const std::vector<PixelRect>& tiles,
+                Films& films, const Copy& copy) {
+  const FilmAccumulator& film = films.film();
+  for (const MutableStateColumn& column : films.Columns()) {
+    for (const HeldTile& one : held) {
+      const PixelRect& tile = tiles[one.tile];
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        const auto row = static_cast<std::size_t>(y - film.y0()) *
+                             static_cast<std::size_t>(film.width()) +
+                         static_cast<std::size_t>(tile.x0 - film.x0());
+        copy(static_cast<char*>(column.data) + row * column.RowBytes(),
+             static_cast<std::size_t>(tile.width()) * column.RowBytes());
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void PackTiles(std::span<const HeldTile> held, const std::vector<PixelRect>& tiles,
+               Films& films, std::string& out) {
+  const std::uint64_t count = held.size();
+  out.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  out.append(reinterpret_cast<const char*>(held.data()), held.size_bytes());
+  ForEachRow(held, tiles, films,
+             [&](const char* from, std::size_t size) { out.append(from, size); });
+}
+
+std::vector<std::span<const HeldTile>> InPieces(const std::vector<HeldTile>& held,
+                                                const std::vector<PixelRect>& tiles) {
+  std::vector<std::span<const HeldTile>> pieces(1);
+  std::uint64_t pixels = 0;
+  for (const HeldTile& one : held) {
+    if (pixels >= kPixelsOfPiece) {
+      pieces.push_back({&one, 0});
+      pixels = 0;
+    }
+    const auto last = pieces.back();
+    pieces.back() = {last.empty() ? &one : last.data(), last.size() + 1};
+    pixels += tiles[one.tile].pixels();
+  }
+  return pieces;
+}
+
+std::vector<HeldTile> UnpackTiles(std::string_view bytes,
+                                  const std::vector<PixelRect>& tiles, Films& films) {
+  const auto take = [&bytes](void* to, std::size_t size) {
+    LL_CHECK_GE(bytes.size(), size);
+    if (size > 0) std::memcpy(to, bytes.data(), size);
+    bytes.remove_prefix(size);
+  };
+  std::uint64_t count = 0;
+  take(&count, sizeof(count));
+  LL_CHECK_LE(count, tiles.size());
+  std::vector<HeldTile> held(count);
+  take(held.data(), count * sizeof(HeldTile));
+  for (const HeldTile& one : held) LL_CHECK_LT(one.tile, tiles.size());
+  ForEachRow(held, tiles, films, take);
+  LL_CHECK(bytes.empty());
+  return held;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,24 @@
+// Runs a plan: distributes (tile x sample range) tasks over threads, each with its own
+// wavefront, and gathers the film.
+#pragma once
+
+#include "src/render/plan/plan.h"
+#include "src/base/core/rank_group.h"
+#include "src/render/wave/run_options.h"
+#include "src/render/wave/run_result.h"
+
+namespace lanelight {
+
+/// Renders into `film`, without samples but those that options.keeper goes on from: its
+/// size must match the crop window of the scene, or the strip of options.windows, its
+/// groups the strategy (src/scene/prepare/groups.h).
+RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
+              FilmAccumulator& film);
+
+/// The same for a worker of options.group: as the leader wants it, until it lets it go.
+/// `film` has the worker's part of the image alone; of `options`, what says how much to
+/// render and the keeper are the leader's business.
+void ServeRun(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
+              FilmAccumulator& film);
+
+}  // namespace lanelight

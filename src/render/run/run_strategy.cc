@@ -1,0 +1,103 @@
+#include "src/render/run/run_strategy.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "src/scene/prepare/groups.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/wave/profile.h"
+#include "src/render/run/sample_rate.h"
+#include "src/render/wave/stop_watcher.h"
+#include "src/render/train/rank_passes.h"
+#include "src/render/train/trained_tables.h"
+
+namespace lanelight {
+std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
+  const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
+  return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
+}
+
+RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
+                         const RunOptions& options, const RunClock& clock)
+    : scene_(scene),
+      plan_(plan),
+      options_(options),
+      clock_(clock),
+      tables_(MakeStrategyTables(scene)),
+      run_(Parameters()) {}
+
+RunParameters RunStrategy::Parameters() const {
+  RunParameters run = MakeRunParameters(scene_, plan_);
+  run.seed = SeedOf(options_.seed, 0);
+  run.tables = &tables_;
+  return run;
+}
+
+void RunStrategy::BeginWith(std::uint64_t first) {
+  run_.seed = SeedOf(options_.seed, first);
+}
+
+std::uint64_t RunStrategy::PlannedTraining() const {
+  if (!NeedsTraining(plan_)) return 0;
+  if (options_.planned_samples > 0) return options_.planned_samples;
+  const std::uint64_t pixels = RenderedPixels(scene_.view.film).pixels();
+  const bool decides = plan_.features.Has(Feature::kDecides);
+  if (decides && options_.seconds > 0) {
+    const StopWatcher watcher(options_.stop);
+    return SamplesWithin(options_.seconds,
+                         {scene_, plan_.options, &tables_, run_.seed, &watcher});
+  }
+  return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
+}
+
+void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
+  if (options_.on_training) options_.on_training();
+  RankPasses ranks(group, options_.stop);
+  TrainingOptions options;
+  options.planned_samples = planned;
+  options.keep_roulette = options_.keep_roulette;
+  const bool together = group.ranks() > 1;
+  options.stop = together ? ranks.stop() : options_.stop;
+  options.ranks = together ? &ranks : nullptr;
+  training_ = lanelight::Train({scene_, plan_, run_.seed, options, tables_});
+  training_.seconds = clock_.Seconds();
+  training_.cpu_seconds = clock_.CpuSeconds();
+  // What was cut short is trained anew when the run goes on.
+  if (!StopWatcher(options.stop).Stopped()) UseTraining();
+}
+
+void RunStrategy::Restore(TrainingOutcome training,
+                          const std::vector<TrainedTable>& tables) {
+  training_ = std::move(training);
+  PutTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
+  UseTraining();
+  CheckTrained(plan_, tables_);
+}
+
+// The image may be rendered with another roulette then.
+void RunStrategy::UseTraining() {
+  trained_ = true;
+  const PlanOptions changed = WithChanges(scene_, plan_.options, training_.changes);
+  if (PlannedStrategy(scene_, changed) == scene_.strategy) return;
+  plan_ = MakePlan(scene_, changed);
+  run_ = Parameters();
+}
+
+double RunStrategy::Dependents() const {
+  return GroupsOf(PlannedStrategy(scene_, plan_.options)).dependents;
+}
+
+std::vector<TrainedTable> RunStrategy::Tables() const {
+  return trained_ ? TakeTraining(tables_) : std::vector<TrainedTable>();
+}
+
+void RunStrategy::Describe(RunResult& result) const {
+  result.training = training_;
+  result.roulette = PlannedStrategy(scene_, plan_.options).roulette;
+  result.stages = EmptyProfiles(plan_);
+  result.bytes_in_flight = plan_.wavefront * plan_.bytes_per_path;
+}
+
+}  // namespace lanelight

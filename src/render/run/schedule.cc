@@ -1,0 +1,69 @@
+#include "src/render/run/schedule.h"
+
+#include "src/render/wave/run_options.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lanelight {
+namespace {
+
+constexpr double kTaskShare = 0.005;  // of the budget
+
+std::uint64_t NextCheck(std::uint64_t look, std::uint32_t unit) {
+  std::uint64_t step = unit;
+  while (look / step >= 8) step *= 2;
+  return look + step;
+}
+
+}  // namespace
+
+std::uint64_t FirstCheck(std::uint32_t unit) { return std::uint64_t{16} * unit; }
+
+std::uint64_t CheckFrom(std::uint64_t done, std::uint32_t unit) {
+  std::uint64_t look = FirstCheck(unit);
+  while (look < done) look = NextCheck(look, unit);
+  return look;
+}
+
+int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
+  int checks = 0;
+  for (auto at = FirstCheck(unit); at <= done; at = NextCheck(at, unit)) ++checks;
+  return checks;
+}
+
+Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit) {
+  if (done >= per_task) return {per_task, kMostSamplesPerPixel};
+  const auto samples =
+      static_cast<std::uint32_t>(std::max<std::uint64_t>(3 * done, unit));
+  return {std::min(samples, per_task), samples};
+}
+
+std::uint32_t Pace::Whole(double samples) const {
+  const double units = std::floor(samples / tasks_.unit);
+  const double most = tasks_.per_task / tasks_.unit;
+  return static_cast<std::uint32_t>(std::clamp(units, 1.0, std::max(1.0, most))) *
+         tasks_.unit;
+}
+
+Round Pace::Next(double elapsed) const {
+  if (speed_ == 0) return {tasks_.unit, tasks_.unit};
+  // Seconds of one sample of all pixels of a tile.
+  const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
+  const double most = Reach(elapsed) / 2;
+  Round round;
+  round.per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
+  round.samples =
+      round.per_task * static_cast<std::uint64_t>(std::max(1.0, most / round.per_task));
+  return round;
+}
+
+void Pace::Took(std::uint64_t samples, double seconds) {
+  speed_ = double(samples) / std::max(seconds, 1e-6);
+}
+
+double Pace::Reach(double elapsed) const {
+  return std::max(0.0, speed_ * (budget_ - elapsed));
+}
+
+}  // namespace lanelight

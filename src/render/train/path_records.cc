@@ -1,0 +1,116 @@
+#include "src/render/train/path_records.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "src/base/core/check.h"
+#include "src/render/train/pilot_comparison.h"
+
+namespace lanelight {
+namespace {
+
+// What a pixel adds without roulette, and what roulette adds to it.
+struct Part {
+  double variance, added;
+  bool operator<(const Part& o) const { return variance + added < o.variance + o.added; }
+};
+
+Part PartOf(const PathRecord* records, std::uint32_t spp) {
+  double sum = 0, squares = 0, risk = 0;
+  for (std::uint32_t k = 0; k < spp; ++k) {
+    const PathRecord& r = records[k];
+    sum += r.end, squares += double{r.end} * r.end, risk += r.Risk();
+  }
+  return {std::max(0.0, squares - sum * sum / spp) / (spp - 1), risk / spp};
+}
+
+PathRecord ReadRecord(const float* next) {
+  PathRecord record;
+  for (PathRecord::Vertex& v : record.vertices) {
+    v.cell = std::bit_cast<std::uint32_t>(*next++);
+    v.at = *next++;
+    v.got = *next++;
+  }
+  record.end = *next++;
+  record.depth = *next++;
+  for (float& risk : record.risk) risk = *next++;
+  return record;
+}
+
+}  // namespace
+
+PathSamples ReadRecords(TrainingSamples samples) {
+  PathSamples out{std::move(samples), {}};
+  if (out.planes == 0) return out;
+  LL_CHECK_EQ(out.planes, NumPlanes(PlaneGroup::kRecord));
+  out.records.reserve(out.colors.size());
+  for (std::size_t i = 0; i < out.colors.size(); ++i) {
+    out.records.push_back(
+        ReadRecord(out.recorded.data() + i * static_cast<std::size_t>(out.planes)));
+  }
+  out.recorded = {};
+  return out;
+}
+
+ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
+                      const TrainingWork& work) {
+  return {static_cast<std::uint32_t>(scene.view.film.width),
+          static_cast<std::uint32_t>(scene.view.film.height), work.pixels,
+          samples.colors};
+}
+
+double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
+                      const ImageGuess& image, std::span<const std::size_t> places) {
+  const std::uint32_t n = samples.observations;  // of a pixel
+  Vec3d sum, squares, weight;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    Vec3d of_one;
+    for (const std::size_t i : places) {
+      // Randomisations take turns (src/vocabulary/path/replicates.h).
+      for (std::uint32_t j = k; j < work.spp; j += n) {
+        of_one += VecCast<double>(samples.colors[i * work.spp + j]);
+      }
+    }
+    sum += of_one;
+    squares += of_one * of_one;
+  }
+  double variance = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (const std::size_t i : places) {
+      weight[c] += image.ErrorWeight(work.pixels[i], c);
+    }
+    // Of the sum over an observation; per sample.
+    const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / n) * n;
+    variance += scatter / (n - 1) / work.spp * weight[c] / 3;
+  }
+  const double pixels = double(places.size());
+  return variance / (pixels * pixels * pixels);
+}
+
+std::vector<double> RelativeVariances(const TrainingSamples& samples,
+                                      const TrainingWork& work, const ImageGuess& image) {
+  std::vector<double> variances;
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    variances.push_back(VarianceOfMean(samples, work, image, std::span(&i, 1)));
+  }
+  return variances;
+}
+
+double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
+                             const ImageGuess& image) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    double weight = 0;
+    for (int c = 0; c < 3; ++c) weight += image.ErrorWeight(work.pixels[i], c);
+    const Part part = PartOf(samples.records.data() + i * work.spp, work.spp);
+    parts.push_back({part.variance * weight, part.added * weight});
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.resize(KeptOf(parts.size()));
+  double variance = 0, added = 0;
+  for (const Part& p : parts) variance += p.variance, added += p.added;
+  return added > 0 ? 1 + added / std::max(variance, 1e-9 * added) : 1;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,104 @@
+#include "src/render/train/pilot_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/base/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// What a pixel adds to the scores of both.
+struct PixelScores {
+  double other, usual;
+  // By the worse of both; what is equal is equal in all.
+  bool operator<(const PixelScores& o) const {
+    const double own = std::max(other, usual), its = std::max(o.other, o.usual);
+    return own != its ? own < its : std::min(other, usual) < std::min(o.other, o.usual);
+  }
+};
+
+// Those that count.
+std::vector<PixelScores> Pixels(const PilotMeasure& other, const PilotMeasure& usual) {
+  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
+  std::vector<PixelScores> pixels;
+  for (std::size_t i = 0; i < other.variances.size(); ++i) {
+    pixels.push_back({other.cost * other.variances[i], usual.cost * usual.variances[i]});
+  }
+  std::sort(pixels.begin(), pixels.end());
+  pixels.resize(KeptOf(pixels.size()));
+  return pixels;
+}
+
+}  // namespace
+
+std::size_t KeptOf(std::size_t n) { return n - std::min(n / 16, (n + 999) / 1000); }
+
+double RobustMean(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.resize(KeptOf(values.size()));
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         static_cast<double>(values.size());
+}
+
+double PilotMeasure::Variance() const {
+  return std::accumulate(variances.begin(), variances.end(), 0.0);
+}
+
+double PilotMeasure::Score() const { return cost * RobustMean(variances); }
+
+PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
+  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
+  const double others = other.Variance(), usuals = usual.Variance();
+  const auto log_ratio = [&](double without_usual, double without_other) {
+    constexpr double kMost = 100;
+    const double u = usuals - without_usual, o = others - without_other;
+    if (o <= 0 && u <= 0) return 0.0;
+    if (u <= 0) return -kMost;
+    return o <= 0 ? kMost : std::log(usual.cost * u / (other.cost * o));
+  };
+  PilotGain gain;
+  gain.log = gain.least = gain.most = log_ratio(0, 0);
+  if (others <= 0 || usuals <= 0) return gain;
+  double squares = 0;
+  for (std::size_t i = 0; i < other.variances.size(); ++i) {
+    const double d = other.variances[i] / others - usual.variances[i] / usuals;
+    squares += d * d;
+    const double without = log_ratio(usual.variances[i], other.variances[i]);
+    gain.least = std::min(gain.least, without);
+    gain.most = std::max(gain.most, without);
+  }
+  gain.standard_error = std::sqrt(squares);
+  return gain;
+}
+
+PilotGain GainWithoutWorst(const PilotMeasure& other, const PilotMeasure& usual) {
+  PilotMeasure kept = {other.cost, {}}, kept_usual = {usual.cost, {}};
+  for (const PixelScores& pixel : Pixels(other, usual)) {
+    kept.variances.push_back(pixel.other / other.cost);
+    kept_usual.variances.push_back(pixel.usual / usual.cost);
+  }
+  return GainOf(kept, kept_usual);
+}
+
+double EffectivePixels(const std::vector<double>& variances) {
+  double sum = 0, squares = 0;
+  for (double v : variances) sum += v, squares += v * v;
+  return squares > 0 ? sum * sum / squares : 0;
+}
+
+bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
+                     double standard_errors) {
+  const std::vector<PixelScores> pixels = Pixels(other, usual);
+  double sum = 0, squares = 0;
+  for (const PixelScores& pixel : pixels) {
+    const double loss = pixel.other - margin * pixel.usual;
+    sum += loss, squares += loss * loss;
+  }
+  const double n = static_cast<double>(pixels.size());
+  const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
+  return sum + standard_errors * error < 0 && other.Score() < margin * usual.Score();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,213 @@
+#include "src/render/train/strategy_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "src/render/train/path_records.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/train/unsplit_variances.h"
+#include "src/render/wave/wavefront.h"
+
+namespace lanelight {
+namespace {
+
+constexpr double kMissing = 3;  // standard errors
+
+// Pixels that must carry a candidate's error: its sum is known to a quarter then. In last
+// rounds of advice for 10 s, five seeds each, adjoint had 1.0 to 7.1 where caustics carry
+// its error (material-testball, media: 0.46 times as efficient in long renders, although
+// each of these rounds had it ahead), and 32 to 75 where it pays (corridor, veach-ajar;
+// 14 once).
+constexpr double kLeastPixels = 16;
+
+// A mean over pixels whose standard error is below this part of it needs no second
+// estimate. Where all is that even, what stratified points gain also hangs on the numbers
+// that decisions themselves use (a closed room), which copies know nothing of.
+constexpr double kSure = 0.1;
+
+bool IsSure(const std::vector<double>& variances) {
+  double sum = 0, squares = 0;
+  for (double v : variances) sum += v, squares += v * v;
+  return squares - sum * sum / double(variances.size()) <= kSure * kSure * sum * sum;
+}
+
+// Both estimate the same; but what has seen less bright samples than the other tells
+// nothing new, and where it is all noise it may be negative.
+PilotMeasure Both(const PilotMeasure& own, PilotMeasure unsplit) {
+  if (unsplit.Variance() < own.Variance()) return own;
+  for (std::size_t i = 0; i < own.variances.size(); ++i) {
+    unsplit.variances[i] = (own.variances[i] + unsplit.variances[i]) / 2;
+  }
+  return unsplit;
+}
+
+// Nothing but the roulette differs, and paths survive it with a higher probability.
+bool LivesLonger(Strategy changed, const Strategy& usual) {
+  const bool longer =
+      changed.roulette == Roulette::kNone ||
+      (changed.roulette == usual.roulette && changed.Floor() >= usual.Floor() &&
+       changed.scale >= usual.scale && changed.First() >= usual.First());
+  if (usual.roulette != Roulette::kThroughput || !longer) return false;
+  const auto roulette = [](const Strategy& s) {
+    return std::tuple(s.roulette, s.floor, s.first, s.scale);
+  };
+  if (roulette(changed) == roulette(usual)) return false;
+  changed.roulette = usual.roulette;
+  changed.floor = usual.floor;
+  changed.first = usual.first;
+  changed.scale = usual.scale;
+  return changed == usual;
+}
+
+// It splits what otherwise plays the roulette that the records tell of.
+bool RecordsUnsplit(const TriedStrategy& tried, const TriedStrategy& usual) {
+  const Strategy given = PlannedStrategy(usual.scene, usual.options);
+  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
+         given.scale == 1 && given.First() == kThroughputFirst &&
+         tried.changes == "roulette=adjoint";
+}
+
+// Without any error at all it is exact.
+bool IsFew(const std::vector<double>& variances) {
+  const double pixels = EffectivePixels(variances);
+  return pixels > 0 && pixels < kLeastPixels;
+}
+
+}  // namespace
+
+PilotGain TriedStrategy::Told() const {
+  return IsToldByTheRest() ? GainWithoutWorst(measure, usual) : GainOf(measure, usual);
+}
+
+PilotGain TriedStrategy::Gain() const {
+  PilotGain gain = Told();
+  if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
+  gain.log = std::min(gain.log, gain.least);
+  return gain;
+}
+
+bool TriedStrategy::MissesLight() const {
+  const double error = std::hypot(light.standard_error, usual_light.standard_error);
+  return light.sum + kMissing * error < usual_light.sum;
+}
+
+bool TriedStrategy::IsCarriedByFew() const { return IsFew(measure.variances); }
+
+bool TriedStrategy::IsToldByTheRest() const {
+  return lives_longer && (IsCarriedByFew() || IsFew(usual.variances));
+}
+
+double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
+  const PilotGain told = Told();
+  const double must = std::log(must_gain);
+  if (told.least - standard_errors * told.standard_error <= must || MissesLight()) {
+    return 0;
+  }
+  if (IsCarriedByFew() && !IsToldByTheRest()) return 0;
+  // What has not seen the usual strategy's bright samples may owe its gain to one.
+  if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
+    return 0;
+  }
+  return Gain().log - must;
+}
+
+TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
+                    const std::string& changes, double price) {
+  TriedStrategy tried;
+  tried.changes = changes;
+  tried.price = price;
+  tried.scene = scene;
+  tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
+  tried.tables = MakeStrategyTables(scene);
+  return tried;
+}
+
+StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& training,
+                             std::uint32_t seed, std::uint64_t planned)
+    : scene_(scene),
+      training_(training),
+      seed_(seed),
+      planned_(planned),
+      watcher_(training.stop) {}
+
+void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t turn) {
+  work_ = MakeTrainingWork(scene_, samples, spp, turn);
+  work_.spp -= work_.spp % kReplicates;
+  image_.reset();
+}
+
+TrainingOutcome StrategyTrial::Learn(const TriedStrategy& tried, std::uint64_t planned,
+                                     StrategyTables& tables) {
+  const Plan plan = MakePlan(tried.scene, tried.options);
+  if (!NeedsTraining(plan)) return {};
+  TrainingOptions options = training_;
+  options.planned_samples = planned;
+  options.keep_roulette |= !tried.changes.empty();
+  const TrainingOutcome out = Train({tried.scene, plan, seed_, options, tables});
+  spent_.samples += out.samples;
+  spent_.rays += out.rays;
+  return out;
+}
+
+TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
+                                      const PlanOptions& options,
+                                      const TrainingWork& work) {
+  TrainingPass pass = {tried.scene, options,   &tried.tables,
+                       seed_,       &watcher_, training_.ranks};
+  pass.options.own_points = true;
+  TrainingSamples samples = RunTrainingPass(pass, work);
+  spent_.samples += samples.colors.size();
+  spent_.rays += samples.rays();
+  return samples;
+}
+
+PilotLight StrategyTrial::LightOf(const TrainingSamples& samples,
+                                  const PilotMeasure& measure) const {
+  PilotLight light;
+  for (std::size_t i = 0; i < samples.colors.size(); ++i) {
+    const std::uint32_t pixel = work_.pixels[i / work_.spp];
+    for (int c = 0; c < 3; ++c) {
+      light.sum +=
+          samples.colors[i][c] * std::sqrt(image_->ErrorWeight(pixel, c)) / 3 / work_.spp;
+    }
+  }
+  light.standard_error = std::sqrt(measure.Variance() / work_.spp);
+  return light;
+}
+
+bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
+  if (!tried.has_learned) {
+    // It may have found that it had better be something else.
+    const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
+    tried.options = WithChanges(tried.scene, tried.options, learned.changes);
+    tried.has_learned = true;
+  }
+  if (!Stopped()) Measure(tried, usual);
+  return !Stopped();
+}
+
+void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
+  PlanOptions options = tried.options;
+  const bool records = RecordsUnsplit(tried, usual);
+  if (records) options.training = FeatureSet{Feature::kRecordsUnsplit};
+  const TrainingSamples samples = Render(tried, options, work_);
+  if (Stopped()) return;
+  // Weights are those of the image that the usual strategy shows.
+  if (!image_) image_ = GuessImage(scene_, samples, work_);
+  tried.measure = {tried.price * samples.Cost(),
+                   RelativeVariances(samples, work_, *image_)};
+  tried.light = LightOf(samples, tried.measure);
+  tried.usual = usual.measure;
+  tried.usual_light = usual.light;
+  tried.lives_longer = LivesLonger(PlannedStrategy(tried.scene, tried.options),
+                                   PlannedStrategy(usual.scene, usual.options));
+  tried.paired = records && !IsSure(usual.measure.variances);
+  if (!tried.paired) return;
+  PilotMeasure unsplit = usual.measure;
+  unsplit.variances = UnsplitVariances(samples, work_, *image_, tried.tables.path_values,
+                                       ExposureOf(scene_), tried.measure.variances);
+  tried.usual = Both(usual.measure, std::move(unsplit));
+}
+
+}  // namespace lanelight

@@ -1,0 +1,181 @@
+// decide=pilot: which change of roulette or reuse, if any, makes the render cheaper at
+// equal error. All candidates learn what they need from a pilot of their own, shorter
+// than that of a render; then the same pixels are rendered with each, with the points of
+// the render: in four randomisations, whose scatter is the variance. Independent samples
+// would show variance that the render does not have, and hide what a change does to the
+// rest. The chosen one learns anew, as if it had been asked for.
+//
+// Where few bright samples carry the error, all pixels have to count, the worst most of
+// all: they are what roulette=adjoint is for. One pilot sees few of them or none. So the
+// variance of the strategy as given is estimated twice: from its own pass, and from the
+// copies of paths in the pass of adjoint, which has met other bright samples, and more of
+// them (kernels/roulette/unsplit.cc); the mean of both counts. A candidate without
+// such a pair may owe its gain to a bright sample that only the other pass has met: it
+// must be better without the worst thousandth of the pixels as well. If its paths live
+// longer and that is all, no sample of it varies more; where few pixels carry the error
+// all others decide.
+//
+// Paths that serve their block are tried beside what has been chosen, on whole tiles.
+//
+// Shares of the planned samples: 1/100 for each candidate that learns (adjoint), 1/120
+// for each that is compared, twice 1/200 on tiles: 4.5 percent, before the chosen one
+// learns. What is decided
+// depends on scene, settings and seed alone: costs are counted in rays.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "src/base/core/error.h"
+#include "src/render/train/decision_candidates.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/plan/plan_key.h"
+#include "src/render/wave/run_options.h"
+#include "src/render/train/strategy_trial.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint64_t kCompared = 120;  // of so many planned samples one is compared
+constexpr std::uint64_t kTiled = 200;     // and so many with paths that serve blocks
+constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a quarter
+constexpr std::uint64_t kLeastToCompare = 256;
+// A change is made that is better by what it must gain and half a standard error. What is
+// made by mistake gains about that, and costs little; what is missed may be a factor of
+// three: pilots of 4 million planned samples find adjoint on veach-ajar in 16 seeds of 16
+// with half of one, in 12 with one, and in none by one standard error of means without
+// the worst thousandth of the pixels.
+constexpr double kStandardErrors = 0.5;
+
+class Decider {
+ public:
+  explicit Decider(const TrainingContext& context)
+      : scene_(context.scene),
+        options_(context.plan.options),
+        training_(context.options),
+        planned_(std::min(context.options.planned_samples, kMostDecidedBy)),
+        tables_(context.tables),
+        trial_(scene_, training_, context.seed, planned_ / kLearned) {}
+
+  TrainingOutcome Run() {
+    Add("", 1);
+    for (const DecisionCandidate& c : std::span(kDecisionCandidates, kDecidedUnasked)) {
+      Add(c.changes, c.price);
+    }
+    TriedStrategy* chosen = &entries_.front();
+    if (entries_.size() == 1) {
+      note_ = "no candidate does anything else here";
+    } else if (planned_ / kCompared < kLeastToCompare) {
+      note_ = "the image has too few samples to compare";
+    } else {
+      chosen = Compare();
+    }
+    if (!trial_.Stopped() && planned_ / kCompared >= kLeastToCompare)
+      TryBlocksBeside(*chosen);
+    if (!trial_.Stopped()) TrainFor(*chosen);
+    outcome_.samples = trial_.spent().samples;
+    outcome_.rays = trial_.spent().rays;
+    return outcome_;
+  }
+
+ private:
+  // Unless the scene refuses it, or another does the same there.
+  void Add(const std::string& changes, double price) {
+    TriedStrategy entry = ToTry(scene_, options_, changes, price);
+    try {
+      const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
+      if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) return;
+      keys_.push_back(key);
+    } catch (const InputError&) {
+      if (entries_.empty()) throw;
+      return;
+    }
+    entries_.push_back(std::move(entry));
+  }
+
+  TriedStrategy* Compare() {
+    trial_.Begin(planned_ / kCompared);
+    for (TriedStrategy& entry : entries_) {
+      if (!trial_.Try(entry, entries_.front())) return &entries_.front();
+    }
+    return Choose();
+  }
+
+  // Paths that serve their block, beside what has been chosen. Where that splits paths,
+  // it is one or the other.
+  void TryBlocksBeside(TriedStrategy& chosen) {
+    const bool splits = PlannedStrategy(scene_, chosen.options).Splits();
+    const double must_gain = splits ? std::exp(chosen.Gain().log) : kMustGain;
+    TriedStrategy usual = splits ? entries_.front() : chosen;
+    for (const TriedBlocks& blocks :
+         trial_.TryBlocks(usual, planned_ / kTiled, must_gain)) {
+      note_ += fmt::format("; {} is {:.2f} times as efficient, {:.2f} after a filter",
+                           blocks.changes, blocks.per_pixel, blocks.filtered);
+      if (!blocks.pays) continue;
+      usual.changes = JoinedChanges(usual.changes, blocks.changes);
+      chosen = std::move(usual);
+    }
+  }
+
+  TriedStrategy* Choose() {
+    TriedStrategy* chosen = &entries_.front();
+    double most = 0;
+    for (TriedStrategy& entry : entries_) {
+      if (entry.changes.empty()) continue;
+      const double beyond = entry.Beyond(kMustGain, kStandardErrors);
+      if (beyond <= most) continue;
+      most = beyond;
+      chosen = &entry;
+    }
+    Explain();
+    return chosen;
+  }
+
+  void Explain() {
+    std::string others;
+    for (const TriedStrategy& entry : entries_) {
+      if (entry.changes.empty()) continue;
+      others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
+                            std::exp(entry.Told().log));
+    }
+    note_ = fmt::format(
+        "efficiency relative to the strategy as given, by {} samples of a few pixels: {}",
+        trial_.samples(), others);
+  }
+
+  void TrainFor(TriedStrategy& chosen) {
+    const std::string changes = JoinedChanges(chosen.changes, "decide=none");
+    chosen.options = WithChanges(scene_, options_, changes);
+    const TrainingOutcome out = trial_.Learn(chosen, training_.planned_samples, tables_);
+    outcome_.changes = JoinedChanges(changes, out.changes);
+    outcome_.note =
+        fmt::format("rendered with {}; {}{}{}",
+                    chosen.changes.empty() ? "the strategy as given" : chosen.changes,
+                    note_, out.note.empty() ? "" : "; ", out.note);
+  }
+
+  const PreparedScene& scene_;
+  const PlanOptions& options_;
+  const TrainingOptions& training_;
+  const std::uint64_t planned_;
+  StrategyTables& tables_;
+  StrategyTrial trial_;
+  std::vector<TriedStrategy> entries_;  // the first: the strategy as given
+  std::vector<std::string> keys_;
+  std::string note_;
+  TrainingOutcome outcome_;
+};
+
+}  // namespace
+
+std::uint64_t DecidedBy(std::uint64_t pixels) {
+  return std::clamp(pixels * kPilotSpp, kLeastDecidedBy, kMostDecidedBy);
+}
+
+TrainingOutcome TrainDecision(const TrainingContext& context) {
+  return Decider(context).Run();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,70 @@
+// A pilot pass, from which shadow-roulette=contribution learns how bright the pixels are
+// and how noisy a sample is for its rays. It takes about 1 percent of the planned samples
+// and stops growing at 60 000 paths.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "src/render/plan/plan_features.h"
+#include "src/render/train/path_records.h"
+#include "src/render/wave/stop_watcher.h"
+#include "src/render/train/training.h"
+#include "src/render/train/training_pass.h"
+#include "src/render/wave/wavefront.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint64_t kMostShadowSamples = 60'000;
+// Points that are stratified leave less variance than the independent ones of the pass,
+// and the pass has that between the points of a pixel too; roulette adds noise that no
+// stratification lowers.
+constexpr double kStratified = 0.25;
+
+TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& work) {
+  const StopWatcher watcher(context.options.stop);
+  PlanOptions options = context.plan.options;
+  if (context.plan.features.Has(Feature::kSplitting)) {
+    options = WithChanges(context.scene, options, "roulette=throughput");
+  }
+  return RunTrainingPass({context.scene, options, &context.tables, context.seed, &watcher,
+                          context.options.ranks},
+                         work);
+}
+
+// The square of the mean standard deviation. By the mean variance a few pixels that see
+// rare light would have all others save on rays that matter there; what most pixels have
+// alone would leave nothing to save where light is rare everywhere.
+double UsualVariance(const std::vector<double>& variances) {
+  double sum = 0;
+  for (double v : variances) sum += std::sqrt(v);
+  const double mean = sum / static_cast<double>(variances.size());
+  return mean * mean;
+}
+
+}  // namespace
+
+TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
+  const std::uint64_t samples = std::clamp<std::uint64_t>(
+      context.options.planned_samples / 100, 1, kMostShadowSamples);
+  const TrainingWork work = MakeTrainingWork(context.scene, samples);
+  ShadowWorth& worth = context.tables.shadow_worth;
+  worth.inverse.clear();  // the pass traces every ray
+  const TrainingSamples pass = ShadowPass(context, work);
+  const ImageGuess image = GuessImage(context.scene, pass, work);
+  const double variance = UsualVariance(RelativeVariances(pass, work, image));
+  const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
+  const Film& film = context.scene.view.film;
+  worth.inverse = InverseShadowWorth(
+      image, static_cast<std::uint32_t>(film.width * film.height),
+      std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});
+  TrainingOutcome outcome;
+  outcome.samples = pass.colors.size();
+  outcome.rays = pass.rays();
+  outcome.note = fmt::format("{} pilot samples for shadow rays", outcome.samples);
+  return outcome;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,206 @@
+#include "src/render/train/training_pass.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <optional>
+
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/tables.h"
+#include "src/render/wave/block_reuse.h"
+#include "src/render/wave/copies.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/train/rank_passes.h"
+#include "src/render/wave/task_runner.h"
+#include "src/render/wave/tiles.h"
+#include "src/render/wave/wavefront.h"
+
+namespace lanelight {
+namespace {
+
+constexpr std::uint32_t kSamplesPerTask = 4096;
+
+// Pixels that are chosen together: a block of TilePixels, if there are enough of them.
+// With many samples of each, these are traced together already.
+std::uint64_t RunLength(std::uint64_t pixels, std::uint32_t spp) {
+  return pixels >= 512 && spp < 16 ? 16 : 1;
+}
+
+class Pass {
+ public:
+  Pass(const TrainingPass& pass, const TrainingWork& work)
+      : scene_(pass.scene),
+        plan_(MakePlan(scene_, pass.options)),
+        strategy_(PlannedStrategy(scene_, plan_.options)),
+        own_points_(GroupsOf(strategy_).replicates),
+        run_(Parameters(pass)),
+        work_(work),
+        ranks_(pass.ranks),
+        watcher_(ranks_ != nullptr ? &ranks_->watcher() : pass.watcher),
+        copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
+    wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
+    samples_.colors.resize(work.samples());
+    samples_.planes = run_.planes.count() - kColorPlanes;
+    samples_.observations = own_points_ ? kReplicates : work.spp;
+    LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
+    samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));
+  }
+
+  TrainingSamples Run() {
+    const std::vector<std::size_t> begins = Begins();
+    ParallelFor(begins.size() - 1, [&](std::size_t task) {
+      if (ranks_ != nullptr && !ranks_->Renders(task)) return;
+      RunTask(task, begins[task], begins[task + 1] - begins[task]);
+    });
+    for (const auto& wavefront : wavefronts_) {
+      if (!wavefront) continue;
+      samples_.rays_closest += wavefront->wave().rays_closest;
+      samples_.rays_shadow += wavefront->wave().rays_shadow;
+    }
+    if (ranks_ != nullptr) ranks_->Exchange(SampleBegins(begins), samples_);
+    return std::move(samples_);
+  }
+
+ private:
+  // First pixels of tasks, and the end.
+  std::vector<std::size_t> Begins() const {
+    std::vector<std::size_t> begins = {0};
+    if (!work_.tiles.empty()) {
+      for (const PixelRect& t : work_.tiles) begins.push_back(begins.back() + t.pixels());
+      return begins;
+    }
+    const std::size_t pixels = std::max<std::size_t>(kSamplesPerTask / work_.spp, 1);
+    while (begins.back() < work_.pixels.size()) {
+      begins.push_back(std::min(begins.back() + pixels, work_.pixels.size()));
+    }
+    return begins;
+  }
+
+  // The same in samples.
+  std::vector<std::size_t> SampleBegins(std::vector<std::size_t> begins) const {
+    for (std::size_t& begin : begins) begin *= work_.spp;
+    return begins;
+  }
+
+  RunParameters Parameters(const TrainingPass& pass) const {
+    RunParameters run = MakeRunParameters(scene_, plan_);
+    run.seed = pass.seed ^ 0x5bd1e995u;  // apart from the image's
+    run.tables = pass.tables;
+    // Without points of its own every sample is randomised anew: independent.
+    if (!own_points_) run.points.group_shift = 0;
+    return run;
+  }
+
+  void RunTask(std::size_t task, std::size_t first, std::size_t pixels) {
+    auto& wavefront = wavefronts_[static_cast<std::size_t>(ThreadIndex())];
+    if (!wavefront) wavefront = std::make_unique<Wavefront>(scene_, plan_, run_);
+    TileWork work;
+    work.pixels = work_.pixels.data() + first;
+    work.num_pixels = static_cast<std::uint32_t>(pixels);
+    work.samples = work_.spp;
+    const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
+    const auto planes = static_cast<std::size_t>(run_.planes.count());
+    std::vector<float> values(rows * planes);
+    std::optional<BlockReuse> reuse;
+    if (plan_.features.Has(Feature::kReuse)) {
+      reuse.emplace(plan_, strategy_);
+      reuse->Begin(work, wavefront->wave());
+    }
+    if (!Drive(wavefront->wave(), plan_, {work, {values.data(), rows}}, nullptr,
+               watcher_))
+      return;
+    if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
+    if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t sample = first * work_.spp + i;
+      samples_.colors[sample] = {values[i], values[count + i], values[2 * count + i]};
+      for (std::size_t p = kColorPlanes; p < planes; ++p) {
+        samples_.recorded[sample * (planes - kColorPlanes) + p - kColorPlanes] =
+            values[p * count + i];
+      }
+    }
+  }
+
+  const PreparedScene& scene_;
+  const Plan plan_;
+  const Strategy strategy_;
+  const bool own_points_;
+  const RunParameters run_;
+  const TrainingWork& work_;
+  RankPasses* const ranks_;
+  const TaskWatcher* const watcher_;
+  const std::uint32_t copies_;
+  std::vector<std::unique_ptr<Wavefront>> wavefronts_;
+  TrainingSamples samples_;
+};
+
+}  // namespace
+
+TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
+                              std::uint32_t spp, std::uint64_t turn) {
+  std::vector<std::uint32_t> all;
+  // Blocks of neighbours first, so that an even choice of them is even in both axes.
+  TilePixels(RenderedPixels(scene.view.film), scene.view.film.width, &all);
+  const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
+  if (count >= all.size()) {
+    const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
+    return {std::move(all), {}, static_cast<std::uint32_t>(more)};
+  }
+  // Whole blocks, if there are enough: rays of neighbours are traced together.
+  const std::uint64_t run = RunLength(count, spp), runs = count / run;
+  TrainingWork work;
+  work.spp = spp;
+  std::uint64_t jitter = turn * 0x9e3779b97f4a7c15u;
+  for (std::uint64_t i = 0; i < runs; ++i) {
+    // One of each of equal stretches, at a place of its own in each.
+    const std::uint64_t begin = i * (all.size() / run) / runs;
+    const std::uint64_t end = (i + 1) * (all.size() / run) / runs;
+    jitter = jitter * 6364136223846793005u + 1442695040888963407u;
+    const std::uint64_t at = (begin + (jitter >> 33) % (end - begin)) * run;
+    for (std::uint64_t k = 0; k < run; ++k) work.pixels.push_back(all[at + k]);
+  }
+  return work;
+}
+
+TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
+                          std::uint32_t spp) {
+  const std::vector<PixelRect> all = TilesOf(RenderedPixels(scene.view.film), kReuseTile);
+  const std::uint64_t wanted = samples / spp / (kReuseTile * kReuseTile);
+  const std::size_t count = std::clamp<std::size_t>(wanted, 1, all.size());
+  TrainingWork work;
+  work.spp = spp;
+  std::uint64_t jitter = 0x9e3779b97f4a7c15u;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * all.size() / count, end = (i + 1) * all.size() / count;
+    jitter = jitter * 6364136223846793005u + 1442695040888963407u;
+    work.tiles.push_back(all[begin + (jitter >> 33) % (end - begin)]);
+    std::vector<std::uint32_t> pixels;
+    TilePixels(work.tiles.back(), scene.view.film.width, &pixels);
+    work.pixels.insert(work.pixels.end(), pixels.begin(), pixels.end());
+  }
+  return work;
+}
+
+TrainingWork FewOf(const TrainingWork& work) {
+  // At least 16 pixels or blocks, if there are as many.
+  const std::size_t run = RunLength(work.pixels.size(), work.spp);
+  const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
+  TrainingWork few;
+  few.spp =
+      std::max(work.spp * static_cast<std::uint32_t>(step) / 16, TrainingWork::kLeastSpp);
+  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
+    if (i / run % step == 0) few.pixels.push_back(work.pixels[i]);
+  }
+  return few;
+}
+
+TrainingSamples RunTrainingPass(TrainingPass pass, const TrainingWork& work) {
+  pass.options.auxiliary = Auxiliary::kNone;
+  if (!pass.options.training) pass.options.training = FeatureSet{};
+  return Pass(pass, work).Run();
+}
+
+}  // namespace lanelight

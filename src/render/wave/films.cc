@@ -1,0 +1,43 @@
+#include "src/render/wave/films.h"
+
+#include "src/base/core/check.h"
+
+namespace lanelight {
+
+Films::Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film)
+    : planes_(planes), film_(film) {
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kAov), film.has_aov());
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kGbuffer), film.has_gbuffer());
+  LL_CHECK_EQ(planes.Has(PlaneGroup::kRadiance), film.buckets() != nullptr);
+  if (planes.Has(PlaneGroup::kNumbers)) film_.UseRegression(coefficient);
+}
+
+void Films::UseResponse(const FilmResponse& response) {
+  if (!response.IsIdentity()) response_ = response;
+}
+
+void Films::Respond(const TileSamples& tile) const {
+  const std::size_t count = tile.pixels.size() * tile.count;
+  float* const first =
+      tile.values + std::size_t(planes_.First(PlaneGroup::kColor)) * count;
+  const ColorPlanes planes = {first, first + count, first + 2 * count};
+  if (response_->limits()) LimitColors(*response_, planes, count);
+  ConvertColors(*response_, planes, count);
+}
+
+void Films::Add(const TileSamples& tile) {
+  if (response_) Respond(tile);
+  const std::vector<std::uint32_t>& pixels = tile.pixels;
+  const std::size_t stride = pixels.size() * tile.count;
+  constexpr int kMostPlanes = FilmAccumulator::kMostPlanes;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float* planes[kMostPlanes];
+    for (int p = 0; p < std::min(planes_.count(), kMostPlanes); ++p) {
+      planes[p] = tile.values + static_cast<std::size_t>(p) * stride + i * tile.count;
+    }
+    film_.AddSamples(static_cast<int>(pixels[i]) % tile.width,
+                     static_cast<int>(pixels[i]) / tile.width, planes, tile.count);
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,67 @@
+#include "src/render/wave/profile.h"
+
+namespace lanelight {
+namespace {
+
+void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
+         StageProfile& row) {
+  row.calls += counters.calls;
+  row.items += counters.items;
+  row.lane_slots += counters.lane_slots * static_cast<std::uint64_t>(lanes);
+  row.seconds += totals.seconds;
+  row.counted_items += totals.counted_items;
+  for (std::size_t i = 0; i < row.counted.size(); ++i) {
+    row.counted[i] += totals.counted[i];
+  }
+}
+
+}  // namespace
+
+const char* Name(TaskPart part) {
+  static constexpr const char* kNames[] = {"task set-up", "sum of copies", "seen lights",
+                                           "film"};
+  return kNames[static_cast<int>(part)];
+}
+
+std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
+  std::vector<StageProfile> profiles;
+  const auto add = [&](const std::vector<PlannedStage>& stages, std::string_view before) {
+    for (const PlannedStage& planned : stages) {
+      StageProfile& profile = profiles.emplace_back();
+      profile.name = std::string(before) + planned.stage.name;
+      for (Field f : plan.live_fields) {
+        profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
+        profile.bytes_written += 4.0 * planned.stage.writes.Has(f);
+      }
+      profile.bytes_per_item = profile.bytes_read + profile.bytes_written;
+    }
+  };
+  add(plan.stages, "");
+  add(plan.block_stages, "");
+  add(plan.seen_stages, kSeenStage);
+  return profiles;
+}
+
+std::vector<StageProfile> EmptyParts() {
+  std::vector<StageProfile> parts(kNumTaskParts);
+  for (int i = 0; i < kNumTaskParts; ++i) parts[i].name = Name(static_cast<TaskPart>(i));
+  return parts;
+}
+
+void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result) {
+  result.wavefront_bytes += wavefront.bytes();
+  if (clock == nullptr) return;
+  const std::size_t stages = result.stages.size();
+  for (std::size_t i = 0; i < clock->rows().size(); ++i) {
+    Add(clock->rows()[i], clock->totals()[i], lanes,
+        i < stages ? result.stages[i] : result.parts[i - stages]);
+  }
+  result.waiting_seconds +=
+      double(clock->ticks()) * result.trace.seconds_per_tick - clock->cpu_seconds();
+  for (const StageProfile& s : result.stages) result.counters |= s.counted_items > 0;
+  if (clock->counter_error() != 0) result.counter_error = clock->counter_error();
+  const std::uint64_t dropped = clock->dropped();
+  result.trace.threads.push_back({clock->TakeEvents(), dropped});
+}
+
+}  // namespace lanelight

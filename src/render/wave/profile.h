@@ -1,0 +1,25 @@
+// What a run counted: stages, rays, invalid samples, memory.
+#pragma once
+
+#include <vector>
+
+#include "src/render/wave/run_options.h"
+#include "src/render/wave/run_result.h"
+#include "src/render/wave/stage_clock.h"
+#include "src/render/wave/wavefront.h"
+#include "src/render/wave/run_options.h"
+#include "src/render/wave/run_result.h"
+
+namespace lanelight {
+
+/// One profile per stage of the plan, in its order, without counts.
+std::vector<StageProfile> EmptyProfiles(const Plan& plan);
+
+/// The same for the parts of a task that are no stages.
+std::vector<StageProfile> EmptyParts();
+
+/// Adds the memory of one thread's wavefront and what its clock has counted; the clock
+/// gives its trace away. `clock` may be null.
+void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result);
+
+}  // namespace lanelight

@@ -1,0 +1,82 @@
+// How much of a plan is to be run, and how.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "src/base/image/pixel_rect.h"
+#include "src/render/wave/run_state.h"
+
+namespace lanelight {
+
+class RankGroup;
+
+struct Progress {
+  double fraction = 0;  // of the planned samples, or of the time budget
+  double seconds = 0;   // since the start of rendering
+  std::uint64_t samples = 0;
+};
+
+/// Most samples per pixel.
+inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
+/// Sample indices in kernels have 32 bits: so many later they begin again, under another
+/// seed. Whole turns of the longest randomisations (src/scene/prepare/groups.h).
+inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
+
+/// What a profile gathers beside the times of stages.
+struct ProfileOptions {
+  bool counters = false;         // of the processor (src/base/core/hardware_counters.h)
+  std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
+};
+
+/// How many samples the image will have must not change what is learned before it.
+inline constexpr std::uint64_t kPilotSpp = 32;
+inline constexpr std::uint64_t kLeastPilot = 1u << 16;  // samples, of small images
+
+struct RunOptions {
+  std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
+  /// Time budget of all of Run, 0 = none. Every pixel gets a sample, unless paths do not
+  /// end (src/render/wave/time_limit.h).
+  double seconds = 0;
+  /// If set, the render looks at itself at certain numbers of samples per pixel
+  /// (src/render/run/schedule.h), and ends once this returns `done` or less: how many the
+  /// image is estimated to need, of which `done` are in its film; below 0: no number will
+  /// do.
+  std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
+  std::uint64_t seed = 0;
+  int threads = 0;                                   // at most; 0: all cores
+  std::function<void(const Progress&)> on_progress;  // about 10 times a second
+  std::function<void()> on_training;  // before a trial run or another training begins
+  /// Is shown the film so far, all of it at rest, as often as costs next to nothing
+  /// (src/render/run/film_show.h). Alone, not in a group.
+  std::function<void(const FilmAccumulator& film)> on_film;
+  /// Is told of pixels of the film that have new samples, by the thread that has added
+  /// them, and may read them and no others.
+  std::function<void(const FilmAccumulator& film, const PixelRect& place)> on_tile;
+  /// What the samples of a tile have cost, of each task that is done; one call at a time.
+  std::function<void(const PixelRect& tile, const RunCounts&)> on_task;
+  /// Finish the samples in flight; those that take longer are cancelled.
+  const std::atomic<bool>* stop = nullptr;
+  bool profile = true;       // time every stage call
+  ProfileOptions profiling;  // if `profile`
+  /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
+  bool keep_roulette = false;
+  /// Renders these windows of the image only, all of the same width and height, up to 64.
+  /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
+  /// They have the samples that a render of the whole image gives these pixels.
+  std::vector<PixelRect> windows;
+  /// Renders these tiles of the image only, disjoint; empty: all of it.
+  std::vector<PixelRect> tiles;
+  /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
+  /// and kLeastPilot at least. With decide=pilot DecidedBy (src/render/train/training.h),
+  /// or what the time budget is enough for.
+  std::uint64_t planned_samples = 0;
+  /// Keeps the state while the run goes on; null: nobody does.
+  RunKeeper* keeper = nullptr;
+  /// Who renders, without `windows`; null: this process alone.
+  RankGroup* group = nullptr;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,90 @@
+// What a run came to, and where its time went.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/base/core/hardware_counters.h"
+#include "src/base/core/untouched.h"
+#include "src/render/films/accumulator.h"
+#include "src/vocabulary/strategy/choices.h"
+#include "src/render/wave/run_state.h"
+
+namespace lanelight {
+
+/// Before the names of stages that follow rays at edges of lights (Plan::seen_stages).
+inline constexpr std::string_view kSeenStage = "seen: ";
+
+struct StageProfile {
+  std::string name;
+  std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
+  double seconds = 0;                                  // processor time of all threads
+  double bytes_per_item = 0;                           // columns read + written
+  // Of these; the columns that the plan has and the stage declares.
+  double bytes_read = 0, bytes_written = 0;
+  // The processor's counters, over the calls in which they were read.
+  std::uint64_t counted_items = 0;
+  CounterValues counted{};
+  /// items / lane_slots in [0, 1]
+  double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
+};
+
+/// What a task does besides running stages. Items are samples.
+enum class TaskPart : int {
+  kSetUp,   // lists the pixels of the tile, empties the wavefront
+  kCopies,  // adds up the copies of paths that split
+  kSeen,    // light that the camera sees itself, with seen-lights=apart
+  kFilm,    // adds the samples to the film
+  kCount
+};
+inline constexpr int kNumTaskParts = static_cast<int>(TaskPart::kCount);
+/// "task set-up", "sum of copies", "seen lights", "film".
+const char* Name(TaskPart part);
+
+/// One stage call (row: its index in RunResult::stages) or part of a task (row: number of
+/// stages + TaskPart), in ticks of src/base/core/clock.h.
+struct TraceEvent {
+  std::uint64_t begin = 0, end = 0;
+  std::uint32_t row = 0, items = 0;
+};
+
+struct ThreadTrace {
+  UntouchedVector<TraceEvent> events;  // in order of time, without overlap
+  std::uint64_t dropped = 0;           // for which there was no room
+};
+
+struct RunTrace {
+  std::uint64_t start = 0;  // ticks when the run began
+  double seconds_per_tick = 0;
+  std::vector<ThreadTrace> threads;
+};
+
+enum class StopReason { kSamples, kTime, kTarget, kInterrupted, kHopeless };
+/// "samples", "time", "target", "interrupted", "hopeless".
+const char* Name(StopReason reason);
+
+/// Counts are of all ranks: seconds of this Run, processor seconds of all threads.
+struct RunResult : RunCounts {
+  StopReason stop_reason = StopReason::kSamples;
+  int looks = 0;  // at which the error was compared with the target
+  int ranks = 1;  // processes; profiles and memory are of this one
+  std::uint64_t bytes_between_ranks = 0;
+  std::vector<StageProfile> stages;      // in execution order
+  std::vector<StageProfile> parts;       // of tasks, by TaskPart
+  RunTrace trace;                        // with ProfileOptions::trace_events
+  bool counters = false;                 // of the processor were read
+  int counter_error = 0;                 // errno for which (some of) them are missing
+  double waiting_seconds = 0;            // of tasks, while others had the processor
+  bool stopped_early = false;            // by RunOptions::stop
+  std::optional<ControlReport> control;  // of control variates that are fitted
+  std::size_t wavefront_bytes = 0;       // all wavefronts and sample buffers together
+  std::size_t bytes_in_flight = 0;       // live columns of the paths of one wavefront
+  // Its time is part of `seconds`, its samples and rays are not part of the counts.
+  TrainingOutcome training;
+  Roulette roulette = Roulette::kThroughput;  // that the image was rendered with
+};
+
+}  // namespace lanelight

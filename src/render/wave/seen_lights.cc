@@ -1,0 +1,226 @@
+#include "src/render/wave/seen_lights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "src/scene/prepare/groups.h"
+#include "src/vocabulary/strategy/choices.h"
+#include "src/render/wave/seen_light_places.h"
+#include "src/render/wave/task_runner.h"
+#include "src/render/wave/tiles.h"
+
+namespace lanelight {
+namespace {
+
+/// Camera rays of each pixel that find edges; those of its neighbours count as well.
+constexpr std::uint32_t kFindRays = 8;
+/// Emission that differs by less makes no rare sample.
+constexpr float kLeastStep = 0.5f, kLeastRatio = 3;
+/// Camera rays that are traced together at most, unless one pixel has more.
+constexpr std::uint64_t kMostRays = 1u << 15;
+/// Samples of the image under one seed of the further rays: their indices have 31 bits.
+constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kSeenLightRays;
+
+/// Light at the end of what floats can say, and a light's edge on top of it.
+constexpr double kLargest = std::numeric_limits<float>::max();
+/// Where small lights lie, which may be hidden or be part of a larger one.
+constexpr std::uint32_t kSmallLightRays = 256;
+
+constexpr std::uint32_t kFindSeed = 0x2545f491u;
+
+// Apart from the image's.
+std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
+  return (seed ^ 0x6a09e667u) + static_cast<std::uint32_t>(turn) * 0x9e3779b9u;
+}
+
+struct Range {
+  float low = std::numeric_limits<float>::max(), high = 0;
+
+  void Add(float value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  void Add(const Range& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
+  bool IsEdge() const { return high - low > kLeastStep && high > kLeastRatio * low; }
+};
+
+PixelRect WithBorder(const PixelRect& tile, int border, int width, int height) {
+  return {std::max(0, tile.x0 - border), std::max(0, tile.y0 - border),
+          std::min(width, tile.x1 + border), std::min(height, tile.y1 + border)};
+}
+
+// How far pixels lie apart whose samples may see the same: neighbours, or what the filter
+// reaches.
+int Reach(const CompiledFilter& filter) {
+  const double radius = std::max(filter.x_radius, filter.y_radius);
+  return static_cast<int>(std::clamp(std::ceil(radius + 0.5), 1.0, 8.0));
+}
+
+// Ranges of what pixels of a window see.
+class SeenRanges {
+ public:
+  SeenRanges(const PixelRect& window, std::uint32_t image_width)
+      : window_(window), image_width_(image_width), ranges_(window.pixels()) {}
+
+  // Camera rays of a pixel: `count` of each plane.
+  void Add(std::uint32_t pixel, const float* values, std::size_t stride,
+           std::size_t count) {
+    auto& range = At(static_cast<int>(pixel % image_width_),
+                     static_cast<int>(pixel / image_width_));
+    for (std::size_t c = 0; c < kColorPlanes; ++c) {
+      for (std::size_t i = 0; i < count; ++i) range[c].Add(values[c * stride + i]);
+    }
+  }
+  // Whether what pixels up to `reach` away see differs much.
+  bool IsEdge(std::uint32_t pixel, int reach) {
+    const int x = static_cast<int>(pixel % image_width_),
+              y = static_cast<int>(pixel / image_width_);
+    std::array<Range, kColorPlanes> around;
+    for (int b = std::max(window_.y0, y - reach); b < std::min(window_.y1, y + reach + 1);
+         ++b) {
+      for (int a = std::max(window_.x0, x - reach);
+           a < std::min(window_.x1, x + reach + 1); ++a) {
+        for (std::size_t c = 0; c < kColorPlanes; ++c) around[c].Add(At(a, b)[c]);
+      }
+    }
+    return std::any_of(around.begin(), around.end(),
+                       [](const Range& r) { return r.IsEdge(); });
+  }
+
+ private:
+  std::array<Range, kColorPlanes>& At(int x, int y) {
+    return ranges_[static_cast<std::size_t>(y - window_.y0) *
+                       static_cast<std::size_t>(window_.width()) +
+                   static_cast<std::size_t>(x - window_.x0)];
+  }
+
+  PixelRect window_;
+  std::uint32_t image_width_;
+  std::vector<std::array<Range, kColorPlanes>> ranges_;
+};
+
+}  // namespace
+
+void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float>& out) {
+  TileWork work;
+  work.pixels = rays.pixels;
+  work.num_pixels = static_cast<std::uint32_t>(rays.num_pixels);
+  work.first_sample = static_cast<std::uint32_t>(rays.first);
+  work.samples = rays.count;
+  work.together = SamplesTogether(scene_, plan_);
+  const std::size_t rows = rays.num_pixels * rays.count;
+  out.resize(std::max(out.size(), rows * kColorPlanes));
+  run_ = image_run_;
+  run_.seed = rays.seed;
+  run_.max_depth = 0;
+  run_.candidates = 1;
+  run_.features = plan_.seen_features;
+  run_.planes = SamplePlanes(plan_.seen_features);
+  float* const wavelength = wave_.path.wavelength;
+  if (rays.in_rgb) wave_.path.wavelength = nullptr;
+  Drive(wave_, plan_,
+        {work, {out.data(), static_cast<std::uint32_t>(rows)}, /*seen_lights=*/true},
+        clock);
+  wave_.path.wavelength = wavelength;
+}
+
+SeenLightEdges::SeenLightEdges(const PreparedScene& scene, std::size_t tiles)
+    : scene_(scene),
+      samples_{GroupsOf(scene.strategy), kSeenLightRays},
+      small_lights_(PlacesOfSmallLights(scene)),
+      reach_(Reach(scene.compiled->filter)),
+      edges_(tiles),
+      found_(tiles) {}
+
+void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
+                          StageClock* clock) {
+  std::call_once(found_[tile], [&] { FindIn(rect, rays, clock, edges_[tile]); });
+}
+
+void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
+                            std::vector<std::uint32_t>& edges) const {
+  const auto width = static_cast<std::uint32_t>(scene_.view.film.width);
+  const PixelRect all =
+      WithBorder(rect, reach_, scene_.view.film.width, scene_.view.film.height);
+  SeenRanges ranges(all, width);
+  std::vector<std::uint32_t>& pixels = rays.pixels;
+  TilePixels(all, scene_.view.film.width, &pixels);
+  const std::size_t rows = pixels.size() * kFindRays;
+  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, true}, clock,
+             rays.others);
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
+  }
+  for (const std::uint32_t pixel : pixels) {
+    if (!std::binary_search(small_lights_.begin(), small_lights_.end(), pixel)) continue;
+    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, true}, clock, rays.own);
+    ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
+  }
+  TilePixels(rect, scene_.view.film.width, &pixels);
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    if (!ranges.IsEdge(pixels[p], reach_)) continue;
+    edges.push_back(static_cast<std::uint32_t>(p));
+  }
+}
+
+bool SeenLightEdges::Correct(const SeenLightTask& task, SeenLightRays& rays,
+                             StageClock* clock, RunCounts& counts) const {
+  const std::vector<std::uint32_t>& edges = edges_[task.tile];
+  if (edges.empty()) return false;
+  const std::uint64_t each =
+      samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
+  const std::size_t most = std::max<std::size_t>(1, kMostRays / each);
+  for (std::size_t first = 0; first < edges.size(); first += most) {
+    CorrectPixels({edges.data() + first, std::min(most, edges.size() - first)}, task,
+                  rays, clock);
+  }
+  // As many for any cut; those that others of a turn need are traced again.
+  counts.rays_closest += edges.size() * task.count * (1 + kSeenLightRays);
+  return true;
+}
+
+void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& task,
+                                   SeenLightRays& rays, StageClock* clock) const {
+  const std::uint32_t seed = rays.image_run().seed;
+  std::vector<std::uint32_t>& pixels = rays.pixels;
+  pixels.clear();
+  for (std::size_t p = 0; p < places.count; ++p) {
+    pixels.push_back(task.pixels[places.at[p]]);
+  }
+  rays.Trace({pixels.data(), places.count, seed, task.begin, task.count}, clock,
+             rays.own);
+  const std::uint64_t end = task.begin + task.count;
+  for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
+    const std::uint64_t turn = begin / kSamplesPerRaySeed;
+    next = std::min(end, (turn + 1) * kSamplesPerRaySeed);
+    const std::uint64_t base = turn * kSamplesPerRaySeed;
+    const std::uint64_t first = samples_.Begin(begin - base);
+    const auto count = static_cast<std::uint32_t>(samples_.End(next - base) - first);
+    rays.Trace({pixels.data(), places.count, RaySeed(seed, turn), first, count}, clock,
+               rays.others);
+    for (std::size_t c = 0; c < kColorPlanes; ++c) {
+      for (std::size_t p = 0; p < places.count; ++p) {
+        const float* const own = rays.own.data() + (c * places.count + p) * task.count;
+        const float* const others = rays.others.data() + (c * places.count + p) * count;
+        float* const values =
+            task.values + c * task.stride + std::size_t{places.at[p]} * task.count;
+        for (std::uint64_t i = begin; i < next; ++i) {
+          double sum = 0;
+          samples_.ForEach(i - base,
+                           [&](std::uint64_t s) { sum += double(others[s - first]); });
+          const auto at = static_cast<std::size_t>(i - task.begin);
+          const double corrected =
+              double(values[at]) - double(own[at]) + sum / samples_.Count();
+          values[at] = static_cast<float>(std::clamp(corrected, -kLargest, kLargest));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace lanelight

@@ -1,0 +1,78 @@
+#include "src/render/wave/stage_clock.h"
+
+#include <algorithm>
+#include <cerrno>
+
+namespace lanelight {
+
+StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
+    : rows_(stages + kNumTaskParts),
+      stages_(stages),
+      totals_(stages + kNumTaskParts),
+      events_(options.trace_events),
+      want_counters_(options.counters) {
+  next_event_ = events_.data();
+  end_event_ = next_event_ + events_.size();
+}
+
+UntouchedVector<TraceEvent> StageClock::TakeEvents() {
+  if (!events_.empty()) {
+    events_.resize(static_cast<std::size_t>(next_event_ - events_.data()));
+  }
+  next_event_ = end_event_ = nullptr;
+  return std::move(events_);
+}
+
+void StageClock::StartTask() {
+  if (want_counters_ && thread_ != std::this_thread::get_id()) {
+    thread_ = std::this_thread::get_id();
+    group_.emplace(HardwareEvents());
+    if (group_->error() != 0) counter_error_ = group_->error();
+    want_counters_ = group_->available();
+  }
+  counting_ = false;
+  task_cpu_ = ThreadCpuSeconds();
+  task_start_ = last_ = Ticks();
+}
+
+void StageClock::EndTask() {
+  const std::uint64_t ticks = std::max<std::uint64_t>(Ticks() - task_start_, 1);
+  const double cpu = ThreadCpuSeconds() - task_cpu_;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    totals_[i].seconds +=
+        cpu * static_cast<double>(rows_[i].ticks) / static_cast<double>(ticks);
+    rows_[i].ticks = 0;
+  }
+  ticks_ += ticks;
+  cpu_seconds_ += cpu;
+}
+
+void StageClock::StartWave() {
+  if (!want_counters_) return;
+  random_ = random_ * 6364136223846793005u + 1442695040888963407u;
+  counting_ = first_ || (random_ >> 59) == 0;
+  first_ = false;
+  if (!counting_) return;
+  counting_ = ReadCounters(&at_);
+  last_ = Ticks();
+}
+
+void StageClock::Count(std::size_t row, std::uint64_t items) {
+  StageTotals& c = totals_[row];
+  CounterValues now;
+  counting_ = ReadCounters(&now);
+  if (!counting_) return;
+  for (std::size_t i = 0; i < now.size(); ++i) c.counted[i] += now[i] - at_[i];
+  c.counted_items += items;
+  // Read again: what reading takes belongs to no stage.
+  counting_ = ReadCounters(&at_);
+  last_ = Ticks();
+}
+
+bool StageClock::ReadCounters(CounterValues* values) {
+  if (group_->Read(values)) return true;
+  counter_error_ = EBUSY;
+  return false;
+}
+
+}  // namespace lanelight

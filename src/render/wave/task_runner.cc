@@ -1,0 +1,175 @@
+#include "src/render/wave/task_runner.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
+#include "src/scene/prepare/path_values.h"
+#include "src/render/wave/copies.h"
+#include "src/render/wave/profile.h"
+#include "src/render/wave/tiles.h"
+
+namespace lanelight {
+namespace {
+
+// Between waves: what scattered is intersected next; everything else is consumed.
+void StartWave(Wave& wave) {
+  std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
+  for (int i = 0; i < kNumQueues; ++i) {
+    const QueueId id = static_cast<QueueId>(i);
+    if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
+  }
+}
+
+}  // namespace
+
+std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
+  constexpr std::uint32_t kMost = 16;
+  const std::uint32_t together = std::min(kMost, plan.wavefront);
+  return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
+}
+
+bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
+           const TaskWatcher* watcher) {
+  const TileWork& work = task.work;
+  LL_CHECK_LE(work.together, plan.wavefront);  // they are generated at once, or never
+  wave.Reset();
+  wave.work = work;
+  wave.buffer = task.buffer;
+  if (clock) {
+    clock->FinishPart(TaskPart::kSetUp, std::uint64_t{work.num_pixels} * work.samples);
+  }
+  const auto& stages = task.seen_lights ? plan.seen_stages : plan.stages;
+  const std::size_t first_row = task.seen_lights ? plan.FirstSeenRow() : 0;
+  while (!wave.work.Done() || wave.queue(QueueId::kScattered).size > 0) {
+    StartWave(wave);
+    if (clock) clock->StartWave();
+    std::uint32_t candidates = wave.run->candidates;  // that are still to be made
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const PlannedStage& planned = stages[i];
+      if (wave.queue(planned.stage.input).size > 0) {
+        wave.lanes = {};
+        planned.kernel(wave);
+        if (clock) clock->Finish(first_row + i, wave.lanes.items, wave.lanes.vectors);
+      }
+      if (i + 1 == plan.last_repeated && --candidates > 0) i = plan.first_repeated - 1;
+    }
+    if (watcher != nullptr && watcher->Cancelled()) return false;
+  }
+  return true;
+}
+
+TaskRunner::TaskRunner(const PreparedScene& scene, const Plan& plan,
+                       const RunParameters& run, const RunOptions& options)
+    : scene_(scene),
+      plan_(plan),
+      run_(run),
+      options_(options),
+      workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
+
+void TaskRunner::Begin(std::size_t tiles) {
+  if (plan_.seen_stages.empty()) return;
+  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles);
+}
+
+void TaskRunner::FindSeenLights(std::size_t tile, const PixelRect& rect) {
+  Workspace& space = ThreadWorkspace();
+  seen_lights_->Find(tile, rect, *space.seen_lights, space.Clock());
+}
+
+Workspace& TaskRunner::ThreadWorkspace() {
+  const std::size_t thread = static_cast<std::size_t>(ThreadIndex());
+  LL_CHECK_LT(thread, workspaces_.size());
+  if (!workspaces_[thread]) {
+    workspaces_[thread] = std::make_unique<Workspace>(scene_, plan_, run_, options_);
+  }
+  return *workspaces_[thread];
+}
+
+TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
+  TilePixels(task.rect, scene_.view.film.width, &space.pixels);
+  TileWork work;
+  work.pixels = space.pixels.data();
+  work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
+  work.first_sample = task.first_sample;
+  work.samples = task.samples;
+  work.together = SamplesTogether(scene_, plan_);
+  Wave& wave = space.wavefront.wave();
+  wave.rays_closest = wave.rays_shadow = 0;
+  wave.health = {};
+  return work;
+}
+
+SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
+  const bool splits = plan_.features.Has(Feature::kSplitting);
+  const std::uint32_t rows = work.num_pixels * work.samples * (splits ? kMostCopies : 1);
+  const std::size_t size =
+      std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
+  if (out.values.size() < size) out.values.resize(size);
+  // A sample that has not split leaves the rows of its further copies alone.
+  if (splits) std::fill_n(out.values.begin(), size, 0.0f);
+  return {out.values.data(), rows};
+}
+
+bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out) {
+  Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
+  const TileWork work = SetUp(task, space);
+  const SampleBuffer buffer = Buffer(work, out);
+  if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
+  const bool ended =
+      Drive(space.wavefront.wave(), plan_, {work, buffer}, clock, &watcher);
+  out.count = ended ? task.samples : 0;
+  if (ended) {
+    const std::uint32_t stride = work.num_pixels * work.samples;
+    if (space.reuse) space.reuse->Connect(task.rect, space.wavefront.wave(), clock);
+    const Wave& wave = space.wavefront.wave();
+    out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
+    if (plan_.features.Has(Feature::kSplitting)) {
+      FoldCopies(out.values.data(), buffer.stride, run_.planes);
+      if (clock) clock->FinishPart(TaskPart::kCopies, stride);
+    }
+    if (seen_lights_) SeeLights(task, out, space);
+  }
+  if (clock) clock->EndTask();
+  return ended;
+}
+
+void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
+                           Workspace& space) const {
+  const SeenLightTask seen = {task.tile,         space.pixels,
+                              task.first_sample, task.samples,
+                              out.values.data(), space.pixels.size() * task.samples};
+  StageClock* const clock = space.Clock();
+  seen_lights_->Find(task.tile, task.rect, *space.seen_lights, clock);
+  const bool corrected =
+      seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
+  if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
+}
+
+void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {
+  // Row length behind the indices of the film's pixels.
+  const int width = options_.windows.empty()
+                        ? scene_.view.film.width
+                        : place.width() * static_cast<int>(options_.windows.size());
+  Workspace& space = ThreadWorkspace();
+  StageClock* const clock = space.Clock();
+  if (clock) clock->StartTask();
+  TilePixels(place, width, &space.pixels);
+  films.Add({place, space.pixels, width, samples.values.data(), samples.count});
+  if (!clock) return;
+  clock->FinishPart(TaskPart::kFilm, space.pixels.size() * samples.count);
+  clock->EndTask();
+}
+
+void TaskRunner::AddCounts(RunResult& result) {
+  for (const auto& space : workspaces_) {
+    if (!space) continue;
+    lanelight::AddCounts(space->wavefront, space->Clock(), plan_.options.target.lanes(),
+                         result);
+  }
+}
+
+}  // namespace lanelight

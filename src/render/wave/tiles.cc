@@ -1,0 +1,124 @@
+#include "src/render/wave/tiles.h"
+
+#include <algorithm>
+
+namespace lanelight {
+
+namespace {
+
+constexpr std::uint64_t kSamplesOfTask = 8192;
+constexpr int kBlock = 4;
+constexpr int kLargestTile = 64;
+// Tiles of a part: with as many, parts of uneven scenes differ by a few percent.
+constexpr std::size_t kTilesPerPart = 64;
+
+// The bits of v, with a zero before each.
+std::uint64_t Spread(int v) {
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 32; ++i) bits |= std::uint64_t(v >> i & 1) << (2 * i);
+  return bits;
+}
+
+std::uint64_t AlongZ(const PixelRect& tile) {
+  return Spread(tile.x0) | Spread(tile.y0) << 1;
+}
+
+TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int most_side) {
+  TilePartition partition;
+  partition.samples = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(spp, 1, 32));
+  partition.side = 16;
+  while (partition.side < most_side &&
+         std::uint64_t(partition.side) * partition.side * 4 * partition.samples <=
+             kSamplesOfTask) {
+    partition.side *= 2;
+  }
+  partition.tiles = TilesOf(pixels, partition.side);
+  // A small window takes longer sample ranges instead of larger tiles.
+  partition.samples =
+      SamplesPerTask(std::min<std::uint64_t>(
+                         pixels.pixels(), std::uint64_t(partition.side) * partition.side),
+                     spp);
+  return partition;
+}
+
+// Cut into smaller ones until there are enough, along the curve.
+std::vector<PixelRect> CutTiles(const std::vector<PixelRect>& tiles, std::size_t wanted,
+                                int least_side) {
+  std::vector<PixelRect> all = tiles;
+  for (int side = kLargestTile; side > least_side && all.size() < wanted;) {
+    side /= 2;
+    all.clear();
+    for (const PixelRect& tile : tiles) {
+      const std::vector<PixelRect> parts = TilesOf(tile, side);
+      all.insert(all.end(), parts.begin(), parts.end());
+    }
+  }
+  std::sort(all.begin(), all.end(),
+            [](const PixelRect& a, const PixelRect& b) { return AlongZ(a) < AlongZ(b); });
+  return all;
+}
+
+}  // namespace
+
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
+  return Partition(pixels, spp, kLargestTile);
+}
+
+TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
+                            const Strategy& strategy) {
+  return Partition(pixels, spp, strategy.MayReuse() ? kReuseTile : kLargestTile);
+}
+
+std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {
+  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+      kSamplesOfTask / pixels, 1, std::max<std::uint64_t>(spp, 1)));
+}
+
+std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
+  std::vector<PixelRect> tiles;
+  for (int y = window.y0 / side * side; y < window.y1; y += side) {
+    for (int x = window.x0 / side * side; x < window.x1; x += side) {
+      tiles.push_back({std::max(x, window.x0), std::max(y, window.y0),
+                       std::min(x + side, window.x1), std::min(y + side, window.y1)});
+    }
+  }
+  return tiles;
+}
+
+std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
+                                              const std::vector<int>& threads,
+                                              int least_side) {
+  // Whose turn it is: each rank as often as it has threads.
+  std::vector<std::size_t> turns;
+  const int most = *std::max_element(threads.begin(), threads.end());
+  for (int t = 0; t < most; ++t) {
+    for (std::size_t r = 0; r < threads.size(); ++r) {
+      if (t < threads[r]) turns.push_back(r);
+    }
+  }
+  std::vector<std::vector<PixelRect>> parts(threads.size());
+  const std::size_t wanted = parts.size() > 1 ? kTilesPerPart * parts.size() : 0;
+  const std::vector<PixelRect> all = CutTiles(tiles, wanted, least_side);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    parts[turns[i % turns.size()]].push_back(all[i]);
+  }
+  return parts;
+}
+
+void TilePixels(const PixelRect& tile, int image_width,
+                std::vector<std::uint32_t>* pixels) {
+  pixels->clear();
+  for (int by = tile.y0; by < tile.y1; by += kBlock) {
+    for (int bx = tile.x0; bx < tile.x1; bx += kBlock) {
+      for (int y = by; y < std::min(by + kBlock, tile.y1); ++y) {
+        for (int x = bx; x < std::min(bx + kBlock, tile.x1); ++x) {
+          pixels->push_back(static_cast<std::uint32_t>(y) *
+                                static_cast<std::uint32_t>(image_width) +
+                            static_cast<std::uint32_t>(x));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace lanelight

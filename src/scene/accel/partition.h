@@ -1,0 +1,92 @@
+// Sorting items to the two sides of a split.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "src/scene/accel/builder.h"
+#include "src/base/core/parallel.h"
+
+namespace lanelight {
+
+/// Ranges of at least twice as many items are worked on in parts of this size by several
+/// threads.
+inline constexpr std::uint32_t kPart = 16384;
+
+/// Moves the items for which `is_first` is true to the front; returns how many they are.
+/// Which items stand on the wrong side is listed block by block from both ends without a
+/// branch that depends on them, then they are exchanged (Edelkamp and Weiss 2016).
+template <class IsFirst>
+std::uint32_t PartitionPart(BuildItem* items, std::uint32_t count, IsFirst&& is_first) {
+  constexpr std::uint32_t kBlock = 32;
+  std::uint8_t low[kBlock], high[kBlock];  // places of such items in their blocks
+  std::uint32_t num_low = 0, num_high = 0, at_low = 0, at_high = 0;
+  std::uint32_t begin = 0, end = count;
+  while (end - begin > 2 * kBlock) {
+    if (num_low == 0) {
+      at_low = 0;
+      for (std::uint32_t i = 0; i < kBlock; ++i) {
+        low[num_low] = static_cast<std::uint8_t>(i);
+        num_low += !is_first(items[begin + i]);
+      }
+    }
+    if (num_high == 0) {
+      at_high = 0;
+      for (std::uint32_t i = 0; i < kBlock; ++i) {
+        high[num_high] = static_cast<std::uint8_t>(i);
+        num_high += is_first(items[end - 1 - i]);
+      }
+    }
+    const std::uint32_t n = std::min(num_low, num_high);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      std::swap(items[begin + low[at_low + i]], items[end - 1 - high[at_high + i]]);
+    }
+    num_low -= n, at_low += n;
+    num_high -= n, at_high += n;
+    if (num_low == 0) begin += kBlock;
+    if (num_high == 0) end -= kBlock;
+  }
+  const auto* middle = std::partition(items + begin, items + end, is_first);
+  return static_cast<std::uint32_t>(middle - items);
+}
+
+/// The same by several threads, with a result that does not depend on their number: parts
+/// by themselves, then what is left on the wrong side is exchanged.
+template <class IsFirst>
+std::uint32_t PartitionItems(BuildItem* items, std::uint32_t count, IsFirst&& is_first) {
+  if (count < 2 * kPart) return PartitionPart(items, count, is_first);
+  std::vector<std::uint32_t> firsts((count + kPart - 1) / kPart);
+  const auto begin_of = [](std::size_t part) {
+    return static_cast<std::uint32_t>(part) * kPart;
+  };
+  ParallelFor(firsts.size(), [&](std::size_t i) {
+    const std::uint32_t begin = begin_of(i);
+    firsts[i] = PartitionPart(items + begin, std::min(kPart, count - begin), is_first);
+  });
+  std::uint32_t middle = 0;
+  for (const std::uint32_t n : firsts) middle += n;
+  // Runs [begin, end) of items on the wrong side; both sides have as many.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> below, above;
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    const std::uint32_t begin = begin_of(i), split = begin + firsts[i];
+    const std::uint32_t end = std::min(count, begin + kPart);
+    if (split < std::min(end, middle)) below.emplace_back(split, std::min(end, middle));
+    const std::uint32_t from = std::max(begin, middle);
+    if (from < split) above.emplace_back(from, split);
+  }
+  for (std::size_t l = 0, r = 0; l < below.size();) {
+    auto& [a, a_end] = below[l];
+    auto& [b, b_end] = above[r];
+    const std::uint32_t n = std::min(a_end - a, b_end - b);
+    std::swap_ranges(items + a, items + a + n, items + b);
+    a += n;
+    b += n;
+    l += a == a_end;
+    r += b == b_end;
+  }
+  return middle;
+}
+
+}  // namespace lanelight

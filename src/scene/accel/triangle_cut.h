@@ -1,0 +1,57 @@
+// Boxes of the parts of a triangle between two planes across an axis.
+#pragma once
+
+#include <utility>
+
+#include "src/scene/accel/wide_box.h"
+#include "src/scene/geometry/geometry.h"
+
+namespace lanelight {
+
+/// A triangle with its corners in ascending order along an axis.
+class SortedTriangle {
+ public:
+  SortedTriangle(const TriangleRecord& triangle, int axis) : axis_(axis) {
+    // The fourth number is the next corner's first, or the material, and unused.
+    for (int k = 0; k < 3; ++k) p_[k] = Load4(triangle.p[k]);
+    if (p_[1][axis] < p_[0][axis]) std::swap(p_[0], p_[1]);
+    if (p_[2][axis] < p_[1][axis]) std::swap(p_[1], p_[2]);
+    if (p_[1][axis] < p_[0][axis]) std::swap(p_[0], p_[1]);
+  }
+
+  /// Corners `k` in [0, 3).
+  Float4 corner(int k) const { return p_[k]; }
+
+  /// Box of what lies at coordinate `x` of the axis, up to rounding: empty beyond the
+  /// corners, the corner itself at the first and the last.
+  WideBox Section(float x) const {
+    WideBox box;
+    if (x < p_[0][axis_] || x > p_[2][axis_]) return box;
+    box.Extend(Point(0, 2, x));
+    box.Extend(x < p_[1][axis_] ? Point(0, 1, x) : Point(1, 2, x));
+    return box;
+  }
+
+ private:
+  Float4 Point(int a, int b, float x) const {
+    const float length = p_[b][axis_] - p_[a][axis_];
+    const float t = length > 0 ? (x - p_[a][axis_]) / length : 0.0f;
+    return p_[a] + t * (p_[b] - p_[a]);
+  }
+
+  Float4 p_[3];
+  int axis_;
+};
+
+struct CutBoxes {
+  AccelBox left, right;  // inverted if there is nothing on that side
+};
+
+bool IsEmpty(const AccelBox& box);
+
+/// Boxes of the parts of `triangle` in `box` on both sides of the plane where coordinate
+/// `axis` is `x`, rounded outwards: every point of the triangle in `box` lies in one.
+CutBoxes CutTriangle(const TriangleRecord& triangle, const AccelBox& box, int axis,
+                     float x);
+
+}  // namespace lanelight

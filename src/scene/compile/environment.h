@@ -1,0 +1,23 @@
+// Environment images as the kernels look them up and sample them.
+#pragma once
+
+#include "src/base/image/image.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/description/description.h"
+
+namespace lanelight {
+
+/// Reads the image of an infinite light and compiles it. Throws InputError at the light's
+/// place: a missing or unreadable file, an image that is not square, values that are not
+/// finite, a transform that is not a rotation (or mirroring) and uniform scale. Negative
+/// values count as zero, and go to `notes` unless that is null.
+Environment CompileEnvironment(const Light& light, std::vector<Note>* notes);
+
+/// The same for an image in memory. Its table is empty if the image is black.
+Environment CompileEnvironment(const Light& light, const Image& image,
+                               std::vector<Note>* notes = nullptr);
+
+/// Mean radiance over the sphere.
+Rgb MeanRadiance(const Environment& environment);
+
+}  // namespace lanelight

@@ -1,0 +1,41 @@
+// Which part of a scene float32 is to resolve best: what the camera sees up close.
+//
+// A coordinate is rounded in proportion to its distance from the frame's origin, and what
+// is far from the camera looks small. So where sizes span more than kFocusRange, the
+// frame's origin is put among what is near the camera, and spheres that are far larger
+// than the camera's distance to them are compiled in a form that is exact where the
+// camera stands (LargeSphereRecord in src/scene/geometry/geometry.h).
+#pragma once
+
+#include <vector>
+
+#include "src/scene/compile/placement.h"
+
+namespace lanelight {
+
+/// Ratios of distances, as seen from the camera, up to which a scene is compiled about
+/// the centre of its box, with all spheres in the ordinary form.
+inline constexpr double kFocusRange = 64;
+
+/// The point of the sphere that is nearest to `eye`, and how far off that is.
+struct Foot {
+  Vec3d point;
+  double distance = 0;
+};
+Foot FootOn(Vec3d center, double radius, Vec3d eye);
+
+/// Needs `eye`. Moves the spheres to be compiled as LargeSphereRecords from `spheres` to
+/// `large_spheres`: those whose surface is nearer to the eye than radius / kFocusRange.
+/// Emitting ones stay, since light samples on them need the ordinary form.
+void SeparateLargeSpheres(Placement& placement);
+
+/// What users are told of emitting spheres that would be large: from a radius of
+/// kMostEmitterRange times the camera's distance on, their surface is off by more than
+/// 1 % of that distance. Appends to `notes`; needs `eye`.
+inline constexpr double kMostEmitterRange = 4e4;
+void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
+
+/// The frame of the scene; needs `eye` and `bounds`.
+Frame FocusFrame(const Placement& placement);
+
+}  // namespace lanelight

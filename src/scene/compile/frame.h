@@ -1,0 +1,51 @@
+// The frame that compiled coordinates are written in: recentred, and scaled by a power of
+// two, so that float32 resolves the scene equally well whatever its units and wherever it
+// lies. Everything up to the last rounding happens in double precision.
+#pragma once
+
+#include <limits>
+
+#include "src/base/core/transform.h"
+#include "src/base/core/vec.h"
+
+namespace lanelight {
+
+inline Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
+
+/// Axis-aligned box in double precision; empty until a finite point is added.
+struct Box {
+  Vec3d min = Splat(std::numeric_limits<double>::infinity());
+  Vec3d max = Splat(-std::numeric_limits<double>::infinity());
+
+  bool empty() const { return !(min.x <= max.x); }
+  /// Points that are not finite are ignored.
+  void Add(Vec3d p);
+  void Add(const Box& other);
+  /// The box of this box's corners after the transform.
+  Box Transformed(const Transform& transform) const;
+  Vec3d Center() const { return min * 0.5 + max * 0.5; }
+  double HalfDiagonal() const;
+
+ private:
+  static Vec3d Splat(double v) { return {v, v, v}; }
+};
+
+/// p_frame = (p - center) * scale.
+struct Frame {
+  Vec3d center;
+  double scale = 1;  // power of two
+
+  Vec3d Point(Vec3d p) const { return (p - center) * scale; }
+  /// frame_from_local, given the transform of local to unframed coordinates. Subtracts
+  /// the centre from the translation first: a tiny mesh placed by a large translation
+  /// keeps all the digits it has in its own coordinates.
+  Transform After(const Transform& transform) const;
+  /// The transform from frame to unframed coordinates.
+  Transform Inverse() const;
+};
+
+/// Centre of the box, and the power of two that brings its half diagonal into [1, 2).
+/// An empty box gives the identity, a single point a scale of 1.
+Frame FrameOf(const Box& box);
+
+}  // namespace lanelight

@@ -1,0 +1,15 @@
+// Textures that depend on where a point is, rather than on its surface coordinates.
+#pragma once
+
+#include "src/scene/compiled/texture_table.h"
+
+namespace lanelight {
+
+/// Whether this texture itself, operands aside, depends on the place or the normal.
+bool UsesPlace(const Texture& texture);
+
+/// Sets what the kernels need of mappings and patterns; nothing where !UsesPlace.
+void SetPlace(const Texture& texture, const Transform& world_from_scene,
+              TextureNode& node);
+
+}  // namespace lanelight

@@ -1,0 +1,70 @@
+// Camera and pixel filter as the kernels read them.
+#pragma once
+
+#include <cstdint>
+
+#include "src/base/core/aligned.h"
+#include "src/base/core/vec.h"
+#include "src/scene/geometry/motion.h"
+#include "src/scene/description/description.h"
+
+namespace lanelight {
+
+/// Surface of a lens system, or the aperture stop (radius 0). Lengths are in millimetres
+/// along the axis from the film at 0 towards the scene.
+struct LensSurface {
+  float z;          // where it meets the axis
+  float radius;     // its centre lies at z + radius
+  float eta_ratio;  // of the indices of refraction: towards the film / towards the scene
+  float aperture;   // half the diameter
+};
+
+/// A lens system (Kolb, Mitchell and Hanrahan 1995). Rays leave the film through a
+/// rectangle of the plane of its rear surface that bounds the exit pupil, for a film
+/// point at a distance r along the x axis: of ring floor(r * rings_per_mm).
+struct LensSystem {
+  struct Pupil {
+    float x0, x1, y0, y1;  // x1 <= x0: no light comes through
+  };
+  AlignedVector<LensSurface> surfaces;  // from the film on
+  AlignedVector<Pupil> pupils;
+  float rings_per_mm = 0;
+  float rear = 0;                  // z of the plane
+  float scene_from_mm = 1;         // scene lengths per millimetre
+  std::int32_t aperture_size = 0;  // of the square picture of the aperture; 0: a circle
+  AlignedVector<float> aperture;   // transmitted share, row by row
+};
+
+struct CompiledCamera {
+  CameraKind kind = CameraKind::kPerspective;
+  SphericalMapping mapping = SphericalMapping::kEqualArea;
+  // Camera-space direction (perspective) or origin (orthographic) of film position
+  // (x, y) in pixels: base + x * dx + y * dy, in camera space, perspective: z = 1.
+  // Spherical: the point of the map's square instead. Realistic: the point of the film,
+  // in millimetres.
+  Vec3f base, dx, dy;
+  float lens_radius = 0, focal_distance = 1;  // scene units
+  LensSystem lenses;                          // realistic
+  // Camera to scene: rotation columns (unit or scaled axes) and origin. Of one that moves
+  // where the shutter opens; `motion` takes the scene as it is seen from there to the
+  // scene as it is seen later.
+  Vec3f right, up, forward, origin;
+  bool moves = false;
+  MotionRecord motion = {};
+  // Time of a path, from 0 to 1, for a number u from 0 to 1: first + u * rate, no less
+  // than 0 and no more than 1.
+  float time_first = 0, time_rate = 1;
+};
+
+/// Separable filter, sampled by inverting a piecewise-linear CDF per axis. Weight of a
+/// sample: sign_x * sign_y * weight (positive filters: 1).
+struct CompiledFilter {
+  static constexpr int kSize = 64;
+  float x_radius = 0.5f, y_radius = 0.5f;
+  bool is_box = true;                   // then the tables are unused
+  AlignedVector<float> x_cdf, y_cdf;    // kSize + 1 entries each, of |f|
+  AlignedVector<float> x_sign, y_sign;  // kSize entries, +-1
+  float weight = 1;                     // integral |f| / integral f over both axes
+};
+
+}  // namespace lanelight

@@ -1,0 +1,38 @@
+// What paths that carry wavelengths look up, by bins of wavelengths.
+//
+// A path carries three wavelengths in its columns for colours, a long one where red would
+// be, a middle one and a short one: bins 2 N + i, N + i and i of one triple i
+// (src/base/image/wavelengths.h). Radiance is in units of the illuminant D65, so that
+// light of the colour (1, 1, 1) is 1 at all wavelengths, and all that is grey is as it
+// would be in RGB. The film turns the three into linear sRGB
+// (kernels/texture/wavelengths-inl.h).
+#pragma once
+
+#include <cstdint>
+
+#include "src/base/core/aligned.h"
+
+namespace lanelight {
+
+/// What a colour by path is, in the columns of spectra of materials.
+enum class PathColor : std::int32_t {
+  kReflectance = -1,
+  kUnbounded = -2,        // an index of refraction, say
+  kMetalExtinction = -3,  // k of a metal that is given by its reflectance, whose index is
+                          // color0 of the material
+  kScaledReflectance = -4,  // times color_scale of the material, 1 at most
+};
+
+struct SpectrumTable {
+  AlignedVector<float> rows;     // kWavelengthBins each
+  AlignedVector<float> indices;  // of refraction, at the edges of bins: kWavelengthEdges
+  AlignedVector<float> film[3];  // what 1 in a bin adds to red, green and blue
+  AlignedVector<float>
+      place;  // of bins: argument of sigmoids (src/base/image/upsampling.h)
+  // Of colours that come by path; else empty: PolynomialThrough(), row by row, and
+  // UpsamplingTable().
+  AlignedVector<float> polynomial, sigmoids;
+  float per_half_tangent = 0;  // 1 / HalfTangentOfGrey(1 - kLeastUpsampled)
+};
+
+}  // namespace lanelight

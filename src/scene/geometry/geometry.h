@@ -1,0 +1,169 @@
+// Shapes as the kernels read them: float32 records in scene space, recentred and scaled
+// by a power of two (p_scene = (p_world - center) * scale).
+//
+// Per-primitive data are fixed-size records, because a shading kernel gathers many words
+// of one primitive: a record is one or two cache lines, while one array per word would
+// touch a line per word.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/base/core/aligned.h"
+#include "src/base/core/vec.h"
+#include "src/scene/geometry/motion.h"
+
+namespace lanelight {
+
+// A primitive id counts triangles first, then spheres, disks, planes, large spheres,
+// curves.
+struct PrimitiveRanges {
+  // The first id of each, and the end.
+  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, curves = 0,
+                end = 0;
+};
+
+/// Triangle record: 12 words. Wound so that cross(p1-p0, p2-p0) is the surface normal
+/// (ReverseOrientation and mirroring transforms are already applied; uv and normals are
+/// permuted alike). Triangles of object definitions are in object space.
+struct TriangleRecord {
+  float p[3][3];
+  std::uint32_t material;
+  std::int32_t light;   // index into LightTable::lights, -1 = not emitting
+  std::uint32_t flags;  // kAlphaTested, kMeshNormals, kTurnedTangents
+};
+static_assert(sizeof(TriangleRecord) == 48);
+inline constexpr std::uint32_t kAlphaTested = 1;
+/// The file gives normals of the mesh: bumps then have other axes (kernels/surface/
+/// bumps.cc).
+inline constexpr std::uint32_t kMeshNormals = 2;
+
+/// Its mesh has TriangleMesh::turns_tangents.
+inline constexpr std::uint32_t kTurnedTangents = 4;
+
+/// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
+struct SphereRecord {
+  float center[3];
+  float radius;
+  std::uint32_t material;
+  std::int32_t light;
+  std::uint32_t flags;
+  float normal_sign;
+  float x_axis[3],
+      z_axis[3];  // object axes in scene space, unit, for uv; y = cross(z, x)*
+  float y_sign;   // *times y_sign (mirrored transforms)
+  std::uint32_t pad;
+};
+static_assert(sizeof(SphereRecord) == 64);
+
+/// Disk record: 16 words.
+struct DiskRecord {
+  float center[3];
+  float radius;
+  float normal[3];  // unit, on the emitting side
+  float inner_radius;
+  float u_axis[3];  // unit, object x; v axis = v_sign * cross(normal, u_axis)
+  std::uint32_t material;
+  std::int32_t light;
+  std::uint32_t flags;
+  float v_sign;
+  std::uint32_t pad;
+};
+static_assert(sizeof(DiskRecord) == 64);
+
+/// Infinite plane record: 16 words. uv = (dot(p - point, u_axis), dot(p - point,
+/// v_axis)), axes scaled so that uv are object-space x and y.
+struct PlaneRecord {
+  float point[3];
+  std::uint32_t material;
+  float normal[3];
+  std::int32_t light;  // always -1: an infinite plane cannot emit
+  float u_axis[3];
+  std::uint32_t flags;
+  float v_axis[3];
+  std::uint32_t pad;
+};
+static_assert(sizeof(PlaneRecord) == 64);
+
+/// Sphere that is much larger than its distance from the camera: 20 words. The points q,
+/// relative to `point` on the sphere, with curvature |q|^2 + 2 q . normal = 0: a form
+/// that is exact about `point`, however large the radius. `normal` points away from the
+/// centre; the others are as in SphereRecord.
+struct LargeSphereRecord {
+  float point[3];
+  std::uint32_t material;
+  float normal[3];
+  float curvature;  // 1 / radius
+  float x_axis[3];
+  float normal_sign;
+  float z_axis[3];
+  float y_sign;
+  std::int32_t light;  // always -1
+  std::uint32_t flags;
+  std::uint32_t pad[2];
+};
+static_assert(sizeof(LargeSphereRecord) == 80);
+
+/// Cubic Bezier curve: 16 words. Emits nothing.
+struct CurveRecord {
+  float p[4][3];
+  float width[2];  // at both ends, not negative
+  std::uint32_t material;
+  std::uint32_t type;  // CurveType
+};
+static_assert(sizeof(CurveRecord) == 64);
+
+/// Of a ribbon: its unit normals at both ends, and the angle between them with 1 / its
+/// sine; an angle of 0 says that they are alike. Zeros for other curves.
+struct RibbonRecord {
+  float normal[2][3];
+  float angle, inverse_sine;
+};
+static_assert(sizeof(RibbonRecord) == 32);
+
+/// Space in which a curve is met: that of its object, whose axes the scene stretches or
+/// mirrors. 3x3 maps of directions, row by row, with determinants of 1 or -1; identities
+/// for curves whose transform keeps shapes. Widths and ribbon normals are in this space.
+struct CurveSpace {
+  float object_from_scene[9];
+  float scene_from_object[9];
+  float pad[2];
+};
+static_assert(sizeof(CurveSpace) == 80);
+
+/// Instance record: 24 words, row-major 3x4 affine maps.
+struct InstanceRecord {
+  float object_from_scene[12];
+  float scene_from_object[12];
+};
+
+struct Geometry {
+  PrimitiveRanges ranges;
+  AlignedVector<TriangleRecord> triangles;
+  AlignedVector<float>
+      normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
+                // Unit; triangles without normals hold their face normal.
+  bool turned_tangents = false;  // some triangles are kTurnedTangents
+  AlignedVector<float> uvs;      // 6 per triangle; empty where nobody asks for them
+  AlignedVector<SphereRecord> spheres;
+  AlignedVector<DiskRecord> disks;
+  AlignedVector<PlaneRecord> planes;
+  AlignedVector<LargeSphereRecord> large_spheres;
+  AlignedVector<CurveRecord> curves;
+  AlignedVector<RibbonRecord> ribbons;     // one for each curve; empty without ribbons
+  AlignedVector<CurveSpace> curve_spaces;  // one for each; empty if all are identities
+  AlignedVector<InstanceRecord> instances;
+  /// Of the first instances, which move; what `instances` has of them is where the
+  /// shutter opens. Empty where none moves.
+  AlignedVector<MotionRecord> motions;
+  /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
+  /// empty), the others are object definitions.
+  struct TriangleGroup {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<TriangleGroup> groups;
+  std::vector<std::uint32_t> instance_group;  // group of each instance
+  Vec3f bounds_min, bounds_max;               // of everything finite, scene space
+};
+
+}  // namespace lanelight

@@ -1,0 +1,39 @@
+// Bilinear patches: surfaces between four points that need not lie in a plane.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "src/scene/description/description.h"
+
+namespace lanelight {
+
+/// How far the triangles of a patch are from it at most, in units of its size (the
+/// longest distance of a corner from the first).
+inline constexpr double kPatchTolerance = 1e-4;
+
+/// How far interpolated normals are from those of the patch, over the longest.
+inline constexpr double kNormalTolerance = 1e-3;
+
+/// Corners in pbrt's order: (u, v) = (0, 0), (1, 0), (0, 1), (1, 1).
+struct BilinearPatch {
+  std::array<Vec3d, 4> p;
+  std::optional<std::array<Vec3d, 4>> n;  // to shade with; else those of the surface
+  std::array<std::array<double, 2>, 4> uv = {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+
+  Vec3d Point(double u, double v) const;
+  /// Along the cross product of the derivatives by u and v; zero where that is.
+  Vec3d Normal(double u, double v) const;
+};
+
+/// Squares along each side of the patch that keep its triangles within kPatchTolerance,
+/// and its normals within kNormalTolerance.
+int PatchSteps(const BilinearPatch& patch);
+
+/// Appends the patch to the mesh: two triangles if it is flat, its outline does not cross
+/// itself and its normals are those of two triangles, else a grid whose vertices have the
+/// patch's points, normals and surface coordinates. Meshes with some curved patches have
+/// zero normals at flat ones, which leaves their faces' own (src/scene/compile/mesh.h).
+void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh);
+
+}  // namespace lanelight

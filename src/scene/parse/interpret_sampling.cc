@@ -1,0 +1,115 @@
+// Sampler, integrator and accelerator.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "src/scene/parse/interpret.h"
+#include "src/base/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+constexpr int kMostSamples = std::numeric_limits<int>::max();
+
+// Names, and their parameters that have no effect here.
+using Ignored = std::vector<std::pair<const char*, std::vector<const char*>>>;
+
+const Ignored kIntegrators = {
+    {"path", {}},
+    {"volpath", {}},
+    {"simplepath", {"samplebsdf", "samplelights"}},
+    {"simplevolpath", {}},
+    {"ambientocclusion", {"cossample", "maxdistance"}},
+    {"bdpt", {"lightsampler", "visualizestrategies", "visualizeweights"}},
+    {"function", {"function", "skipbad", "imagefilename"}},
+    {"lightpath", {}},
+    {"mlt",
+     {"bootstrapsamples", "chains", "largestepprobability", "mutationsperpixel",
+      "sigma"}},
+    {"randomwalk", {}},
+    {"sppm", {"iterations", "photonsperiteration", "radius", "seed"}}};
+
+const Ignored kAccelerators = {
+    {"bvh", {"maxnodeprims", "splitmethod"}},
+    {"kdtree", {"intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth"}}};
+
+}  // namespace
+
+void InterpretSampler(ParseState& state, const std::string& type, ParamSet& params) {
+  static constexpr std::pair<const char*, Points> kSamplers[] = {
+      {"zsobol", Points::kSobol},         {"independent", Points::kIndependent},
+      {"paddedsobol", Points::kSobol},    {"sobol", Points::kSobol},
+      {"halton", Points::kHalton},        {"pmj02bn", Points::kPmj02},
+      {"stratified", Points::kStratified}};
+  const Points points = Lookup(kSamplers, type, params.where(), "sampler");
+  Sampler sampler = state.scene.sampler;
+  if (type == "stratified") {
+    constexpr int kMostStrata = 32768;
+    sampler.spp = params.Integer("xsamples", 4, {1, kMostStrata}) *
+                  params.Integer("ysamples", 4, {1, kMostStrata});
+    params.Ignore("jitter", "strata are always jittered");
+  } else {
+    sampler.spp = params.Integer("pixelsamples", 16, {1, kMostSamples});
+  }
+  const int seed = params.Integer("seed", -1, {0, std::numeric_limits<int>::max()});
+  if (seed >= 0) sampler.seed = static_cast<std::uint64_t>(seed);
+  if (type != "independent" && type != "stratified") {
+    params.Ignore("randomization", "the points are always randomised");
+  }
+  params.CheckAllUsed();
+  state.scene.sampler = sampler;
+  state.scene.strategy.points = points;
+}
+
+// pbrt's choice of lights; where the file does not say, the strategy's default stays.
+static void InterpretLightSampler(ParseState& state, ParamSet& params) {
+  static constexpr std::pair<const char*, LightSelection> kSelections[] = {
+      {"bvh", LightSelection::kTree},
+      {"exhaustive", LightSelection::kTree},
+      {"power", LightSelection::kPower},
+      {"uniform", LightSelection::kUniform}};
+  const std::string name = params.String("lightsampler", "");
+  if (name.empty()) return;
+  state.scene.strategy.light_selection =
+      Lookup(kSelections, name, params.where(), "light sampler");
+  if (name == "exhaustive") {
+    state.AddNote(params.where(), "light sampler \"exhaustive\" is replaced by a tree");
+  }
+}
+
+void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& params) {
+  const auto& ignored = Lookup(kIntegrators, type, params.where(), "integrator");
+  const bool ours = type == "path" || type == "volpath";
+  if (!ours) {
+    state.AddNote(params.where(),
+                  fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
+                  type == "ambientocclusion" || type == "function");
+  }
+  state.scene.integrator.max_depth = params.Integer("maxdepth", 5, {0, 1000000});
+  if (ours) {
+    InterpretLightSampler(state, params);
+    state.scene.integrator.strategy = params.String("strategy", "");
+    state.scene.integrator.strategy_where = params.where();
+    if (params.Find("transport", {ParamType::kString}) != nullptr) {
+      state.scene.integrator.transport = params.Choice<Transport>(
+          "transport", {{"rgb", Transport::kRgb}, {"spectral", Transport::kSpectral}});
+    }
+  }
+  const bool regularizes = type == "bdpt" || type == "mlt" || type == "sppm";
+  if (ours || regularizes) {
+    state.scene.integrator.regularize = params.Bool("regularize", false);
+  }
+  for (const char* name : ignored) {
+    params.Ignore(name, "the path integrator here does not have it");
+  }
+  params.CheckAllUsed();
+}
+
+void InterpretAccelerator(const std::string& type, ParamSet& params) {
+  for (const char* name : Lookup(kAccelerators, type, params.where(), "accelerator")) {
+    params.Ignore(name, "there is one kind of tree");
+  }
+  params.CheckAllUsed();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,88 @@
+// Material "subsurface": a dielectric with a medium in it, in which paths walk at random.
+// pbrt-v4 has a profile instead, tabulated by photon beam diffusion (Habel, Christensen
+// and Jarosz 2013).
+#include <algorithm>
+
+#include "src/scene/parse/interpret.h"
+#include "src/scene/parse/scattering_presets.h"
+
+namespace lanelight {
+namespace {
+
+// Only one of the ways to say what is inside may be taken.
+void Exclude(ParamSet& params, const Param* given, const char* name,
+             const std::vector<const char*>& others) {
+  for (const char* other : others) {
+    if (given == nullptr || params.Find(other, {}) == nullptr) continue;
+    params.Fail(*given, fmt::format("\"{}\" and \"{}\" exclude each other", name, other));
+  }
+}
+
+void ReadNamed(ParamSet& params, const Param& name, Medium* inside) {
+  Exclude(params, &name, "name", {"sigma_a", "sigma_s", "reflectance", "mfp"});
+  const Coefficients& found =
+      CoefficientsOf(name.strings.at(0), name.where, "named medium of a material:");
+  inside->sigma_a = found.sigma_a, inside->sigma_s = found.sigma_s;
+  if (inside->g == 0) return;
+  inside->g = 0;
+  params.Ignore("g", "the coefficients of a name are those for g = 0");
+}
+
+void ReadByReflectance(ParseState& state, ParamSet& params, Medium* inside) {
+  const Param* given = params.Find("reflectance", {});
+  Exclude(params, given, "reflectance", {"sigma_a", "sigma_s"});
+  inside->by_reflectance = true;
+  inside->reflectance =
+      TexturedColor(state, params, "reflectance", {1, 1, 1}, SpectrumUse::kAlbedo);
+  const Rgb mfp = PlainColor(state, params, "mfp", {1, 1, 1}, SpectrumUse::kUnbounded);
+  const Param* mfp_given = params.Find("mfp", {});
+  if (std::min({mfp.x, mfp.y, mfp.z}) <= 0 && mfp_given != nullptr) {
+    params.Fail(*mfp_given, "a mean free path of 0 or less; it must be positive");
+  }
+  inside->sigma_a = {};
+  inside->sigma_s = {1 / mfp.x, 1 / mfp.y, 1 / mfp.z};
+}
+
+// What is not given is that of whole milk. pbrt-v4 takes both coefficients or none.
+void ReadOwnCoefficients(ParseState& state, ParamSet& params, Medium* inside) {
+  const Coefficients& milk = CoefficientsOf("Wholemilk", params.where(), "");
+  const auto read = [&](const char* name, Rgb absent) {
+    return PlainColor(state, params, name, absent, SpectrumUse::kUnbounded);
+  };
+  inside->sigma_a = read("sigma_a", milk.sigma_a);
+  inside->sigma_s = read("sigma_s", milk.sigma_s);
+  params.Ignore("mfp", "it goes with \"reflectance\"");
+}
+
+}  // namespace
+
+Index InterpretInside(ParseState& state, ParamSet& params, double eta) {
+  Medium inside;
+  inside.name = "subsurface";
+  inside.where = params.where();
+  inside.in_material = true;
+  inside.eta = eta;
+  inside.g = params.Float("g", 0, {-0.9999, 0.9999});
+  for (const char* name : {"sigma_a", "sigma_s", "mfp"}) {
+    const Param* texture = params.Find(name, {});
+    if (texture == nullptr || texture->type != ParamType::kTexture) continue;
+    params.Fail(*texture, fmt::format("a texture of \"{}\" is not supported: the medium "
+                                      "in a material is the same everywhere, but for "
+                                      "its \"reflectance\"",
+                                      name));
+  }
+  double scale = params.Float("scale", 1, {1e-12, 1e12});
+  if (const Param* name = params.Find("name", {ParamType::kString})) {
+    ReadNamed(params, *name, &inside);
+  } else if (params.Find("reflectance", {}) != nullptr) {
+    ReadByReflectance(state, params, &inside);
+    scale = 1 / scale;  // of the mean free path
+  } else {
+    ReadOwnCoefficients(state, params, &inside);
+  }
+  inside.sigma_a *= scale, inside.sigma_s *= scale;
+  state.scene.media.push_back(std::move(inside));
+  return static_cast<Index>(state.scene.media.size()) - 1;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,130 @@
+#include <filesystem>
+
+#include "src/base/core/gunzip.h"
+#include "src/base/core/input_file.h"
+#include "src/scene/parse/interpret.h"
+#include "src/base/core/suggest.h"
+
+namespace lanelight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kDeepestInclude = 64;
+// Of all files, included again counted again: a chain of files that each include the next
+// twice would not end. Each file counts some bytes more than it has.
+constexpr std::size_t kGiB = std::size_t{1} << 30;
+constexpr std::size_t kMaxBytes = 4 * kGiB, kBytesPerFile = 256;
+// Files up to this size are kept, until all that are kept have so many bytes.
+constexpr std::size_t kMaxKeptFile = 1 << 16, kMaxKept = kGiB / 4;
+
+bool Exists(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+}  // namespace
+
+void ParseState::Unsupported(const SourceLocation& where, const std::string& message) {
+  if (!options.skip_unsupported) {
+    throw InputError(where, message + " (--skip-unsupported goes on without it)");
+  }
+  AddNote(where, "skipped: " + message, true);
+}
+
+std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
+                          std::string_view kind) {
+  const auto refusal = [&](const std::string& why) {
+    return InputError(where,
+                      fmt::format("cannot read {} {}: {}", kind, Quoted(path), why));
+  };
+  std::string content;
+  try {
+    content = ReadWholeFile(path);
+    if (IsGzip(path, content)) {
+      content = Gunzip(content, MaxUnpackedSize(content.size()));
+    }
+  } catch (const Unreadable& problem) {
+    throw refusal(problem.reason());
+  } catch (const InputError& problem) {
+    throw refusal(problem.message());
+  }
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff")) {
+    throw refusal("it is UTF-16; save it as UTF-8");
+  }
+  return content;
+}
+
+std::string ResolvePath(const ParseState& state, const std::string& name) {
+  const fs::path main = fs::path(state.open_files.front()->directory) / name;
+  if (!state.options.allow_files) return main.string();
+  const fs::path local = fs::path(state.open_files.back()->directory) / name;
+  const fs::path& found = !Exists(main) && Exists(local) ? local : main;
+  if (state.options.files != nullptr) state.options.files->insert(found.string());
+  return found.string();
+}
+
+NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name) {
+  const Param* param = params.Find(name, {ParamType::kString});
+  const std::string file = params.String(name, "");
+  if (param == nullptr) return {};
+  if (file.empty()) params.Fail(*param, "the file name is empty");
+  return {param, ResolvePath(state, file)};
+}
+
+std::string ReadSceneFile(const ParseState& state, const std::string& path,
+                          const SourceLocation& where, std::string_view kind) {
+  if (!state.options.allow_files) {
+    throw InputError(where, fmt::format("found {} {}, but files may not be read here",
+                                        kind, Quoted(path)));
+  }
+  return ReadWholeFile(path, where, kind);
+}
+
+namespace {
+
+SourceFilePtr OpenSource(ParseState& state, const std::string& path,
+                         const SourceLocation& where) {
+  const auto kept = state.kept_files.find(path);
+  if (kept != state.kept_files.end()) return kept->second;
+  std::error_code ignored;
+  auto file = std::make_shared<const SourceFile>(SourceFile{
+      fs::weakly_canonical(path, ignored).string(), fs::path(path).parent_path().string(),
+      std::make_shared<const std::string>(path),
+      ReadSceneFile(state, path, where, "the scene file")});
+  const std::size_t size = file->text.size();
+  if (size <= kMaxKeptFile && state.bytes_kept + size <= kMaxKept) {
+    state.bytes_kept += size;
+    state.kept_files.emplace(path, file);
+  }
+  return file;
+}
+
+}  // namespace
+
+void RunFile(ParseState& state, const std::string& path, const SourceLocation& where) {
+  const SourceFilePtr source = OpenSource(state, path, where);
+  for (const SourceFilePtr& file : state.open_files) {
+    if (!source->identity.empty() && file->identity == source->identity) {
+      throw InputError(where,
+                       fmt::format("{} is included from within itself", Quoted(path)));
+    }
+  }
+  if (state.open_files.size() >= kDeepestInclude) {
+    throw InputError(
+        where, fmt::format("files are included more than {} deep", kDeepestInclude));
+  }
+  state.bytes_run += source->text.size() + kBytesPerFile;
+  if (state.bytes_run > kMaxBytes) {
+    throw InputError(where,
+                     fmt::format("all included files together have more than {} GiB; a "
+                                 "file that is included again counts again",
+                                 kMaxBytes / kGiB));
+  }
+  state.open_files.push_back(source);
+  RunDirectives(state);
+  // ResolvePath needs the main file's directory to the end, so the last entry stays.
+  if (state.open_files.size() > 1) state.open_files.pop_back();
+}
+
+}  // namespace lanelight

@@ -1,0 +1,32 @@
+// The neighbours of each vertex of a mesh, in order around it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/scene/description/description.h"
+
+namespace lanelight {
+
+class VertexRings {
+ public:
+  /// Keeps a reference to the mesh, whose edges have no problem (FindEdges).
+  explicit VertexRings(const TriangleMesh& mesh);
+
+  /// In the direction in which the faces run; on a boundary from one end to the other.
+  /// Empty for a vertex of no face.
+  std::vector<std::uint32_t> Around(std::uint32_t vertex) const;
+
+  /// Which vertex joins more than one fan of faces, in words; "" if none does.
+  std::string problem() const;
+
+ private:
+  using Link = std::pair<std::uint32_t, std::uint32_t>;  // next and previous corner
+
+  // The faces of vertex i give links_[first_[i]] to links_[first_[i + 1] - 1].
+  std::vector<std::size_t> first_;
+  std::vector<Link> links_;
+};
+
+}  // namespace lanelight

@@ -1,0 +1,204 @@
+#include "src/scene/prepare/path_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/stat/relative_error.h"
+#include "src/base/core/check.h"
+
+namespace lanelight {
+namespace {
+
+// Side of a coarse cell in cells.
+constexpr std::int32_t kCoarse = 4;
+// Records of the coarser cell that count as much as the finer cell's own.
+constexpr double kBorrowed = 8;
+// Of the mean of all cells, what a cell is worth at least: a short pilot pass may have
+// missed what lights it.
+constexpr double kLeastValue = 0.1;
+
+CellGrid Coarser(const CellGrid& fine) {
+  CellGrid coarse;
+  for (int a = 0; a < 3; ++a) coarse.size[a] = (fine.size[a] + kCoarse - 1) / kCoarse;
+  return coarse;
+}
+
+// Calls body(cell, coarse cell) for all cells, in their order.
+template <class Body>
+void ForCells(const CellGrid& fine, const CellGrid& coarse, const Body& body) {
+  std::uint32_t cell = 0;
+  for (std::int32_t z = 0; z < fine.size[2]; ++z) {
+    for (std::int32_t y = 0; y < fine.size[1]; ++y) {
+      const std::int32_t row =
+          coarse.size[0] * (y / kCoarse + coarse.size[1] * (z / kCoarse));
+      for (std::int32_t x = 0; x < fine.size[0]; ++x) {
+        const auto around = static_cast<std::uint32_t>(row + x / kCoarse) * 6;
+        for (std::uint32_t face = 0; face < 6; ++face) body(cell++, around + face);
+      }
+    }
+  }
+}
+
+struct CellMeans {
+  double value = 0, square = 0, cost = 1;
+  bool known = false;
+};
+
+CellMeans Blend(const CellSums& s, const CellMeans& prior) {
+  if (s.count == 0) return prior;
+  const double borrowed = prior.known ? kBorrowed : 0;
+  const auto mean = [&](double sum, double before) {
+    return (sum + borrowed * before) / (s.count + borrowed);
+  };
+  return {mean(s.value, prior.value), mean(s.square, prior.square),
+          mean(s.cost, prior.cost), true};
+}
+
+}  // namespace
+
+CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
+  // Surfaces cross about six times as many cells as a side of the grid has; a dozen
+  // records tell something of a cell.
+  constexpr double kRecords = 12, kLongest = 48;
+  const double side =
+      std::clamp(std::sqrt(double(vertices) / (6 * kRecords)), 1.0, kLongest);
+  const float lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
+  float longest = 0;
+  for (int a = 0; a < 3; ++a) longest = std::max(longest, highs[a] - lows[a]);
+  CellGrid grid;
+  if (!(longest > 0) || !std::isfinite(longest)) return grid;
+  for (int a = 0; a < 3; ++a) {
+    const double share = double(highs[a] - lows[a]) / longest;
+    grid.low[a] = lows[a];
+    grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(share * side)));
+    grid.per_unit[a] = static_cast<float>(side / longest);
+  }
+  return grid;
+}
+
+CellRecords::Sums CellRecords::Sorted() const {
+  Sums sorted = sums_;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return sorted;
+}
+
+void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values) {
+  const CellGrid& fine = values.grid;
+  LL_CHECK_EQ(records.cells(), fine.cells());
+  const CellGrid coarse = Coarser(fine);
+  const CellRecords::Sums sums = records.Sorted();
+  std::vector<CellSums> coarse_sums(coarse.cells());
+  CellSums all;
+  auto next = sums.begin();
+  ForCells(fine, coarse, [&](std::uint32_t cell, std::uint32_t around) {
+    if (next == sums.end() || next->first != cell) return;
+    coarse_sums[around].Add(next->second);
+    all.Add(next->second);
+    ++next;
+  });
+  const auto survival = [efficiency](const CellMeans& m) {
+    return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
+  };
+  const double least = kLeastValue * survival(Blend(all, {}));
+  values.survive.assign(fine.cells(), -1.0f);
+  if (efficiency) values.split.assign(fine.cells(), 0.0f);
+  next = sums.begin();
+  ForCells(fine, coarse, [&](std::uint32_t cell, std::uint32_t around) {
+    CellMeans m = Blend(coarse_sums[around], {});
+    if (next != sums.end() && next->first == cell) m = Blend((next++)->second, m);
+    if (!m.known) return;
+    values.survive[cell] = static_cast<float>(std::max(survival(m), least));
+    if (!efficiency) return;
+    const double variance = std::max(0.0, m.square - m.value * m.value);
+    values.split[cell] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));
+  });
+}
+
+ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
+                       std::span<const std::uint32_t> pixels,
+                       std::span<const Vec3f> samples)
+    : width_(width),
+      height_(height),
+      columns_((width + kTile - 1) / kTile),
+      rows_((height + kTile - 1) / kTile) {
+  const std::size_t per_pixel = samples.size() / pixels.size();
+  LL_CHECK_EQ(per_pixel * pixels.size(), samples.size());
+  for (const Vec3f& v : samples) {
+    const float color[3] = {v.x, v.y, v.z};
+    for (int c = 0; c < 3; ++c) {
+      mean_[c] += std::max(color[c], 0.0f) / static_cast<double>(samples.size());
+    }
+  }
+  std::vector<Sum> sums(std::size_t{columns_} * rows_);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::uint32_t pixel = pixels[i / per_pixel];
+    Sum& sum =
+        sums[std::size_t{pixel / width_ / kTile} * columns_ + pixel % width_ / kTile];
+    const float color[3] = {samples[i].x, samples[i].y, samples[i].z};
+    for (int c = 0; c < 3; ++c) {
+      sum.color[c] += std::clamp<double>(color[c], 0, kClamp * mean_[c]);
+    }
+    sum.count += 1;
+  }
+  epsilon_ = std::min(kRelativeEpsilon, Mean() * Mean() / 4);
+  Blur(sums);
+}
+
+void ImageGuess::Sum::Add(const Sum& other, double weight) {
+  for (int c = 0; c < 3; ++c) color[c] += weight * other.color[c];
+  count += weight * other.count;
+}
+
+void ImageGuess::Blur(const std::vector<Sum>& sums) {
+  const int columns = static_cast<int>(columns_), rows = static_cast<int>(rows_);
+  tiles_.resize(sums.size());
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      Sum sum;
+      for (int v = std::max(y - 1, 0); v <= std::min(y + 1, rows - 1); ++v) {
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, columns - 1); ++u) {
+          sum.Add(sums[static_cast<std::size_t>(v * columns + u)],
+                  (2 - std::abs(u - x)) * (2 - std::abs(v - y)));
+        }
+      }
+      Sum& tile = tiles_[static_cast<std::size_t>(y * columns + x)];
+      for (int c = 0; c < 3; ++c) {
+        tile.color[c] = sum.count > 0 ? sum.color[c] / sum.count : mean_[c];
+      }
+    }
+  }
+}
+
+float ImageGuess::Channel(int c) const {
+  // A channel that is black, or nearly, weighs what one of a hundredth of the mean would.
+  return static_cast<float>(black() ? 1.0 / 3
+                                    : Mean() / 3 / std::max(mean_[c], 0.01 * Mean()));
+}
+
+double ImageGuess::ErrorWeight(std::uint32_t pixel, int c) const {
+  const double color = Tile(pixel).color[c];
+  return black() ? 0 : 1 / (color * color + epsilon_);
+}
+
+double ImageGuess::Brightness(std::uint32_t pixel) const {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += double{Channel(c)} * Tile(pixel).color[c];
+  return sum;
+}
+
+AlignedVector<float> ImageGuess::Inverse(bool faithful) const {
+  const double epsilon = faithful ? Mean() * Mean() / 400 : epsilon_;
+  AlignedVector<float> inverse(std::size_t{width_} * height_ * 3);
+  for (std::uint32_t i = 0; i < width_ * height_ && !black(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const double color = Tile(i).color[c];
+      const double weight = 1 / std::sqrt(3 * (color * color + epsilon));
+      inverse[std::size_t{i} * 3 + static_cast<std::size_t>(c)] =
+          static_cast<float>(weight / (3 * double{Channel(c)}));
+    }
+  }
+  return inverse;
+}
+
+}  // namespace lanelight

@@ -1,0 +1,110 @@
+#include "src/scene/prepare/prepared_scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "src/scene/compile/environment_table.h"
+#include "src/base/core/alias_table.h"
+#include "src/scene/prepare/light_bounds.h"
+#include "src/scene/prepare/light_tree.h"
+
+namespace lanelight {
+namespace {
+
+bool IsHittable(const CompiledScene& scene, const LightRecord& light) {
+  return !IsUnseen(scene, light) &&
+         !HasTrait(static_cast<LightShape>(light.shape), kDeltaLight);
+}
+
+// Relative probabilities; zero for lights that the strategy leaves to scattered rays.
+std::vector<double> SelectionWeights(const Strategy& strategy,
+                                     const CompiledScene& scene) {
+  const LightTable& table = scene.lights;
+  std::vector<double> weights(table.lights.size(), 0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (IsHittable(scene, table.lights[i]) && !strategy.SamplesHittableLights()) continue;
+    weights[i] =
+        strategy.light_selection == LightSelection::kUniform ? 1.0 : table.power[i];
+  }
+  return weights;
+}
+
+bool ScattersEvenly(const MediumTable& table) {
+  return std::any_of(table.media.begin(), table.media.end(),
+                     [](const MediumRecord& m) { return m.grid < 0 && m.scatters != 0; });
+}
+
+LightAnchor AnchorOf(const Geometry& geometry, const LightRecord& light) {
+  constexpr float kNowhere = std::numeric_limits<float>::infinity();
+  if (!HasPlace(light)) return {{kNowhere, kNowhere, kNowhere}, 0};
+  const Vec3d p = BoundsOf(geometry, light).Center();
+  return {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}, 0};
+}
+
+void SetAnchors(const CompiledScene& scene, LightChances& chances) {
+  AliasTable table = BuildAliasTable(scene.lights.power);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    chances.anchors.push_back(AnchorOf(scene.geometry, scene.lights.lights[i]));
+    chances.anchors.back().keep = table.q[i];
+  }
+  chances.anchor_alias = std::move(table.alias);
+}
+
+}  // namespace
+
+bool HasAnchors(const Strategy& strategy, const CompiledScene& scene) {
+  const auto& lights = scene.lights.lights;
+  return strategy.distances == Distances::kEquiangular && ScattersEvenly(scene.media) &&
+         std::any_of(lights.begin(), lights.end(), HasPlace);
+}
+
+bool CompensatesEnvironment(const Strategy& strategy) {
+  return strategy.environment == EnvironmentPoints::kCompensated &&
+         strategy.directions == Directions::kMis;
+}
+
+LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strategy) {
+  LightChances chances;
+  for (const Environment& environment : scene.lights.environments) {
+    chances.environments.push_back(CompensatesEnvironment(strategy)
+                                       ? MakeEnvironmentTable(true, environment)
+                                       : environment.table);
+  }
+  if (HasAnchors(strategy, scene)) SetAnchors(scene, chances);
+  const std::vector<double> weights = SelectionWeights(strategy, scene);
+  chances.pmf.resize(weights.size());
+  if (std::none_of(weights.begin(), weights.end(), [](double w) { return w > 0; })) {
+    return chances;
+  }
+  if (strategy.light_selection == LightSelection::kTree && weights.size() > 1) {
+    chances.tree = BuildLightTree(scene.geometry, scene.lights.lights, weights);
+    for (const std::uint32_t far : chances.tree.far) {
+      chances.pmf[far] = chances.tree.pmf_far;
+    }
+  } else {
+    AliasTable table = BuildAliasTable(weights);
+    chances.pmf = std::move(table.probability);
+    chances.alias_q = std::move(table.q);
+    chances.alias = std::move(table.alias);
+  }
+  return chances;
+}
+
+PreparedScene WithStrategy(PreparedScene scene, const Strategy& strategy) {
+  scene.strategy = strategy;
+  scene.chances =
+      std::make_shared<const LightChances>(MakeLightChances(*scene.compiled, strategy));
+  return scene;
+}
+
+PreparedScene PrepareScene(const SceneDescription& description,
+                           const CompileOptions& options) {
+  PreparedScene scene;
+  scene.compiled =
+      std::make_shared<const CompiledScene>(CompileScene(description, options));
+  scene.view = scene.compiled->view;
+  return WithStrategy(std::move(scene), description.strategy);
+}
+
+}  // namespace lanelight

@@ -1,0 +1,19 @@
+// Tables that some strategies need, built once per render and read by kernels.
+#pragma once
+
+#include "src/base/core/aligned.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/shadow_worth.h"
+
+namespace lanelight {
+
+struct StrategyTables {
+  PathValues path_values;    // adjoint, efficiency: set by the pilot passes
+  ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a pilot pass
+};
+
+/// What the strategy of the scene needs, and nothing else.
+StrategyTables MakeStrategyTables(const PreparedScene& scene);
+
+}  // namespace lanelight

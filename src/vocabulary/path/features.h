@@ -1,0 +1,208 @@
+// One bit for everything a scene or a render option may need. Fields, stages and kernel
+// variants name the bits they need; the plan drops the rest.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <string>
+
+#include "src/vocabulary/path/shade_kinds.h"
+#include "src/vocabulary/strategy/choices.h"
+
+namespace lanelight {
+
+// Features of scenes and options. X(bit name, what it means when set)
+#define LANELIGHT_COMMON_FEATURES(X)                                         \
+  X(kTriangles, "triangle meshes")                                           \
+  X(kSpheres, "spheres")                                                     \
+  X(kDisks, "disks")                                                         \
+  X(kPlanes, "infinite planes")                                              \
+  X(kLargeSpheres, "spheres much larger than the camera's distance to them") \
+  X(kCurves, "curves")                                                       \
+  X(kInstances, "object instances")                                          \
+  X(kMotion, "shapes that move while the shutter is open")                   \
+  X(kMovingInstances, "object instances that move")                          \
+  X(kMovingCamera, "a camera that moves")                                    \
+  X(kVertexNormals, "interpolated vertex normals")                           \
+  X(kUv, "textures that need surface coordinates")                           \
+  X(kTangents, "anisotropic materials, which need tangents")                 \
+  X(kTextures, "textured material parameters")                               \
+  X(kTexturedRoughness, "textured roughness")                                \
+  X(kTexturedColor1, "a textured second colour parameter")                   \
+  X(kTexturedCoat, "textured layers of a coat")                              \
+  X(kTexturedCoatMedium, "a textured medium in a coat")                      \
+  X(kTexturePlaces, "textures that depend on where a point is")              \
+  X(kTextureFootprints, "textures filtered over the footprint of a pixel")   \
+  X(kBumps, "displacement textures, shaded as bumps")                        \
+  X(kNormalMaps, "normal maps")                                              \
+  X(kSpectral, "paths that carry wavelengths (transport=spectral)")          \
+  X(kPlainSpectra, "colours by wavelength, none of them textured")           \
+  X(kSpectralColor1, "a second colour parameter by wavelength")              \
+  X(kDispersion, "glass whose index depends on the wavelength")              \
+  X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material") \
+  X(kRegularizes, "surfaces that are rougher behind a rough bounce")         \
+  X(kAlpha, "alpha cut-outs")                                                \
+  X(kMix, "mix materials")                                                   \
+  X(kRefraction, "a refracting interface, whose eta roulette must know")     \
+  X(kOtherEvents, "events beside surfaces, such as points in a medium")      \
+  X(kMedia, "participating media")                                           \
+  X(kMediumGrids, "media whose density varies")                              \
+  X(kMediumEmission, "media that emit light")                                \
+  X(kMediumChanges, "surfaces that have media beside them")                  \
+  X(kInterfaces, "surfaces that only bound a medium")                        \
+  X(kSubsurface, "insides of materials, in which events are not counted")    \
+  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")    \
+  X(kOpaqueShadows, "shadow rays that any surface stops")                    \
+  X(kLights, "light that is sampled")                                        \
+  X(kManyLights, "more than one light")                                      \
+  X(kTriangleLights, "emitting triangles")                                   \
+  X(kRectangleLights, "emitting rectangles (two triangles each)")            \
+  X(kSphereLights, "emitting spheres")                                       \
+  X(kDiskLights, "emitting disks")                                           \
+  X(kPointLights, "point lights")                                            \
+  X(kSpotLights, "spot lights")                                              \
+  X(kDistantLights, "distant lights")                                        \
+  X(kImageLights, "point lights with an image of their directions")          \
+  X(kEmissionImages, "emitting shapes with an image")                        \
+  X(kEmissionCuts, "emitting shapes that alpha cuts")                        \
+  X(kUnseenLights, "emitting shapes that rays pass through")                 \
+  X(kPortals, "an environment seen through a portal")                        \
+  X(kInfiniteConstant, "constant environment")                               \
+  X(kInfiniteImage, "environment image")                                     \
+  X(kAreaLights, "emitting shapes")                                          \
+  X(kInfiniteLights, "an environment")                                       \
+  X(kMis, "light that BSDF sampling can hit (multiple importance sampling)") \
+  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")        \
+  X(kPerspective, "a perspective camera")                                    \
+  X(kOrthographic, "an orthographic camera")                                 \
+  X(kSphericalCamera, "a spherical camera")                                  \
+  X(kRealisticCamera, "a camera with a lens system")                         \
+  X(kLens, "a thin lens")                                                    \
+  X(kFiltered, "a pixel filter other than the box")                          \
+  X(kSignedFilter, "a pixel filter with negative lobes")                     \
+  X(kAov, "auxiliary output (--aov)")                                        \
+  X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")        \
+  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")          \
+  X(kSampledHittableLights, "light samples of shapes and environments")      \
+  X(kLightTable, "light-selection=power or uniform")                         \
+  X(kLightTree, "light-selection=tree")                                      \
+  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")       \
+  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")           \
+  X(kPathValues, "values of paths, from a training pass")                    \
+  X(kRecordsPaths, "a training pass that records what paths find")           \
+  X(kSolidAngleLights, "light-points=solid-angle")                           \
+  X(kProjectedLights, "light-points=projected")                              \
+  X(kProjectedHits, "light-points=projected, and hits weighed against it")   \
+  X(kLightCandidates, "further candidates for each light sample")            \
+  X(kReuse, "paths that serve the pixels of their block (reuse=block)")      \
+  X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
+  X(kDecides, "a strategy chosen by a pilot")                                \
+  X(kRecordsUnsplit, "a training pass that records what single paths bring")
+
+// Choices of strategies that have a stage or kernel of their own, and kinds of materials.
+#define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)
+#define LANELIGHT_OWN_FEATURE_PLAIN(name, meaning)
+#define LANELIGHT_DIRECTIONS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Directions, "directions=" text)
+#define LANELIGHT_POINTS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Points, "points=" text)
+#define LANELIGHT_PAIRS_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Pairs, "pairs=" text)
+#define LANELIGHT_CONTROL_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Control, "control=" text)
+#define LANELIGHT_ROULETTE_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Roulette, "roulette=" text)
+#define LANELIGHT_SHADOW_ROULETTE_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##ShadowRoulette, "shadow-roulette=" text)
+#define LANELIGHT_DISTANCES_FEATURE(name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Distances, "distances=" text)
+#define LANELIGHT_SHADE_FEATURE(name, traits, meaning) X(k##name, meaning)
+
+// X(bit name, meaning), by that name: the lists that this one is made of ask for it.
+#define LANELIGHT_FEATURES(X)                                   \
+  LANELIGHT_COMMON_FEATURES(X)                                  \
+  LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_FEATURE)                \
+  LANELIGHT_DIRECTIONS(LANELIGHT_DIRECTIONS_FEATURE)            \
+  LANELIGHT_POINTS(LANELIGHT_POINTS_FEATURE)                    \
+  LANELIGHT_PAIRS(LANELIGHT_PAIRS_FEATURE)                      \
+  LANELIGHT_CONTROLS(LANELIGHT_CONTROL_FEATURE)                 \
+  LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)               \
+  LANELIGHT_SHADOW_ROULETTES(LANELIGHT_SHADOW_ROULETTE_FEATURE) \
+  LANELIGHT_DISTANCES(LANELIGHT_DISTANCES_FEATURE)
+
+enum class Feature : std::uint8_t {
+#define X(name, meaning) name,
+  LANELIGHT_FEATURES(X)
+#undef X
+      kCount
+};
+
+class FeatureSet {
+ public:
+  constexpr FeatureSet() = default;
+  constexpr FeatureSet(std::initializer_list<Feature> features) {
+    for (Feature f : features) Add(f);
+  }
+  static constexpr FeatureSet All() {
+    FeatureSet all;
+    all.low_ = all.high_ = ~std::uint64_t{0};
+    return all;
+  }
+  constexpr void Add(Feature f) { Word(f) |= Bit(f); }
+  constexpr void Add(const FeatureSet& o) { low_ |= o.low_, high_ |= o.high_; }
+  constexpr void Remove(Feature f) { Word(f) &= ~Bit(f); }
+  constexpr void Remove(const FeatureSet& o) { low_ &= ~o.low_, high_ &= ~o.high_; }
+  constexpr bool Has(Feature f) const {
+    return ((static_cast<int>(f) < 64 ? low_ : high_) & Bit(f)) != 0;
+  }
+  constexpr bool HasAll(FeatureSet o) const {
+    return (o.low_ & ~low_) == 0 && (o.high_ & ~high_) == 0;
+  }
+  constexpr bool HasAny(FeatureSet o) const {
+    return (o.low_ & low_) != 0 || (o.high_ & high_) != 0;
+  }
+  constexpr bool empty() const { return low_ == 0 && high_ == 0; }
+  friend constexpr bool operator==(const FeatureSet&, const FeatureSet&) = default;
+
+ private:
+  static constexpr std::uint64_t Bit(Feature f) {
+    return std::uint64_t{1} << (static_cast<int>(f) % 64);
+  }
+  constexpr std::uint64_t& Word(Feature f) {
+    return static_cast<int>(f) < 64 ? low_ : high_;
+  }
+  std::uint64_t low_ = 0, high_ = 0;
+};
+static_assert(static_cast<int>(Feature::kCount) <= 128);
+
+/// The feature that says that a scene has a kind of material.
+constexpr Feature ShadeFeature(ShadeKind kind) {
+  constexpr Feature kFeatures[] = {
+#define X(name, traits, meaning) Feature::k##name,
+      LANELIGHT_SHADE_KINDS(X)
+#undef X
+          Feature::kMix,
+      Feature::kInterfaces};
+  static_assert(std::size(kFeatures) == kNumShadeKinds + 2);
+  return kFeatures[static_cast<int>(kind)];
+}
+
+/// The kinds of materials with a trait.
+constexpr FeatureSet KindsWith(ShadeTraits trait) {
+  FeatureSet features;
+  for (int k = 0; k < kNumShadeKinds; ++k) {
+    const auto kind = static_cast<ShadeKind>(k);
+    if (HasTrait(kind, trait)) features.Add(ShadeFeature(kind));
+  }
+  return features;
+}
+
+/// Identifier without the leading k, e.g. "ConductorRough".
+const char* FeatureName(Feature f);
+/// One-line meaning from the list above.
+const char* FeatureMeaning(Feature f);
+/// What a scene without it lacks, after that meaning: "no thin lens", "not points=sobol".
+std::string WithoutFeature(Feature f);
+
+}  // namespace lanelight

@@ -1,0 +1,95 @@
+// Names and text form of strategies.
+#include "src/vocabulary/strategy/strategy.h"
+
+#include <fmt/format.h>
+
+#include "src/vocabulary/strategy/choice_names.h"
+
+namespace lanelight {
+namespace {
+
+constexpr PresetInfo kPresets[] = {
+    {"paper-plain", "", "the common base: mis, independent points, nothing else"},
+    {"paper-uniform", "directions=uniform", "uniform sampling of directions"},
+    {"paper-importance", "directions=bsdf", "importance sampling of the BSDF"},
+    {"paper-stratified", "points=stratified", "stratified sampling"},
+    {"paper-antithetic", "pairs=antithetic", "antithetic variates"},
+    {"paper-control", "control=regression", "a control variate, fitted to the samples"},
+    {"paper-roulette", "roulette=constant", "Russian roulette"},
+};
+
+std::string RouletteText(const Strategy& s) {
+  std::string text = Name(s.roulette);
+  if (s.roulette == Roulette::kConstant) {
+    text += fmt::format(":{}", s.termination);
+  } else if (s.floor || s.first || s.scale != 1) {
+    text += fmt::format(":{}", s.Floor());
+  }
+  if (s.first || s.scale != 1) text += fmt::format(":{}", s.First());
+  return s.scale != 1 ? text + fmt::format(":{}", s.scale) : text;
+}
+
+std::string LightText(const Strategy& s) {
+  std::string text = fmt::format(",light-points={},light-candidates={}",
+                                 Name(s.light_points), Name(s.light_candidates));
+  if (s.light_candidates == LightCandidates::kResampled) {
+    text += fmt::format(":{}", s.candidates);
+  }
+  text += fmt::format(",environment={},shadow-roulette={}", Name(s.environment),
+                      Name(s.shadow_roulette));
+  return s.shadow_floor ? text + fmt::format(":{}", *s.shadow_floor) : text;
+}
+
+std::string ReuseText(const Strategy& s) {
+  if (s.reuse == Reuse::kNone) return Name(s.reuse);
+  return fmt::format("{}:{}:{}", Name(s.reuse), s.reused_paths, Name(s.block_layout));
+}
+
+}  // namespace
+
+std::string ToText(const Strategy& s) {
+  std::string text = fmt::format("directions={}", Name(s.directions));
+  if (s.directions == Directions::kMis) {
+    text += fmt::format(":{}", kHeuristicNames[static_cast<int>(s.heuristic)]);
+  }
+  text += fmt::format(",points={},pairs={}", Name(s.points), Name(s.pairs));
+  if (s.pairs == Pairs::kAntithetic) text += fmt::format(":{}", Name(s.paired));
+  text += fmt::format(",control={}", Name(s.control));
+  if (s.control != Control::kNone) {
+    text += s.coefficient ? fmt::format(",c={}", *s.coefficient) : ",c=optimal";
+  }
+  text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
+                      Name(s.light_selection), Name(s.seen_lights));
+  return text + LightText(s) +
+         fmt::format(",distances={},reuse={},decide={}", Name(s.distances), ReuseText(s),
+                     Name(s.decide));
+}
+
+std::span<const ChoiceInfo> AllChoices() {
+  static const std::vector<ChoiceInfo> choices = [] {
+    std::vector<ChoiceInfo> all;
+#define X(enumerator, own, also, name, arguments, meaning, formula, source) \
+  all.push_back({axis, name, arguments, meaning, formula, source});
+#define LANELIGHT_AXIS(Type, member, key, CHOICES) \
+  {                                                \
+    constexpr const char* axis = key;              \
+    CHOICES(X)                                     \
+  }
+    LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+#undef X
+    return all;
+  }();
+  return choices;
+}
+
+std::span<const PresetInfo> AllPresets() { return kPresets; }
+
+#define LANELIGHT_NAME(Type, ...) \
+  const char* Name(Type choice) { return k##Type##Names[static_cast<int>(choice)]; }
+LANELIGHT_AXES(LANELIGHT_NAME)
+LANELIGHT_NAME(BlockLayout)
+LANELIGHT_NAME(Paired)
+#undef LANELIGHT_NAME
+
+}  // namespace lanelight

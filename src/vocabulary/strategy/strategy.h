@@ -1,0 +1,122 @@
+// A strategy: one choice per axis, each orthogonal to the others. The choices and their
+// meaning: choices.h. Text form: `key=value,...`, optionally after the name of a preset.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/base/core/error.h"
+#include "src/vocabulary/strategy/choices.h"
+
+namespace lanelight {
+
+enum class Heuristic : std::uint8_t { kPower, kBalance };
+
+inline constexpr std::uint32_t kMostLightCandidates = 64;
+/// Numbers of paths that reuse=block connects: powers of two.
+/// Side of the tiles, in pixels, whose paths it may connect.
+inline constexpr std::int32_t kReuseTile = 16;
+inline constexpr std::uint32_t kLeastReusedPaths = 2, kMostReusedPaths = 64;
+
+struct Strategy {
+  Directions directions = Directions::kMis;
+  Heuristic heuristic = Heuristic::kPower;  // of kMis
+  Points points = Points::kSobol;
+  Pairs pairs = Pairs::kNone;
+  Paired paired = Paired::kAll;  // of kAntithetic
+  Control control = Control::kNone;
+  /// Coefficient c of f - c (h - E[h]); empty: estimated per pixel (`c=optimal`). The
+  /// paper's equation 7 writes f + c (h - E[h]): its coefficient is minus this one.
+  std::optional<double> coefficient;
+  Roulette roulette = Roulette::kThroughput;
+  // of kConstant: probability of ending, in (0, 1)
+  double termination = kConstantTermination;
+  std::optional<double> floor;         // of kThroughput, kLuminance: least survival
+  std::optional<std::uint32_t> first;  // first scattering event with roulette
+  double scale = 1;                    // of kThroughput: of the throughput
+  LightSelection light_selection = LightSelection::kPower;
+  SeenLights seen_lights = SeenLights::kApart;
+  LightPoints light_points = LightPoints::kArea;
+  LightCandidates light_candidates = LightCandidates::kSingle;
+  std::uint32_t candidates =
+      kDefaultLightCandidates;  // of kResampled: 2 to kMostLightCandidates
+  EnvironmentPoints environment = EnvironmentPoints::kPlain;
+  ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
+  std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
+  Distances distances = Distances::kExponential;
+  Reuse reuse = Reuse::kNone;
+  std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
+  BlockLayout block_layout = BlockLayout::kRandom;   // of kBlock
+  Decide decide = Decide::kNone;
+
+  friend bool operator==(const Strategy&, const Strategy&) = default;
+
+  /// Least survival probability of the roulette on throughput or luminance.
+  double Floor() const {
+    return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
+  }
+  /// Least probability of a shadow ray.
+  double ShadowFloor() const { return shadow_floor.value_or(0.1); }
+  /// First scattering event (from 1) after which roulette is played.
+  std::uint32_t First() const {
+    return first.value_or(roulette == Roulette::kConstant ? 1 : 2);
+  }
+  /// Scattered rays may hit any light and count in full: no light that can be hit is
+  /// sampled. (Lights that nothing can hit always are.)
+  bool SamplesHittableLights() const {
+    return directions == Directions::kLight || directions == Directions::kMis;
+  }
+  bool Splits() const {
+    return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
+  }
+  /// Paths serve their tile, or a pilot may yet decide so: tiles must be the same for any
+  /// number of samples.
+  bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
+};
+
+/// Changes of a strategy, as a text that has been understood; empty: none.
+struct StrategyChanges {
+  std::string text;
+};
+
+/// A preset, which can only come first, sets all keys. Throws InputError at `where` with
+/// the word that is not understood, what would be, and the nearest known name. An empty
+/// text changes nothing.
+StrategyChanges ParseStrategy(std::string_view text, const SourceLocation& where);
+
+/// Changes `strategy` as the text said and leaves the rest.
+void Apply(const StrategyChanges& changes, Strategy& strategy);
+
+/// Both at once.
+void ApplyStrategy(std::string_view text, const SourceLocation& where,
+                   Strategy& strategy);
+
+/// Changes of a strategy one after the other, as one text; either may be empty.
+std::string JoinedChanges(const std::string& first, const std::string& then);
+
+/// Complete text form, which ApplyStrategy reads back: "directions=mis:power,points=...".
+std::string ToText(const Strategy& strategy);
+
+/// One row of `lanelight strategies`.
+struct ChoiceInfo {
+  const char *axis, *name, *arguments, *meaning, *formula, *source;
+};
+/// All choices, grouped by axis.
+std::span<const ChoiceInfo> AllChoices();
+
+struct PresetInfo {
+  const char *name, *changes, *meaning;
+};
+/// The figures of the founding paper: each changes one thing of paper-plain.
+std::span<const PresetInfo> AllPresets();
+
+#define LANELIGHT_AXIS(Type, ...) const char* Name(Type choice);
+LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+const char* Name(BlockLayout choice);
+const char* Name(Paired choice);
+
+}  // namespace lanelight
