@@ -15,5 +15,5 @@
 #include "hwy/base.h"
 #include "src/scene/accel/accel.h"
 #include "src/scene/compiled/scene.h"
-#include "src/vocabulary/path/stage.h"
 #include "src/scene/prepare/tables.h"
+#include "src/vocabulary/path/stage.h"

@@ -9,17 +9,17 @@
 #include <string_view>
 
 #include "kernels/simd/target.h"
-#include "src/cli/commands.h"
-#include "src/cli/completion.h"
-#include "src/cli/console.h"
-#include "src/cli/exit_codes.h"
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/core/error_text.h"
 #include "src/base/core/suggest.h"
 #include "src/base/core/version.h"
-#include "src/render/ranks/ranks.h"
+#include "src/cli/commands.h"
+#include "src/cli/completion.h"
+#include "src/cli/console.h"
+#include "src/cli/exit_codes.h"
 #include "src/render/job/memory.h"
+#include "src/render/ranks/ranks.h"
 
 namespace lanelight {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "src/base/core/error.h"
-#include "src/render/estimate/estimate.h"
 #include "src/measure/study/options.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight::bench {
 Calibration::Calibration(const CalibrateOptions& options)

@@ -5,8 +5,8 @@
 
 #include "bench/calibrate/every_strategy.h"
 #include "bench/calibrate/options.h"
-#include "src/render/films/colors.h"
 #include "src/measure/study/errors.h"
+#include "src/render/films/colors.h"
 
 namespace lanelight::bench {
 namespace {

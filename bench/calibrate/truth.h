@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "src/render/job/job.h"
 #include "src/measure/study/measurement.h"
 #include "src/measure/study/reference.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::bench {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bench/checkpoint/cases.h"
-#include "src/vocabulary/path/sample_planes.h"
 #include "src/render/job/merge.h"
 #include "src/render/job/report.h"
+#include "src/vocabulary/path/sample_planes.h"
 
 namespace lanelight::bench {
 namespace {

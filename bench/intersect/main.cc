@@ -9,9 +9,9 @@
 #include "bench/intersect/options.h"
 #include "bench/intersect/results.h"
 #include "bench/intersect/scene_rays.h"
-#include "tests/support/test_target.h"
 #include "src/base/core/parallel.h"
 #include "src/render/job/machine_json.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::bench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/error.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::bench {
 namespace {

@@ -9,8 +9,8 @@
 //   source      Kolb, Mitchell and Hanrahan 1995; pbrt-v4
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/generate/lenses-inl.h"
 #include "kernels/generate/camera-inl.h"
+#include "kernels/generate/lenses-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

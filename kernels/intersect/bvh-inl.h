@@ -20,8 +20,8 @@
 #include <limits>
 
 #include "kernels/intersect/triangle-inl.h"
-#include "src/scene/accel/accel.h"
 #include "src/base/core/check.h"
+#include "src/scene/accel/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 

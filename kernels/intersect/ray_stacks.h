@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/scene/accel/accel.h"
 #include "src/base/core/untouched.h"
+#include "src/scene/accel/accel.h"
 
 namespace lanelight {
 

@@ -11,8 +11,8 @@
 
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
-#include "kernels/intersect/stream_stacks-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
+#include "kernels/intersect/stream_stacks-inl.h"
 #include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

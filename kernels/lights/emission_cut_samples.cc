@@ -5,8 +5,8 @@
 // rays.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/sampled_points-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/lights/sampled_points-inl.h"
 #include "kernels/texture/texture-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -2,8 +2,8 @@
 // point.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/sampled_points-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/lights/sampled_points-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

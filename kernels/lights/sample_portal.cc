@@ -2,8 +2,8 @@
 // of the map, with density proportional to luminance times solid angle of its texel.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/portal-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/lights/portal-inl.h"
 #include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

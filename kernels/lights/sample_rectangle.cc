@@ -7,8 +7,8 @@
 //   source      Urena, Fajardo and King 2013 (kernels/warp/spherical_rectangle-inl.h)
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/sample_flat-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/lights/sample_flat-inl.h"
 #include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

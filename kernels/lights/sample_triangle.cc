@@ -11,8 +11,8 @@
 //               Arvo 1995 (kernels/warp/spherical_triangle-inl.h)
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/sample_flat-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/lights/sample_flat-inl.h"
 #include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS

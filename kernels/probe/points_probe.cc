@@ -6,9 +6,9 @@
 #include "kernels/points/independent-inl.h"
 #include "kernels/points/lattice-inl.h"
 #include "kernels/points/pmj02-inl.h"
-#include "kernels/probe/points_probe.h"
 #include "kernels/points/sobol-inl.h"
 #include "kernels/points/stratified-inl.h"
+#include "kernels/probe/points_probe.h"
 
 LANELIGHT_BEGIN_KERNELS
 

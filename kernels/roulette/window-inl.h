@@ -20,8 +20,8 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/queue/key-inl.h"
-#include "kernels/simd/rng-inl.h"
 #include "kernels/roulette/cell-inl.h"
+#include "kernels/simd/rng-inl.h"
 #include "src/base/core/check.h"
 #include "src/scene/prepare/tables.h"
 

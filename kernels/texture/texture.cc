@@ -6,8 +6,8 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
-#include "src/scene/compiled/scene.h"
 #include "src/base/core/check.h"
+#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

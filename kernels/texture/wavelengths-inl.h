@@ -5,9 +5,9 @@
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/texture/cube-inl.h"
-#include "src/scene/compiled/spectra.h"
 #include "src/base/image/upsampling.h"
 #include "src/base/image/wavelengths.h"
+#include "src/scene/compiled/spectra.h"
 #include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS

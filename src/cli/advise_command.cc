@@ -3,6 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "src/base/core/json_text.h"
+#include "src/base/core/text_layout.h"
+#include "src/base/stat/values.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
@@ -12,13 +15,10 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/validators.h"
-#include "src/base/core/json_text.h"
-#include "src/base/core/text_layout.h"
-#include "src/render/job/machine_json.h"
-#include "src/render/job/report.h"
-#include "src/base/stat/values.h"
 #include "src/measure/advise/advise.h"
 #include "src/measure/advise/candidates.h"
+#include "src/render/job/machine_json.h"
+#include "src/render/job/report.h"
 
 namespace lanelight {
 namespace {
@@ -38,7 +38,7 @@ std::string SkippedText(const Advice& advice) {
   }
   if (skipped.empty()) return "";
   return SummaryRow(
-      "skipped", fmt::format("{}: {}; --pilot {:.2g} would try all", skipped,
+      "skipped", fmt::format("{}: {}; --pilot {:.2g}s would try all", skipped,
                              advice.interrupted ? "the trial was ended before"
                                                 : "the trial's time did not reach them",
                              advice.seconds_to_try));
@@ -97,6 +97,11 @@ int RunAdvise(const AdviseCommandOptions& options) {
   AdviceOptions advise;
   advise.seconds = *options.scene.settings.seconds;
   advise.pilot = options.pilot;
+  if (advise.pilot > advise.seconds) {
+    throw InputError(fmt::format(
+        "--pilot: {} is longer than --time {}, which is for trial and render together",
+        DurationText(advise.pilot), DurationText(advise.seconds)));
+  }
   advise.stop = &interrupt.stop();
   const Advice advice = Advise(job, advise);
   if (options.outputs.targets.exr.empty()) return PrintAdvice(options, advice);

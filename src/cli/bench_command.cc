@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -13,12 +15,10 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/terminal.h"
 #include "src/cli/validators.h"
-#include "src/base/core/json_text.h"
-#include "src/base/core/parallel.h"
-#include "src/render/job/saving.h"
 #include "src/measure/report/page.h"
 #include "src/measure/throughput/bench_scenes.h"
 #include "src/measure/throughput/throughput_table.h"
+#include "src/render/job/saving.h"
 
 namespace lanelight {
 namespace {

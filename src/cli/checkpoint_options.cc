@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
+#include "src/base/core/error.h"
 #include "src/cli/defaults.h"
 #include "src/cli/validators.h"
-#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

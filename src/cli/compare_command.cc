@@ -3,6 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "src/base/core/error.h"
+#include "src/base/core/json_text.h"
+#include "src/base/image/color_channels.h"
+#include "src/base/image/png.h"
 #include "src/cli/commands.h"
 #include "src/cli/compare_text.h"
 #include "src/cli/console.h"
@@ -11,10 +15,6 @@
 #include "src/cli/validators.h"
 #include "src/measure/compare/comparison_page.h"
 #include "src/measure/compare/comparison_sheet.h"
-#include "src/base/core/error.h"
-#include "src/base/core/json_text.h"
-#include "src/base/image/color_channels.h"
-#include "src/base/image/png.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 #include "src/render/job/saving.h"

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "src/cli/terminal.h"
 
 namespace lanelight {
@@ -52,7 +54,8 @@ std::string MeasuresText(const CompareResult& r) {
                                  fmt::join(r.relmse_filtered, ", "))) +
          FactRow("MAE", NumberText(r.mae)) +
          FactRow("MAPE", fmt::format("{:.4g} %", 100 * r.mape)) +
-         FactRow("PSNR", fmt::format("{:.2f} dB", r.psnr)) + ChannelText(r) +
+         FactRow("PSNR", std::isinf(r.psnr) && r.psnr > 0 ? "infinite: no difference"
+                                                        : fmt::format("{:.2f} dB", r.psnr)) + ChannelText(r) +
          FactRow("tile rel. MSE", fmt::format("median {:.3g}, largest {:.3g}",
                                               r.tile_relmse_median, r.tile_relmse_max)) +
          NoiseText(r.z);

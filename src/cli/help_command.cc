@@ -5,12 +5,12 @@
 #include <memory>
 #include <sstream>
 
+#include "src/base/core/suggest.h"
+#include "src/base/core/text_layout.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/terminal.h"
-#include "src/base/core/suggest.h"
-#include "src/base/core/text_layout.h"
 
 namespace lanelight {
 namespace {

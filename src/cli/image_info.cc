@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "src/cli/terminal.h"
 #include "src/base/core/json_text.h"
 #include "src/base/image/exr_header.h"
 #include "src/base/image/image.h"
 #include "src/base/stat/values.h"
+#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {

@@ -5,18 +5,18 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/image_info.h"
 #include "src/cli/scene_options.h"
-#include "src/base/core/json_text.h"
-#include "src/base/core/parallel.h"
-#include "src/scene/parse/format.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/report.h"
+#include "src/scene/parse/format.h"
 
 namespace lanelight {
 namespace {

@@ -2,15 +2,15 @@
 #include <memory>
 #include <optional>
 
+#include "src/base/core/error.h"
+#include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
-#include "src/base/core/error.h"
-#include "src/base/core/json_text.h"
-#include "src/base/core/parallel.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/merge.h"
 #include "src/render/job/render.h"

@@ -3,18 +3,18 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/base/core/json_text.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/summary.h"
 #include "src/cli/terminal.h"
-#include "src/base/core/json_text.h"
-#include "src/scene/prepare/groups.h"
 #include "src/render/job/job.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 #include "src/scene/description/image_changes.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 namespace {

@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "src/cli/commands.h"
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
-#include "src/render/job/saving.h"
+#include "src/cli/commands.h"
 #include "src/measure/report/page_text.h"
+#include "src/render/job/saving.h"
 
 namespace lanelight {
 namespace {

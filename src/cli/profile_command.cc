@@ -2,6 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "src/base/core/json_text.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -12,7 +13,6 @@
 #include "src/cli/render_outputs.h"
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
-#include "src/base/core/json_text.h"
 #include "src/render/job/saving.h"
 #include "src/render/job/trace_json.h"
 

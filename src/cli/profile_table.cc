@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
-#include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 #include "src/base/core/machine_info.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/text_layout.h"
+#include "src/cli/progress.h"
+#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {

@@ -28,8 +28,6 @@ void RedrawLine(const std::string& text);
 std::string CountText(double value);
 /// The same of a count that stands alone.
 std::string TotalText(double value);
-/// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
-std::string DurationText(double seconds);
 
 /// More columns than a description has.
 inline constexpr std::size_t kDescribeAll = 1000;

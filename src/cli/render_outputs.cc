@@ -2,12 +2,12 @@
 
 #include <filesystem>
 
+#include "src/base/core/json_text.h"
 #include "src/cli/console.h"
 #include "src/cli/error_words.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/summary.h"
 #include "src/cli/note_lines.h"
-#include "src/base/core/json_text.h"
+#include "src/cli/summary.h"
 #include "src/scene/description/image_changes.h"
 
 namespace lanelight {
@@ -27,7 +27,9 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   }
   if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
   std::string error = PercentText(report.error);
-  if (report.error.why != kNoLight) error += ", " + ErrorText(report.error);
+  if (report.error.available && report.error.why != kNoLight) {
+    error += ", " + ErrorText(report.error);
+  }
   const std::string limit = r.stop_reason == StopReason::kInterrupted ? "interruption"
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
@@ -38,7 +40,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                         "samples there are; ended after {:.0f} per pixel, {:.0f} times "
                         "what the estimate asks for: {}",
                         spp, kHopeless, error)
-          : fmt::format("error: the target was not reached before the end by {}: {}",
+          : fmt::format("error: the target was not reached before the end by {}; error {}",
                         limit, error));
   return kExitTargetMissed;
 }

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "src/base/core/json_text.h"
+#include "src/base/core/text_layout.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/terminal.h"
-#include "src/base/core/json_text.h"
-#include "src/base/core/text_layout.h"
 #include "src/vocabulary/strategy/strategies_json.h"
 #include "src/vocabulary/strategy/strategy.h"
 

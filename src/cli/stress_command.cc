@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
+#include "src/base/core/json_text.h"
 #include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
@@ -17,12 +18,11 @@
 #include "src/cli/stress_table.h"
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
-#include "src/base/core/json_text.h"
-#include "src/render/job/saving.h"
 #include "src/measure/stress/cases/cases.h"
 #include "src/measure/stress/select.h"
 #include "src/measure/stress/stress_json.h"
 #include "src/measure/stress/suite.h"
+#include "src/render/job/saving.h"
 
 namespace lanelight {
 namespace {

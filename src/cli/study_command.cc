@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "src/base/core/error.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -12,7 +13,6 @@
 #include "src/cli/study_summary.h"
 #include "src/cli/validators.h"
 #include "src/cli/work_progress.h"
-#include "src/base/core/error.h"
 #include "src/measure/study/study.h"
 
 namespace lanelight {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 #include "src/base/core/text_layout.h"
 #include "src/base/stat/values.h"
+#include "src/cli/progress.h"
+#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
-#include "src/cli/error_words.h"
-#include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 #include "src/base/core/machine_info.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/text_layout.h"
+#include "src/cli/error_words.h"
+#include "src/cli/progress.h"
+#include "src/cli/terminal.h"
 #include "src/scene/description/image_changes.h"
 #include "src/vocabulary/strategy/choices_text.h"
 
@@ -67,6 +67,12 @@ std::string SpeedRows(const RunResult& r) {
                                          CountText(rays / SecondsOf(r))));
 }
 
+// A time as `--time` takes it, rounded up.
+std::string TimeArgument(double seconds) {
+  if (seconds < 1) return fmt::format("{:.0f}ms", std::ceil(1e3 * seconds));
+  return fmt::format("{:.0f}", std::ceil(seconds));
+}
+
 // How an image of a smaller error is come by: squared errors fall as 1 / samples.
 std::string NextRow(const RenderReport& report, const Job& job,
                     const std::string& checkpoint) {
@@ -81,7 +87,7 @@ std::string NextRow(const RenderReport& report, const Job& job,
   const double spp = double(r.samples) / double(job.window.pixels());
   const std::string amount =
       job.seconds > 0 || missed
-          ? fmt::format("--time {:.0f}", std::ceil(times * SecondsOf(r)))
+          ? "--time " + TimeArgument(times * SecondsOf(r))
           : fmt::format("--spp {:.0f}", std::ceil(times * spp));
   std::string text = fmt::format("{} takes about {:.2g} times as long: {} ({})",
                                  missed ? "the target" : "half the error", times, amount,

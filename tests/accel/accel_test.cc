@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <set>
 
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/grow.h"
 #include "src/scene/accel/partition.h"
-#include "src/base/core/parallel.h"
 #include "tests/accel/leaves.h"
 #include "tests/support/brute_force.h"
 

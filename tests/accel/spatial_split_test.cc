@@ -8,9 +8,9 @@
 #include <map>
 #include <vector>
 
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/cut_plan.h"
 #include "src/scene/accel/grow.h"
-#include "src/base/core/parallel.h"
 #include "tests/accel/leaves.h"
 #include "tests/accel/sticks.h"
 #include "tests/intersect/trace.h"

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/scene/compile/spectrum_rows.h"
 #include "src/base/image/wavelengths.h"
+#include "src/scene/compile/spectrum_rows.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -1,8 +1,8 @@
 // Auxiliary output of the first hit, and the light of unoccluded shadow rays.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

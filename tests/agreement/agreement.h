@@ -3,11 +3,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "tests/reference/compare.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/texture.h"
 #include "tests/run/render_fixture.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 

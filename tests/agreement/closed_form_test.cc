@@ -1,8 +1,8 @@
 // The wavefront against the closed forms of tests/reference/closed_forms.h.
 #include <catch2/catch.hpp>
 
-#include "tests/reference/closed_forms.h"
 #include "tests/agreement/agreement.h"
+#include "tests/reference/closed_forms.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "src/render/plan/plan.h"
-#include "tests/surface/relief_files.h"
 #include "tests/agreement/agreement.h"
+#include "tests/surface/relief_files.h"
 
 namespace lanelight::test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "src/scene/prepare/groups.h"
 #include "src/render/run/run.h"
+#include "src/scene/prepare/groups.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {

@@ -3,10 +3,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/cli/exit_codes.h"
-#include "src/render/job/report.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
+#include "src/cli/exit_codes.h"
+#include "src/render/job/report.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 
@@ -124,6 +124,10 @@ TEST_CASE("advise refuses flags that make no sense", "[cli]") {
   const ProcessResult png = RunLanelight({"advise", kBox, "--time", "1", "--png"});
   CHECK(png.exit_code == kExitUsage);
   CHECK_THAT(png.err, Contains("-o FILE.exr"));
+  const ProcessResult pilot =
+      RunLanelight({"advise", kBox, "--time", "30ms", "--pilot", "1h"});
+  CHECK(pilot.exit_code == kExitBadInput);
+  CHECK_THAT(pilot.err, Contains("longer than --time 30 ms"));
 }
 
 }  // namespace lanelight

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -4,8 +4,8 @@
 #include <regex>
 #include <sstream>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/core/text_layout.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -9,9 +9,9 @@
 #include <map>
 #include <sstream>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

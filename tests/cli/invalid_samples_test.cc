@@ -5,9 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -6,8 +6,8 @@
 
 #include <filesystem>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 #include "tests/texture/texture_files.h"
 

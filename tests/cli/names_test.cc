@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
+#include "src/cli/exit_codes.h"
 #include "src/vocabulary/path/features.h"
 #include "tests/cli/process.h"
 

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
-#include "src/cli/exit_codes.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/core/text_layout.h"
+#include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "src/base/core/error.h"
 #include "src/measure/compare/comparison_page.h"
 #include "src/measure/compare/comparison_sheet.h"
 #include "src/measure/compare/error_maps.h"
-#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

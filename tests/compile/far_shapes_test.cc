@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "src/base/core/error.h"
-#include "src/scene/parse/parse.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

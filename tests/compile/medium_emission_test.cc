@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/scene/compile/medium_emission.h"
-#include "src/scene/compile/medium_grid.h"
-#include "src/scene/compile/voxel_spectra.h"
 #include "src/base/image/blackbody.h"
 #include "src/base/image/spectrum.h"
 #include "src/base/image/upsampling.h"
+#include "src/scene/compile/medium_emission.h"
+#include "src/scene/compile/medium_grid.h"
+#include "src/scene/compile/voxel_spectra.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/reference/media.h"
 

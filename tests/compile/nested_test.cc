@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "src/scene/compile/textures.h"
 #include "src/base/core/error.h"
-#include "src/scene/parse/parse.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/compile/textures.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/scene/compile/range.h"
 #include "src/base/core/error.h"
-#include "src/scene/parse/parse.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/compile/range.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight::far_range {
 namespace {

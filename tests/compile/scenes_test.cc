@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "src/scene/parse/parse.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/parse/parse.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/compile/testing.h"
 #include "tests/support/shared_scenes.h"

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/scene/compile/seen_tolerance.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/seen_tolerance.h"
 #include "tests/compile/testing.h"
 
 namespace lanelight {

@@ -24,8 +24,8 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "src/scene/prepare/parameters.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

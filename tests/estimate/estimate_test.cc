@@ -292,7 +292,7 @@ TEST_CASE("estimated errors equal the true ones on average", "[study]") {
   }
 }
 
-TEST_CASE("pixels without a variance are left out", "[study]") {
+TEST_CASE("an image with pixels without a variance has no estimate", "[study]") {
   const ErrorEstimate none =
       EstimateError({0, 0, 8, 8}, [](int, int) { return PixelEstimate{}; });
   CHECK_FALSE(none.available);
@@ -305,8 +305,22 @@ TEST_CASE("pixels without a variance are left out", "[study]") {
     p.freedom = 3;
     return p;
   });
-  CHECK(one.available);
+  CHECK_FALSE(one.available);
+  CHECK_FALSE(one.has_interval);
   CHECK(one.pixels == 1);
+  CHECK_THAT(one.why, Catch::Contains("63 of 64 pixels"));
+}
+
+TEST_CASE("an image of one pixel has the estimate of that pixel", "[study]") {
+  const ErrorEstimate one = EstimateError({3, 2, 4, 3}, [](int, int) {
+    PixelEstimate p;
+    p.known = true;
+    p.mean = {1, 1, 1};
+    p.variance = {4, 4, 4};
+    p.freedom = 3;
+    return p;
+  });
+  CHECK(one.available);
   CHECK(one.rmse.value == Approx(2));
   // What its skewness took away is given back.
   CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));

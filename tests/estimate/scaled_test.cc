@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "src/render/estimate/estimate.h"
-#include "src/measure/compare/metrics.h"
 #include "src/base/image/variance_unit.h"
+#include "src/measure/compare/metrics.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

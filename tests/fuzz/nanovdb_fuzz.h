@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "src/scene/compile/medium_grid.h"
 #include "src/base/core/error.h"
 #include "src/base/image/nanovdb_file.h"
+#include "src/scene/compile/medium_grid.h"
 #include "tests/image/sparse_grid_file.h"
 #include "tests/image/temporary_folder.h"
 

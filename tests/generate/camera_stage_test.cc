@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/filter.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

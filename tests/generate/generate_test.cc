@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/prepare/path_values.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -8,15 +8,15 @@
 #include <filesystem>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/scene/compile/camera.h"
-#include "src/scene/compile/filter.h"
 #include "src/base/core/pi.h"
 #include "src/base/image/image.h"
-#include "tests/reference/lenses.h"
-#include "tests/support/wave_fixture.h"
+#include "src/scene/compile/camera.h"
+#include "src/scene/compile/filter.h"
 #include "tests/agreement/agreement.h"
+#include "tests/reference/lenses.h"
+#include "tests/support/test_target.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/image/exr.h"
 #include "src/scene/compile/light_texels.h"
 #include "src/scene/compile/texture_programs.h"
-#include "src/base/image/exr.h"
 #include "src/scene/parse/height_texture.h"
 #include "tests/cli/process.h"
 #include "tests/image/temporary_folder.h"

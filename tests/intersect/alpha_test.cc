@@ -2,10 +2,10 @@
 // that nothing evaluates.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/check.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

@@ -3,11 +3,11 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/transform.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

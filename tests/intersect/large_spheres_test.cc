@@ -1,10 +1,10 @@
 // Large spheres against extended precision: distances, leaving, alpha, normals.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/intersect/trace.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

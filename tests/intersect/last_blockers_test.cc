@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "tests/support/test_target.h"
 #include "tests/intersect/trace.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

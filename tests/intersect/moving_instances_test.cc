@@ -3,10 +3,10 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/motion.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

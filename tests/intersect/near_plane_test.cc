@@ -2,9 +2,9 @@
 // exactly, by every way of tracing.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

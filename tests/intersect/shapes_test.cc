@@ -1,9 +1,9 @@
 // Spheres, disks and planes: plain loops, trees and double precision agree.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

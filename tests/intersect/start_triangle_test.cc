@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 #include "tests/wave/task_fixture.h"
 
 namespace lanelight {

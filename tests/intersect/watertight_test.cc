@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/support/test_target.h"
-#include "tests/support/brute_force.h"
 #include "tests/intersect/trace.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

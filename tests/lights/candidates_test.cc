@@ -5,10 +5,10 @@
 #include <array>
 #include <numbers>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/render/plan/check_strategy.h"
 #include "tests/control/control_scenes.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

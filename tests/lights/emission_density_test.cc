@@ -6,11 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/pi.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/lights/pictured_samples.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/lights/light_truth.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

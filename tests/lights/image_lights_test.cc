@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/pi.h"
 #include "src/base/image/octahedral.h"
@@ -13,6 +12,7 @@
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/reference/lights.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "src/base/core/error.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight::test {
 namespace {

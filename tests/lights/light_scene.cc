@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "src/scene/compile/environment.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/environment.h"
 #include "tests/lights/light_truth.h"
 #include "tests/support/wave_fixture.h"
 

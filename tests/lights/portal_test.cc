@@ -7,15 +7,15 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/error.h"
+#include "src/base/stat/hypothesis.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
-#include "src/base/stat/hypothesis.h"
 #include "tests/lights/image_strategies.h"
 #include "tests/lights/pictures.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

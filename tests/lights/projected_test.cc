@@ -5,11 +5,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/test_target.h"
 #include "src/base/stat/distributions.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/lights/projected_truth.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/check.h"
 #include "tests/lights/light_truth.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

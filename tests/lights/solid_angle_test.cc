@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/test_target.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/lights/flat_light.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

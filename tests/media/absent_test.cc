@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <algorithm>
 
-#include "src/scene/compile/compile.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/compile/compile.h"
 #include "tests/media/scenes.h"
 
 namespace lanelight::test {

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/simd/target.h"
-#include "tests/media/scenes.h"
 #include "tests/agreement/agreement.h"
+#include "tests/media/scenes.h"
 
 namespace lanelight::test {
 

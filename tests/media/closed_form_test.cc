@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/media/scenes.h"
 #include "tests/agreement/agreement.h"
+#include "tests/media/scenes.h"
 
 namespace lanelight::test {
 namespace {

@@ -24,10 +24,10 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "src/scene/compile/medium_grid.h"
 #include "tests/media/varying_scenes.h"
 #include "tests/reference/media.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "src/base/core/pi.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/render/plan/plan.h"
-#include "tests/media/scenes.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/agreement/agreement.h"
+#include "tests/media/scenes.h"
 
 namespace lanelight::test {
 namespace {

@@ -7,12 +7,12 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/media/scenes.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/compile/compile.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/compile/compile.h"
+#include "tests/agreement/agreement.h"
 #include "tests/media/scenes.h"
 #include "tests/reference/optics.h"
-#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

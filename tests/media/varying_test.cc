@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "src/base/image/blackbody.h"
-#include "tests/media/varying_scenes.h"
 #include "tests/agreement/agreement.h"
+#include "tests/media/varying_scenes.h"
 
 namespace lanelight::test {
 namespace {

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/prepare/parameters.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

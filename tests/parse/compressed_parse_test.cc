@@ -7,8 +7,8 @@
 
 #include "src/base/core/gunzip.h"
 #include "src/base/core/input_file.h"
-#include "src/scene/parse/parse.h"
 #include "src/render/job/job.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

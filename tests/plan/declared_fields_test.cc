@@ -8,18 +8,18 @@
 #include <set>
 
 #include "kernels/stages.h"
-#include "src/render/plan/plan_features.h"
 #include "src/base/image/image.h"
-#include "src/scene/prepare/prepared_scene.h"
-#include "src/scene/prepare/tables.h"
+#include "src/render/plan/plan_features.h"
 #include "src/render/wave/block_reuse.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
-#include "tests/image/temporary_folder.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/agreement/all_stages_scene.h"
-#include "tests/run/render_fixture.h"
+#include "tests/image/temporary_folder.h"
 #include "tests/plan/wave_state.h"
 #include "tests/reference/measured.h"
+#include "tests/run/render_fixture.h"
 
 namespace lanelight {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "src/base/core/check.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

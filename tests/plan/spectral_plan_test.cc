@@ -1,8 +1,8 @@
 // What wavelengths cost: nothing where paths carry none, and what they cannot carry.
 #include <catch2/catch.hpp>
 
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

@@ -12,8 +12,8 @@
 #include <functional>
 #include <numbers>
 
-#include "src/vocabulary/path/replicates.h"
 #include "src/scene/prepare/pmj02.h"
+#include "src/vocabulary/path/replicates.h"
 #include "tests/points/draw.h"
 #include "tests/points/slope.h"
 

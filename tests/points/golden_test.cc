@@ -2,8 +2,8 @@
 // none of them. A change here changes every image, and is made alone.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

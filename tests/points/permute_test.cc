@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "kernels/probe/points_probe.h"
-#include "tests/support/test_target.h"
-#include "tests/stat/chi2.h"
 #include "src/base/stat/hypothesis.h"
+#include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

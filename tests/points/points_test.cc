@@ -5,13 +5,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/test_target.h"
+#include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 #include "src/scene/prepare/groups.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
 #include "tests/stat/kolmogorov.h"
-#include "src/base/stat/distributions.h"
-#include "src/base/stat/hypothesis.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

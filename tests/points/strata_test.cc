@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "tests/support/test_target.h"
+#include "src/base/stat/hypothesis.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/lattice.h"
-#include "src/base/stat/hypothesis.h"
 #include "tests/points/draw.h"
 #include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/render/run/run.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/pmj02.h"
-#include "src/render/run/run.h"
 #include "tests/points/draw.h"
 
 namespace lanelight::test {

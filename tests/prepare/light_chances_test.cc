@@ -8,8 +8,8 @@
 #include "src/render/plan/check_strategy.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/plan/plan_key.h"
-#include "tests/image/temporary_folder.h"
 #include "tests/agreement/agreement.h"
+#include "tests/image/temporary_folder.h"
 
 namespace lanelight::test {
 namespace {

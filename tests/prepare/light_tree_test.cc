@@ -7,11 +7,11 @@
 #include <map>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/scenes.h"
 #include "tests/run/render_fixture.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

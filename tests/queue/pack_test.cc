@@ -4,8 +4,8 @@
 #include <numeric>
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -35,8 +35,8 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/aligned.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

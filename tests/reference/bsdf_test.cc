@@ -6,10 +6,10 @@
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "src/base/stat/hypothesis.h"
 #include "tests/reference/closed_forms.h"
 #include "tests/reference/material.h"
 #include "tests/reference/scenes.h"
-#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::reference {
 namespace {

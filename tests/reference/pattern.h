@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/base/core/vec.h"
 #include "kernels/texture/noise_table.h"
+#include "src/base/core/vec.h"
 
 namespace lanelight::reference {
 

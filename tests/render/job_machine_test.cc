@@ -1,9 +1,9 @@
 // A job renders with the threads and the SIMD target of its settings, whatever others do.
 #include <catch2/catch.hpp>
 
-#include "src/scene/parse/parse.h"
 #include "src/render/job/job.h"
 #include "src/render/job/setting.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "src/render/job/machine_json.h"
 #include "src/base/stat/values.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight {
 

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/base/core/input_file.h"
 #include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/parts.h"
 #include "tests/render/kept_render.h"

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/peaks/peaks.h"
-#include "tests/support/test_target.h"
 #include "src/base/core/aligned.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "tests/support/test_target.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/report.h"
 #include "src/render/job/setting.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

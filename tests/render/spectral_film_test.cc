@@ -7,10 +7,10 @@
 #include "src/base/core/json_text.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/spectrum.h"
-#include "src/scene/parse/parse.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/output.h"
+#include "src/scene/parse/parse.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

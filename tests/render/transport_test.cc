@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <optional>
 
-#include "src/scene/parse/parse.h"
 #include "src/render/job/job.h"
 #include "src/render/job/transport.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

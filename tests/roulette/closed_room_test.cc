@@ -12,9 +12,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/reference/closed_forms.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/agreement/agreement.h"
+#include "tests/reference/closed_forms.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
-#include "src/scene/prepare/tables.h"
 #include "src/render/train/trained_tables.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/control/control_scenes.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/render/plan/plan_features.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"

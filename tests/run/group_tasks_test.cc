@@ -4,8 +4,8 @@
 #include <chrono>
 #include <thread>
 
-#include "src/scene/prepare/tables.h"
 #include "src/render/run/group_tasks.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/run/lamp_scene.h"
 #include "tests/run/render_fixture.h"
 #include "tests/run/thread_group.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "src/render/estimate/target.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/render/run/schedule.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/run/lamp_scene.h"
 #include "tests/run/render_fixture.h"
 

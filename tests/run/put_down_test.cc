@@ -4,10 +4,10 @@
 #include <chrono>
 #include <thread>
 
-#include "src/scene/prepare/tables.h"
-#include "src/render/wave/time_limit.h"
 #include "src/render/run/tasks.h"
+#include "src/render/wave/time_limit.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

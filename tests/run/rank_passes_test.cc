@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "src/scene/prepare/tables.h"
 #include "src/render/train/rank_passes.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/run/lamp_scene.h"
 #include "tests/run/render_fixture.h"
 #include "tests/run/thread_group.h"

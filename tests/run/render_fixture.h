@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/prepare/prepared_scene.h"
+#include "src/render/run/run.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/groups.h"
-#include "src/render/run/run.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/render/wave/run_state.h"
-#include "tests/wave/kept_state.h"
 #include "tests/run/render_fixture.h"
+#include "tests/wave/kept_state.h"
 
 namespace lanelight::resume {
 

@@ -1,8 +1,8 @@
 // Our own scenes with a closed form in their header render to it, at reduced resolution.
 #include <catch2/catch.hpp>
 
-#include "tests/reference/closed_forms.h"
 #include "tests/agreement/agreement.h"
+#include "tests/reference/closed_forms.h"
 
 namespace lanelight::test {
 namespace {

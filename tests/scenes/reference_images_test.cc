@@ -12,8 +12,8 @@
 
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "tests/support/shared_scenes.h"
 #include "tests/run/render_fixture.h"
+#include "tests/support/shared_scenes.h"
 
 namespace lanelight {
 namespace {

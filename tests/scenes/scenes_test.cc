@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/parse/parse.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/stat/hypothesis.h"
 #include "tests/shade/probe_batch.h"
 #include "tests/stat/chi2.h"
-#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::test {
 namespace {

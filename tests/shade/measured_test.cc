@@ -4,8 +4,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "src/scene/compile/measured.h"
 #include "src/base/image/wavelengths.h"
+#include "src/scene/compile/measured.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/reference/measured.h"
 #include "tests/shade/probe_batch.h"

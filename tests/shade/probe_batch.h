@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kernels/probe/bsdf_probe.h"
-#include "tests/support/test_target.h"
 #include "tests/reference/bsdf.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 

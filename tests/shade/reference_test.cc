@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/shade/probe_batch.h"
 #include "src/base/stat/hypothesis.h"
+#include "tests/shade/probe_batch.h"
 
 namespace lanelight::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {

@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/reference/random.h"
 #include "src/base/stat/distributions.h"
+#include "tests/reference/random.h"
 #include "tests/stat/compare_means.h"
 #include "tests/stat/kolmogorov.h"
 

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/stages.h"
+#include "src/base/stat/distributions.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
-#include "src/base/stat/distributions.h"
 #include "tests/agreement/agreement.h"
 #include "tests/support/wave_fixture.h"
 

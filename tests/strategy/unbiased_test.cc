@@ -11,13 +11,13 @@
 #include <cstdlib>
 #include <map>
 
-#include "tests/reference/closed_forms.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "tests/agreement/agreement.h"
+#include "tests/reference/closed_forms.h"
 #include "tests/strategy/combinations.h"
 #include "tests/strategy/hard_scenes.h"
 #include "tests/strategy/tiles.h"
-#include "tests/agreement/agreement.h"
 
 namespace lanelight::test {
 namespace {

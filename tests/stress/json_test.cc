@@ -6,9 +6,9 @@
 #include <set>
 
 #include "src/base/core/input_file.h"
-#include "src/render/job/machine_json.h"
 #include "src/measure/stress/efficiency.h"
 #include "src/measure/stress/stress_json.h"
+#include "src/render/job/machine_json.h"
 #include "tests/stress/synthetic_run.h"
 
 namespace lanelight::stress {

@@ -7,10 +7,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/support/test_target.h"
-#include "src/cli/stress_exit.h"
 #include "src/base/core/error.h"
+#include "src/cli/stress_exit.h"
 #include "tests/stress/planted.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::stress {
 namespace {

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "src/base/stat/distributions.h"
 #include "src/render/estimate/estimate.h"
 #include "src/scene/parse/parse.h"
-#include "src/base/stat/distributions.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

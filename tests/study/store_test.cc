@@ -5,9 +5,9 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
-#include "src/render/films/colors.h"
 #include "src/measure/report/shrink.h"
 #include "src/measure/study/study_images.h"
+#include "src/render/films/colors.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/simulated.h"
 

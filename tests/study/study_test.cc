@@ -9,9 +9,9 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
+#include "src/measure/study/schedule.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/machine_json.h"
-#include "src/measure/study/schedule.h"
 #include "tests/image/temporary_folder.h"
 #include "tests/study/study_file.h"
 

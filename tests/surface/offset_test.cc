@@ -2,9 +2,9 @@
 // origin, on either side; and they do meet a surface just beyond it.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

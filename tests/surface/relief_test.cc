@@ -2,12 +2,12 @@
 // kind of shape; footprints of pixels.
 #include <catch2/catch.hpp>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/base/core/pi.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/relief.h"
 #include "tests/reference/scenes.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 #include "tests/surface/relief_files.h"
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "src/cli/exit_codes.h"
 #include "src/base/image/atomic_file.h"
+#include "src/cli/exit_codes.h"
 #include "tests/sweep/sweep_folder.h"
 #include "tests/sweep/sweep_process.h"
 

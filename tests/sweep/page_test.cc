@@ -6,12 +6,12 @@
 #include <map>
 
 #include "src/base/core/hash.h"
-#include "src/render/job/machine_json.h"
-#include "src/base/stat/values.h"
 #include "src/base/stat/efficiency.h"
-#include "src/measure/sweep/results.h"
+#include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
+#include "src/measure/sweep/results.h"
 #include "src/measure/sweep/sweep_page.h"
+#include "src/render/job/machine_json.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

@@ -1,9 +1,9 @@
 // Patterns of strategies in a sweep file.
 #include <catch2/catch.hpp>
 
-#include "src/vocabulary/strategy/choices.h"
 #include "src/measure/sweep/strategy_pattern.h"
 #include "src/measure/sweep/sweep_file.h"
+#include "src/vocabulary/strategy/choices.h"
 #include "tests/image/temporary_folder.h"
 
 namespace lanelight {

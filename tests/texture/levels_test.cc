@@ -2,12 +2,12 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
-#include "tests/support/test_target.h"
 #include "kernels/stages.h"
 #include "src/scene/compile/mip_levels.h"
 #include "src/scene/compile/texture_programs.h"
-#include "tests/surface/relief_files.h"
+#include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
+#include "tests/surface/relief_files.h"
 
 namespace lanelight {
 namespace {

@@ -35,8 +35,8 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
 #include "tests/reference/pattern.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

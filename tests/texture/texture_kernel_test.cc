@@ -31,10 +31,10 @@ LANELIGHT_END_KERNELS
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "tests/support/test_target.h"
-#include "tests/reference/texture.h"
-#include "tests/texture/texture_files.h"
 #include "src/scene/compile/texture_programs.h"
+#include "tests/reference/texture.h"
+#include "tests/support/test_target.h"
+#include "tests/texture/texture_files.h"
 
 namespace lanelight {
 

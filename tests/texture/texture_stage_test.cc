@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/test_target.h"
-#include "src/scene/compiled/scene.h"
 #include "src/base/core/check.h"
+#include "src/scene/compile/texture_programs.h"
+#include "src/scene/compiled/scene.h"
 #include "src/vocabulary/path/stage.h"
 #include "tests/reference/texture.h"
+#include "tests/support/test_target.h"
 #include "tests/texture/texture_files.h"
-#include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {
 

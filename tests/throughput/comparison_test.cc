@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "src/base/core/text_layout.h"
-#include "src/vocabulary/strategy/strategy.h"
 #include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_table.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::test {
 namespace {

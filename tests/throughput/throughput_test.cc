@@ -5,16 +5,16 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "tests/support/test_target.h"
 #include "src/base/core/error.h"
-#include "src/scene/parse/parse.h"
-#include "src/measure/throughput/bench_scenes.h"
 #include "src/measure/report/page.h"
+#include "src/measure/throughput/bench_scenes.h"
 #include "src/measure/throughput/throughput.h"
 #include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_table.h"
 #include "src/measure/throughput/throughput_warnings.h"
+#include "src/scene/parse/parse.h"
 #include "tests/run/render_fixture.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight::test {
 namespace {

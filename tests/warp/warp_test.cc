@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "kernels/probe/warp_probe.h"
-#include "tests/support/test_target.h"
-#include "tests/stat/chi2.h"
 #include "src/base/stat/hypothesis.h"
+#include "tests/stat/chi2.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/test_target.h"
 #include "tests/run/render_fixture.h"
+#include "tests/support/test_target.h"
 
 namespace lanelight {
 namespace {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/image/color_spaces.h"
-#include "src/scene/parse/parse.h"
 #include "src/render/job/job.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

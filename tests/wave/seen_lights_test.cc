@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "src/render/wave/seen_light_places.h"
 #include "src/render/plan/plan_features.h"
+#include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/seen_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/run/render_fixture.h"

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/prepare/path_values.h"
-#include "src/scene/prepare/prepared_scene.h"
-#include "src/scene/prepare/tables.h"
+#include "src/render/train/training.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
-#include "src/render/train/training.h"
+#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/run/render_fixture.h"
 
 namespace lanelight {

@@ -108,4 +108,14 @@ std::string TextTable(const std::vector<Cells>& lines, const TableLayout& layout
   return text;
 }
 
+std::string DurationText(double seconds) {
+  if (!(seconds >= 0) || seconds > 1e9) return "unknown";
+  if (seconds > 0 && seconds < 0.00995) return fmt::format("{:.2g} ms", 1e3 * seconds);
+  if (seconds < 1) return fmt::format("{:.0f} ms", 1e3 * seconds);
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
 }  // namespace lanelight

@@ -36,4 +36,7 @@ struct TableLayout {
 std::string TextTable(const std::vector<std::vector<std::string>>& lines,
                       const TableLayout& layout);
 
+/// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
+std::string DurationText(double seconds);
+
 }  // namespace lanelight

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "src/base/core/input_file.h"
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
+#include "src/base/core/input_file.h"
 #include "src/base/image/atomic_file.h"
 #include "src/base/image/image.h"
 

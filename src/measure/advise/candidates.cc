@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "src/render/train/decision_candidates.h"
 #include "src/render/plan/plan_key.h"
+#include "src/render/train/decision_candidates.h"
 
 namespace lanelight {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/base/stat/interval.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "src/measure/compare/noisy_channels.h"
 #include "src/base/image/color_channels.h"
 #include "src/base/stat/distributions.h"
 #include "src/base/stat/multiple.h"
+#include "src/measure/compare/noisy_channels.h"
 
 namespace lanelight {
 namespace {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/measure/compare/comparison.h"
 #include "src/base/stat/values.h"
+#include "src/measure/compare/comparison.h"
 
 namespace lanelight {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/measure/compare/error_maps.h"
 #include "src/base/image/pixel_rect.h"
+#include "src/measure/compare/error_maps.h"
 
 namespace lanelight {
 namespace {

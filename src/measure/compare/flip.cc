@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "src/measure/compare/convolve.h"
-#include "src/measure/compare/flip_color.h"
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
+#include "src/measure/compare/convolve.h"
+#include "src/measure/compare/flip_color.h"
 
 namespace lanelight {
 namespace {

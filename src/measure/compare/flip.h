@@ -6,8 +6,8 @@
 // Dynamic Range Images".
 #pragma once
 
-#include "src/measure/compare/linear_image.h"
 #include "src/base/core/pi.h"
+#include "src/measure/compare/linear_image.h"
 
 namespace lanelight {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/measure/compare/flip.h"
 #include "src/base/core/check.h"
+#include "src/measure/compare/flip.h"
 
 namespace lanelight {
 namespace {

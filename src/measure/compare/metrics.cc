@@ -10,11 +10,11 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/measure/compare/z_scores.h"
 #include "src/base/image/color_channels.h"
 #include "src/base/image/variance_unit.h"
-#include "src/base/stat/values.h"
 #include "src/base/stat/interval.h"
+#include "src/base/stat/values.h"
+#include "src/measure/compare/z_scores.h"
 
 namespace lanelight {
 namespace {
@@ -185,7 +185,8 @@ class Comparison {
     for (std::size_t k = 0; k < kFilters; ++k) {
       result_.relmse_filtered[k] = TrimmedMean(std::move(filtered_[k]), 0);
     }
-    result_.psnr = 10 * std::log10(peak_ * peak_ / result_.mse);
+    result_.psnr = result_.mse == 0 ? std::numeric_limits<double>::infinity()
+                                    : 10 * std::log10(peak_ * peak_ / result_.mse);
     result_.tile_relmse_max =
         tile_errors_.empty()
             ? kNan

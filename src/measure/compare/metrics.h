@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/base/stat/relative_error.h"
 #include "src/base/image/image.h"
+#include "src/base/stat/relative_error.h"
 
 namespace lanelight {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/compare/tile_test.h"
 #include "src/base/image/image.h"
+#include "src/measure/compare/tile_test.h"
 
 namespace lanelight {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/base/stat/values.h"
 #include "src/base/stat/distributions.h"
+#include "src/base/stat/values.h"
 
 namespace lanelight {
 namespace {

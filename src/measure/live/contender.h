@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "src/render/estimate/estimate.h"
 #include "src/measure/live/cost_map.h"
 #include "src/measure/live/view.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight::live {
 

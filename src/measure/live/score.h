@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/live/contender.h"
 #include "src/base/stat/interval.h"
+#include "src/measure/live/contender.h"
 
 namespace lanelight::live {
 

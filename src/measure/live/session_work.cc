@@ -4,8 +4,8 @@
 
 #include "src/base/core/stopwatch.h"
 #include "src/measure/live/session.h"
-#include "src/scene/description/rendered_pixels.h"
 #include "src/render/train/training.h"
+#include "src/scene/description/rendered_pixels.h"
 
 namespace lanelight::live {
 namespace {

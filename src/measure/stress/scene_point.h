@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "src/render/job/job.h"
 #include "src/measure/stress/stress_case.h"
+#include "src/render/job/job.h"
 
 namespace lanelight::stress {
 

@@ -12,10 +12,10 @@
 #include "src/base/core/parallel.h"
 #include "src/base/core/version.h"
 #include "src/base/image/atomic_file.h"
-#include "src/render/job/machine_json.h"
-#include "src/measure/report/page.h"
 #include "src/base/stat/values.h"
+#include "src/measure/report/page.h"
 #include "src/measure/stress/efficiency.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight::stress {
 namespace {

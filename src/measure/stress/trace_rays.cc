@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "src/scene/accel/accel.h"
 #include "src/measure/stress/scene_point.h"
+#include "src/scene/accel/accel.h"
 
 namespace lanelight::stress {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "src/measure/compare/tile_test.h"
-#include "src/scene/prepare/groups.h"
 #include "src/measure/study/study_images.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 namespace {

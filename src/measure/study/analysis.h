@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/compare/tile_test.h"
-#include "src/measure/report/page.h"
 #include "src/base/stat/convergence.h"
 #include "src/base/stat/efficiency.h"
 #include "src/base/stat/hypothesis.h"
 #include "src/base/stat/interval.h"
+#include "src/measure/compare/tile_test.h"
+#include "src/measure/report/page.h"
 #include "src/measure/study/runs.h"
 
 namespace lanelight {

@@ -2,9 +2,9 @@
 // surfaces.
 #include <filesystem>
 
+#include "src/measure/study/scene_runner.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/setting.h"
-#include "src/measure/study/scene_runner.h"
 
 namespace lanelight {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "src/render/job/machine_json.h"
 #include "src/base/stat/values.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight {
 namespace {

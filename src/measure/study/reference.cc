@@ -8,9 +8,9 @@
 #include "src/base/image/color_channels.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "src/render/films/colors.h"
 #include "src/base/image/variance_unit.h"
 #include "src/render/estimate/estimate.h"
+#include "src/render/films/colors.h"
 
 namespace lanelight {
 namespace {

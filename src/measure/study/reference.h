@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "src/base/core/vec.h"
-#include "src/render/job/job.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
+#include "src/measure/study/reference.h"
 #include "src/render/films/colors.h"
 #include "src/render/films/for_each_pixel.h"
 #include "src/render/job/checkpoint.h"
 #include "src/render/job/report.h"
-#include "src/measure/study/reference.h"
 
 namespace lanelight {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
+#include "src/measure/study/scene_runner.h"
 #include "src/render/job/saving.h"
 #include "src/scene/description/scene_names.h"
-#include "src/measure/study/scene_runner.h"
 
 namespace lanelight {
 namespace {

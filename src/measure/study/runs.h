@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/accel/tree_source.h"
 #include "src/measure/study/cell_store.h"
 #include "src/measure/study/options.h"
 #include "src/measure/study/reference.h"
+#include "src/scene/accel/tree_source.h"
 
 namespace lanelight {
 

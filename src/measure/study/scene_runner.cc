@@ -3,12 +3,12 @@
 #include <filesystem>
 
 #include "kernels/simd/target.h"
+#include "src/measure/study/errors.h"
+#include "src/measure/study/schedule.h"
+#include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/saving.h"
 #include "src/scene/description/image_changes.h"
-#include "src/measure/study/errors.h"
-#include "src/render/estimate/estimate.h"
-#include "src/measure/study/schedule.h"
 
 namespace lanelight {
 namespace {

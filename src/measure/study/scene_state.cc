@@ -6,10 +6,10 @@
 #include "src/base/core/input_file.h"
 #include "src/base/core/json_text.h"
 #include "src/base/image/atomic_file.h"
-#include "src/render/films/colors.h"
-#include "src/render/job/setting.h"
 #include "src/measure/study/scene_runner.h"
 #include "src/measure/study/schedule.h"
+#include "src/render/films/colors.h"
+#include "src/render/job/setting.h"
 
 namespace lanelight {
 namespace {

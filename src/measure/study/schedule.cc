@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/render/estimate/estimate.h"
 #include "src/base/stat/interval.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

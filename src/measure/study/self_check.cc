@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "src/render/estimate/estimate.h"
 #include "src/measure/study/analysis.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight {
 namespace {

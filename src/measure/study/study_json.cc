@@ -5,9 +5,9 @@
 
 #include "kernels/simd/target.h"
 #include "src/base/core/parallel.h"
+#include "src/base/stat/values.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
-#include "src/base/stat/values.h"
 
 namespace lanelight {
 namespace {

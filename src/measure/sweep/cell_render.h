@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "src/measure/sweep/sweep_file.h"
 #include "src/render/job/render.h"
 #include "src/render/job/saving.h"
-#include "src/measure/sweep/sweep_file.h"
 
 namespace lanelight {
 

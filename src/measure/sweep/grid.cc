@@ -52,8 +52,10 @@ void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
       if (known.count(value.text) > 0) continue;
       throw InputError(
           value.where,
-          fmt::format("no cell of the grid has {} {}; its values there: {}", Name(axis),
-                      Quoted(value.text), QuotedList({known.begin(), known.end()})));
+          fmt::format("no cell of the grid has {} {}; {}", Name(axis), Quoted(value.text),
+                      known.empty() ? "the grid has no such axis"
+                                    : "its values there: " +
+                                          QuotedList({known.begin(), known.end()})));
     }
   }
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/stat/values.h"
 #include "src/base/stat/efficiency.h"
 #include "src/base/stat/hypothesis.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/base/stat/values.h"
 #include "src/measure/sweep/sweep_folder.h"
+#include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight {
 namespace {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "src/base/core/text_layout.h"
 #include "src/measure/sweep/prediction.h"
 
 namespace lanelight {
@@ -69,8 +70,8 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
   }
   if (prediction.pilots == 0) return text + "\n";
   return text +
-         fmt::format("\nthe rest: {:.3g} hours on this machine by one process, {}\n",
-                     sums.seconds / 3600, BytesText(sums.bytes));
+         fmt::format("\nthe rest: {} on this machine by one process, {}\n",
+                     DurationText(sums.seconds), BytesText(sums.bytes));
 }
 
 }  // namespace lanelight

@@ -9,11 +9,11 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/version.h"
 #include "src/base/image/atomic_file.h"
-#include "src/render/job/machine_json.h"
-#include "src/measure/report/page.h"
 #include "src/base/stat/values.h"
+#include "src/measure/report/page.h"
 #include "src/measure/sweep/sweep_page.h"
 #include "src/measure/sweep/thumbnails.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "src/render/job/render.h"
 #include "src/measure/sweep/runner.h"
 #include "src/measure/sweep/sweep_folder.h"
+#include "src/render/job/render.h"
 
 namespace lanelight {
 

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "src/base/core/file_lock.h"
-#include "src/render/job/memory.h"
 #include "src/measure/sweep/cell_render.h"
 #include "src/measure/sweep/results.h"
 #include "src/measure/sweep/sweep_folder.h"
+#include "src/render/job/memory.h"
 
 namespace lanelight {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/job/parts.h"
 #include "src/measure/sweep/sweep_file.h"
+#include "src/render/job/parts.h"
 #include "src/render/run/run.h"
 
 namespace lanelight {

@@ -5,9 +5,9 @@
 
 #include "src/base/core/input_file.h"
 #include "src/base/core/suggest.h"
-#include "src/vocabulary/strategy/named_strategy.h"
 #include "src/measure/sweep/sweep_settings.h"
 #include "src/measure/sweep/toml_values.h"
+#include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/job/settings.h"
 #include "src/measure/sweep/grid.h"
+#include "src/render/job/settings.h"
 
 namespace lanelight {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "src/render/job/saving.h"
 #include "src/measure/sweep/sweep_file.h"
+#include "src/render/job/saving.h"
 
 namespace lanelight {
 

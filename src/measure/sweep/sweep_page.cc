@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "src/render/job/machine_json.h"
-#include "src/scene/description/scene_names.h"
 #include "src/measure/sweep/results.h"
 #include "src/measure/sweep/sweep_folder.h"
+#include "src/render/job/machine_json.h"
+#include "src/scene/description/scene_names.h"
 
 namespace lanelight {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "src/measure/compare/linear_image.h"
 #include "src/base/image/exr.h"
+#include "src/measure/compare/linear_image.h"
 #include "src/measure/report/shrink.h"
 
 namespace lanelight {

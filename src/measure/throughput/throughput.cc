@@ -10,8 +10,8 @@
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/render/job/job.h"
 #include "src/measure/throughput/bench_scenes.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 namespace {

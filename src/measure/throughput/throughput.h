@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/render/job/settings.h"
 #include "src/base/stat/interval.h"
+#include "src/render/job/settings.h"
 #include "src/render/run/run.h"
 
 namespace lanelight {

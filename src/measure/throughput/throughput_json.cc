@@ -6,12 +6,12 @@
 #include "src/base/core/input_file.h"
 #include "src/base/core/json_text.h"
 #include "src/base/core/version.h"
-#include "src/render/job/machine_json.h"
 #include "src/base/stat/values.h"
-#include "src/vocabulary/strategy/choices_text.h"
-#include "src/vocabulary/strategy/strategy.h"
 #include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_warnings.h"
+#include "src/render/job/machine_json.h"
+#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 namespace {

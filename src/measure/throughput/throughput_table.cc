@@ -10,9 +10,9 @@
 #include "src/base/core/machine_info.h"
 #include "src/base/core/text_layout.h"
 #include "src/base/core/version.h"
-#include "src/render/job/machine_json.h"
 #include "src/base/stat/values.h"
 #include "src/measure/throughput/throughput_warnings.h"
+#include "src/render/job/machine_json.h"
 
 namespace lanelight {
 namespace {

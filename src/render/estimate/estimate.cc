@@ -11,8 +11,8 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/render/films/for_each_pixel.h"
 #include "src/base/stat/distributions.h"
+#include "src/render/films/for_each_pixel.h"
 
 namespace lanelight {
 namespace {
@@ -304,6 +304,17 @@ ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
   return out;
 }
 
+// Tiles that are ahead must not speak for the others.
+ErrorEstimate OfAPart(std::uint64_t known, std::uint64_t all) {
+  ErrorEstimate out;
+  out.pixels = known;
+  out.why = fmt::format(
+      "{} of {} pixels have too few samples for a variance; an error takes two samples "
+      "of every pixel",
+      all - known, all);
+  return out;
+}
+
 // How often samples are expected to have met what shines.
 double Met(const FilmAccumulator& film) {
   double samples = 0;
@@ -346,6 +357,9 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const PixelGrid grid(window, dependents, pixel, stop);
   const Sums sums = grid.Total();
   if (grid.Stopped()) return {};
+  if (sums.pixels > 0 && sums.pixels < window.pixels()) {
+    return OfAPart(sums.pixels, window.pixels());
+  }
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
   if (out.available && grid.IsBlack()) {

@@ -6,11 +6,11 @@
 #include <functional>
 #include <string>
 
-#include "src/base/stat/relative_error.h"
 #include "src/base/core/vec.h"
-#include "src/render/films/accumulator.h"
 #include "src/base/image/pixel_rect.h"
 #include "src/base/stat/interval.h"
+#include "src/base/stat/relative_error.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 
@@ -25,7 +25,7 @@ inline constexpr const char* kNoLight =
     "no light reached the image; does the scene have a light?";
 
 struct ErrorEstimate {
-  bool available = false;     // at least one pixel has two independent observations
+  bool available = false;     // every pixel has two independent observations
   bool has_interval = false;  // `rmse` and `relmse` both have an upper end
   Interval rmse;              // sqrt(mean of the variance of the pixel mean)
   Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
@@ -36,7 +36,8 @@ struct ErrorEstimate {
   double effective_pixels = 0;
 };
 
-/// What is known of one pixel; `known` false leaves it out.
+/// What is known of one pixel. `known`: it has two independent observations. An image in
+/// which some pixels are known and others are not has no estimate.
 struct PixelEstimate {
   bool known = false;
   Rgb mean, variance;  // `variance` >= 0: estimated, of the mean

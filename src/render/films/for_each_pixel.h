@@ -1,8 +1,8 @@
 // Loops over pixels, row by row from the top.
 #pragma once
 
-#include "src/render/films/accumulator.h"
 #include "src/base/image/pixel_rect.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 

@@ -6,8 +6,8 @@
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
 #include "src/base/image/exr.h"
-#include "src/render/films/for_each_pixel.h"
 #include "src/base/image/png.h"
+#include "src/render/films/for_each_pixel.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/output.h"
 #include "src/render/job/run_content.h"
@@ -93,7 +93,8 @@ void Checkpoint::Open() {
   if (settings_.resume == Resume::kNever) {
     if (!exists || settings_.path.empty()) return;
     throw InputError("'" + settings_.path +
-                     "' exists: go on from it with --resume, or remove it");
+                     "' exists: continue it with --resume if it is a state of this render, or "
+                     "give --checkpoint another name");
   }
   const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
   if (settings_.resume == Resume::kIfAny && !Exists(from)) return;

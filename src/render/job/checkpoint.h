@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "src/base/state/state_file.h"
 #include "src/render/job/job.h"
 #include "src/render/job/parts.h"
 #include "src/render/job/state_lock.h"
-#include "src/base/state/state_file.h"
 
 namespace lanelight {
 

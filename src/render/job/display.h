@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "src/base/core/connection.h"
-#include "src/render/films/accumulator.h"
 #include "src/base/image/pixel_rect.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 

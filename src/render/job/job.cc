@@ -4,12 +4,12 @@
 
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/scene/parse/parse.h"
-#include "src/scene/prepare/chance_of_light.h"
-#include "src/scene/prepare/groups.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/transport.h"
 #include "src/scene/description/rendered_pixels.h"
+#include "src/scene/parse/parse.h"
+#include "src/scene/prepare/chance_of_light.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 namespace {

@@ -6,12 +6,12 @@
 #include <set>
 #include <string>
 
-#include "src/render/job/settings.h"
-#include "src/scene/prepare/prepared_scene.h"
-#include "src/scene/description/description.h"
 #include "src/render/estimate/target.h"
+#include "src/render/job/settings.h"
 #include "src/render/plan/plan.h"
 #include "src/render/run/run.h"
+#include "src/scene/description/description.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 

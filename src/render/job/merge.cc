@@ -6,14 +6,14 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
+#include "src/base/state/tiles.h"
 #include "src/render/films/for_each_pixel.h"
-#include "src/scene/prepare/groups.h"
 #include "src/render/job/add_seeds.h"
 #include "src/render/job/checkpoint.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/run_content.h"
-#include "src/base/state/tiles.h"
+#include "src/scene/prepare/groups.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "src/base/core/machine_info.h"
-#include "src/render/films/accumulator.h"
 #include "src/base/state/state_file.h"
-#include "src/render/wave/films.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/run/run.h"
+#include "src/render/wave/films.h"
 #include "src/render/wave/run_state.h"
 
 namespace lanelight {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "src/render/estimate/estimate.h"
-#include "src/render/films/accumulator.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
+#include "src/render/estimate/estimate.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/job/job.h"
 
 namespace lanelight {

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/simd/target.h"
-#include "src/scene/prepare/chance_of_light.h"
-#include "src/scene/prepare/groups.h"
+#include "src/base/stat/values.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
-#include "src/base/stat/values.h"
 #include "src/scene/description/image_changes.h"
+#include "src/scene/prepare/chance_of_light.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/render/job/job.h"
 #include "src/render/estimate/estimate.h"
+#include "src/render/job/job.h"
 
 namespace lanelight {
 

@@ -9,8 +9,8 @@
 #include "src/base/core/gunzip.h"
 #include "src/base/core/hash.h"
 #include "src/base/core/input_file.h"
-#include "src/scene/parse/lex.h"
 #include "src/render/job/job.h"
+#include "src/scene/parse/lex.h"
 
 namespace lanelight {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "src/base/core/error.h"
 #include "src/base/image/image.h"
-#include "src/scene/description/rendered_pixels.h"
 #include "src/render/train/training.h"
+#include "src/scene/description/rendered_pixels.h"
 
 namespace lanelight {
 namespace {

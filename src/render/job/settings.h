@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/compile/compile.h"
-#include "src/scene/description/description.h"
 #include "src/render/plan/plan.h"
 #include "src/render/run/run.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/scene/compile/transport.h"
 #include "src/base/image/wavelengths.h"
+#include "src/scene/compile/transport.h"
 
 namespace lanelight {
 namespace {

@@ -1,8 +1,8 @@
 #include "src/render/plan/check_strategy.h"
 
 #include "src/base/core/error.h"
-#include "src/vocabulary/path/features.h"
 #include "src/render/plan/plan_features.h"
+#include "src/vocabulary/path/features.h"
 
 namespace lanelight {
 namespace {

@@ -7,9 +7,9 @@
 #include "kernels/stages.h"
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/render/plan/check_strategy.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/prepare/path_values.h"
 
 namespace lanelight {
 

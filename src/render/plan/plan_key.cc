@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "src/base/core/hash.h"
+#include "src/render/plan/plan_features.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/parameters.h"
-#include "src/render/plan/plan_features.h"
 
 namespace lanelight {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 

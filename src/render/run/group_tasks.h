@@ -9,11 +9,11 @@
 #include <functional>
 #include <vector>
 
-#include "src/render/wave/films.h"
 #include "src/base/core/rank_group.h"
+#include "src/render/run/tasks.h"
+#include "src/render/wave/films.h"
 #include "src/render/wave/run_clock.h"
 #include "src/render/wave/task_watcher.h"
-#include "src/render/run/tasks.h"
 
 namespace lanelight {
 

@@ -5,15 +5,15 @@
 #include "src/base/core/check.h"
 #include "src/base/core/clock.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/prepare/groups.h"
 #include "src/render/run/convergence_checks.h"
 #include "src/render/run/film_show.h"
-#include "src/render/wave/profile.h"
 #include "src/render/run/run_parts.h"
 #include "src/render/run/run_setting.h"
 #include "src/render/run/run_start.h"
 #include "src/render/run/run_strategy.h"
 #include "src/render/run/run_watch.h"
+#include "src/render/wave/profile.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 

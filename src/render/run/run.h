@@ -2,8 +2,8 @@
 // wavefront, and gathers the film.
 #pragma once
 
-#include "src/render/plan/plan.h"
 #include "src/base/core/rank_group.h"
+#include "src/render/plan/plan.h"
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
 

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-#include "src/render/wave/films.h"
 #include "src/render/run/group_tasks.h"
 #include "src/render/run/run.h"
-#include "src/render/wave/run_clock.h"
 #include "src/render/run/tasks.h"
+#include "src/render/wave/films.h"
+#include "src/render/wave/run_clock.h"
 
 namespace lanelight {
 

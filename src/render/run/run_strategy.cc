@@ -4,14 +4,14 @@
 #include <string>
 #include <utility>
 
-#include "src/scene/prepare/groups.h"
-#include "src/scene/description/rendered_pixels.h"
 #include "src/render/plan/plan_features.h"
-#include "src/render/wave/profile.h"
 #include "src/render/run/sample_rate.h"
-#include "src/render/wave/stop_watcher.h"
 #include "src/render/train/rank_passes.h"
 #include "src/render/train/trained_tables.h"
+#include "src/render/wave/profile.h"
+#include "src/render/wave/stop_watcher.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/groups.h"
 
 namespace lanelight {
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {

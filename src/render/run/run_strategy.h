@@ -7,9 +7,9 @@
 
 #include "src/base/core/rank_group.h"
 #include "src/render/run/run.h"
+#include "src/render/train/training.h"
 #include "src/render/wave/run_clock.h"
 #include "src/render/wave/run_state.h"
-#include "src/render/train/training.h"
 
 namespace lanelight {
 

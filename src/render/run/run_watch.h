@@ -8,9 +8,9 @@
 
 #include "src/render/run/convergence_checks.h"
 #include "src/render/run/film_show.h"
-#include "src/render/wave/time_limit.h"
 #include "src/render/run/run_setting.h"
 #include "src/render/wave/task_watcher.h"
+#include "src/render/wave/time_limit.h"
 
 namespace lanelight {
 

@@ -7,12 +7,12 @@
 #include <mutex>
 #include <vector>
 
-#include "src/render/wave/films.h"
 #include "src/render/run/held_tiles.h"
 #include "src/render/run/run.h"
+#include "src/render/run/tile_queue.h"
+#include "src/render/wave/films.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/task_watcher.h"
-#include "src/render/run/tile_queue.h"
 #include "src/render/wave/tiles.h"
 
 namespace lanelight {

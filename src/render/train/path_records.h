@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "src/vocabulary/path/sample_planes.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/render/train/training_pass.h"
+#include "src/scene/prepare/path_values.h"
+#include "src/vocabulary/path/sample_planes.h"
 
 namespace lanelight {
 

@@ -5,12 +5,12 @@
 #include <map>
 #include <utility>
 
-#include "src/base/core/parallel.h"
 #include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/wave/task_runner.h"
 #include "src/render/train/strategy_trial.h"
+#include "src/render/wave/task_runner.h"
 
 namespace lanelight {
 namespace {

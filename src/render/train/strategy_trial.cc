@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "src/render/train/path_records.h"
 #include "src/render/plan/plan_features.h"
+#include "src/render/train/path_records.h"
 #include "src/render/train/unsplit_variances.h"
 #include "src/render/wave/wavefront.h"
 

@@ -9,9 +9,9 @@
 
 #include "src/render/train/decision_candidates.h"
 #include "src/render/train/pilot_comparison.h"
-#include "src/render/wave/stop_watcher.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
+#include "src/render/wave/stop_watcher.h"
 
 namespace lanelight {
 

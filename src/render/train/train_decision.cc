@@ -29,11 +29,11 @@
 #include <vector>
 
 #include "src/base/core/error.h"
-#include "src/render/train/decision_candidates.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/plan/plan_key.h"
-#include "src/render/wave/run_options.h"
+#include "src/render/train/decision_candidates.h"
 #include "src/render/train/strategy_trial.h"
+#include "src/render/wave/run_options.h"
 
 namespace lanelight {
 namespace {

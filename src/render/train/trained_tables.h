@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/prepare/tables.h"
 #include "src/render/plan/plan.h"
 #include "src/render/wave/run_state.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 

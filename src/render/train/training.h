@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "src/scene/prepare/tables.h"
 #include "src/render/plan/plan.h"
 #include "src/render/wave/run_state.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 

@@ -7,16 +7,16 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/description/rendered_pixels.h"
-#include "src/scene/prepare/groups.h"
-#include "src/scene/prepare/tables.h"
-#include "src/render/wave/block_reuse.h"
-#include "src/render/wave/copies.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/rank_passes.h"
+#include "src/render/wave/block_reuse.h"
+#include "src/render/wave/copies.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "src/base/core/vec.h"
 #include "src/base/image/pixel_rect.h"
-#include "src/vocabulary/path/wave.h"
-#include "src/scene/prepare/tables.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/prepare/tables.h"
+#include "src/vocabulary/path/wave.h"
 
 namespace lanelight {
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/scene/prepare/path_values.h"
 #include "src/render/train/training_pass.h"
+#include "src/scene/prepare/path_values.h"
 
 namespace lanelight {
 

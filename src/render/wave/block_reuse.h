@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "src/base/core/untouched.h"
+#include "src/render/plan/plan.h"
+#include "src/render/wave/block_layout.h"
+#include "src/render/wave/stage_clock.h"
 #include "src/vocabulary/path/block.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/path/wave.h"
-#include "src/render/wave/block_layout.h"
-#include "src/render/plan/plan.h"
-#include "src/render/wave/stage_clock.h"
 
 namespace lanelight {
 

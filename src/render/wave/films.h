@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "src/render/films/accumulator.h"
 #include "src/base/image/film_response.h"
 #include "src/base/image/pixel_rect.h"
+#include "src/render/films/accumulator.h"
 #include "src/vocabulary/path/sample_planes.h"
 
 namespace lanelight {

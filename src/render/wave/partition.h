@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/scene/prepare/prepared_scene.h"
-#include "src/render/films/accumulator.h"
 #include "src/base/image/pixel_rect.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/tiles.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 

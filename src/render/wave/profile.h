@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "src/render/wave/run_options.h"
+#include "src/render/wave/run_options.h"
+#include "src/render/wave/run_result.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/wavefront.h"
-#include "src/render/wave/run_options.h"
-#include "src/render/wave/run_result.h"
 
 namespace lanelight {
 

@@ -10,8 +10,8 @@
 #include "src/base/core/hardware_counters.h"
 #include "src/base/core/untouched.h"
 #include "src/render/films/accumulator.h"
-#include "src/vocabulary/strategy/choices.h"
 #include "src/render/wave/run_state.h"
+#include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
 

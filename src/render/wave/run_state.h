@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "src/base/core/column.h"
-#include "src/vocabulary/path/wave.h"
 #include "src/render/wave/films.h"
+#include "src/vocabulary/path/wave.h"
 
 namespace lanelight {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "src/scene/prepare/groups.h"
-#include "src/vocabulary/strategy/choices.h"
 #include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
+#include "src/scene/prepare/groups.h"
+#include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
 namespace {

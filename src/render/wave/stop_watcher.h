@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "src/base/core/stopwatch.h"
-#include "src/render/wave/time_limit.h"
 #include "src/render/wave/task_watcher.h"
+#include "src/render/wave/time_limit.h"
 
 namespace lanelight {
 

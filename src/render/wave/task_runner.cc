@@ -5,10 +5,10 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/render/wave/copies.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/tiles.h"
+#include "src/scene/prepare/path_values.h"
 
 namespace lanelight {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "src/base/core/check.h"
-#include "src/scene/prepare/parameters.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 

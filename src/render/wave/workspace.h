@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/render/wave/block_reuse.h"
 #include "src/render/plan/plan_features.h"
+#include "src/render/wave/block_reuse.h"
 #include "src/render/wave/run_state.h"
 #include "src/render/wave/seen_lights.h"
 #include "src/render/wave/stage_clock.h"

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/builder.h"
 #include "src/scene/accel/curve_pieces.h"
 #include "src/scene/accel/grow.h"
@@ -13,8 +15,6 @@
 #include "src/scene/accel/round_blocks.h"
 #include "src/scene/accel/shape_items.h"
 #include "src/scene/accel/triangle_blocks.h"
-#include "src/base/core/check.h"
-#include "src/base/core/parallel.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/collapse.h"
 #include "src/scene/accel/cut_plan.h"
 #include "src/scene/accel/extents.h"
@@ -12,8 +14,6 @@
 #include "src/scene/accel/reinsert.h"
 #include "src/scene/accel/shape_items.h"
 #include "src/scene/accel/spatial_split.h"
-#include "src/base/core/check.h"
-#include "src/base/core/parallel.h"
 
 namespace lanelight {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/accel/blocker_order.h"
-#include "src/scene/accel/grow.h"
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/blocker_order.h"
+#include "src/scene/accel/grow.h"
 
 namespace lanelight {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/builder.h"
 #include "src/scene/accel/grow.h"
 #include "src/scene/accel/shape_items.h"
-#include "src/base/core/parallel.h"
 
 namespace lanelight {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "src/scene/accel/partition.h"
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/partition.h"
 
 namespace lanelight {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/scene/accel/builder.h"
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/builder.h"
 
 namespace lanelight {
 

@@ -4,8 +4,8 @@
 #include <queue>
 #include <vector>
 
-#include "src/scene/accel/collapse.h"
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/collapse.h"
 
 namespace lanelight {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/base/core/parallel.h"
 #include "src/scene/accel/builder.h"
 #include "src/scene/accel/grow.h"
-#include "src/base/core/parallel.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

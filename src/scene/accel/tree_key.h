@@ -1,8 +1,8 @@
 // What a tree is of, in 128 bits.
 #pragma once
 
-#include "src/scene/accel/accel.h"
 #include "src/base/core/hash.h"
+#include "src/scene/accel/accel.h"
 
 namespace lanelight {
 

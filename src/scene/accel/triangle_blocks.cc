@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "src/scene/accel/leaf_vertices.h"
 #include "src/base/core/check.h"
+#include "src/scene/accel/leaf_vertices.h"
 
 namespace lanelight {
 namespace {

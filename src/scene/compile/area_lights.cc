@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "src/scene/compile/rectangles.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/rectangles.h"
 
 namespace lanelight {
 namespace {

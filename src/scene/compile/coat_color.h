@@ -5,8 +5,8 @@
 // (coat_fit.h).
 #pragma once
 
-#include "src/base/image/spectrum_integral.h"
 #include "src/base/core/vec.h"
+#include "src/base/image/spectrum_integral.h"
 
 namespace lanelight {
 

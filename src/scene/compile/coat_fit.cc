@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include "src/scene/compile/coat_color.h"
 #include "src/base/core/parallel.h"
 #include "src/base/image/rgb_spectrum.h"
+#include "src/scene/compile/coat_color.h"
 
 namespace lanelight {
 namespace {

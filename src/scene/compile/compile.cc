@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "src/scene/accel/accel.h"
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/accel.h"
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/features.h"
 #include "src/scene/compile/filter.h"
@@ -20,8 +20,8 @@
 #include "src/scene/compile/quadrics.h"
 #include "src/scene/compile/range.h"
 #include "src/scene/compile/spectrum_rows.h"
-#include "src/scene/compile/textures.h"
 #include "src/scene/compile/texture_programs.h"
+#include "src/scene/compile/textures.h"
 #include "src/scene/compile/transport.h"
 
 namespace lanelight {

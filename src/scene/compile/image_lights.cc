@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "src/scene/compile/light_axes.h"
 #include "src/base/core/error.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/light_axes.h"
 
 namespace lanelight {
 namespace {

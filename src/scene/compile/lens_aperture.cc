@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/base/core/error.h"
-#include "src/scene/compile/light_texels.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/light_texels.h"
 
 namespace lanelight {
 namespace {

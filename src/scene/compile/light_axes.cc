@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/compile/store.h"
 #include "src/base/core/error.h"
 #include "src/base/core/pi.h"
+#include "src/scene/compile/store.h"
 
 namespace lanelight {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "src/scene/compiled/lights.h"
 #include "src/base/core/vec.h"
+#include "src/scene/compiled/lights.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/core/error.h"
 #include "src/scene/compile/range.h"
 #include "src/scene/compile/store.h"
 #include "src/scene/compiled/lights.h"
-#include "src/base/core/error.h"
 
 namespace lanelight {
 

@@ -7,8 +7,8 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/error_text.h"
-#include "src/scene/compile/texture_programs.h"
 #include "src/base/image/color_channels.h"
+#include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {
 namespace {

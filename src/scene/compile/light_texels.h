@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "src/scene/compiled/lights.h"
 #include "src/base/core/aligned.h"
 #include "src/base/image/image.h"
+#include "src/scene/compiled/lights.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {

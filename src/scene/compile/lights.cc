@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/base/core/error.h"
+#include "src/base/core/pi.h"
 #include "src/scene/compile/area_lights.h"
 #include "src/scene/compile/environment.h"
 #include "src/scene/compile/image_lights.h"
@@ -14,7 +15,6 @@
 #include "src/scene/compile/light_list.h"
 #include "src/scene/compile/light_texels.h"
 #include "src/scene/compile/portal.h"
-#include "src/base/core/pi.h"
 
 namespace lanelight {
 namespace {

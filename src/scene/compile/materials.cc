@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/check.h"
 #include "src/scene/compile/measured.h"
 #include "src/scene/compile/row_builder.h"
-#include "src/base/core/check.h"
 
 namespace lanelight {
 namespace {

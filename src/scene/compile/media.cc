@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "src/base/core/check.h"
+#include "src/base/image/blackbody.h"
 #include "src/scene/compile/material_row.h"
 #include "src/scene/compile/medium_cost.h"
 #include "src/scene/compile/medium_grid.h"
@@ -12,8 +14,6 @@
 #include "src/scene/compile/slab_albedo.h"
 #include "src/scene/compile/store.h"
 #include "src/scene/compile/textures.h"
-#include "src/base/core/check.h"
-#include "src/base/image/blackbody.h"
 
 namespace lanelight {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/image/blackbody.h"
 #include "src/scene/compile/store.h"
 #include "src/scene/compile/voxel_spectra.h"
-#include "src/base/image/blackbody.h"
 
 namespace lanelight {
 namespace {

@@ -1,8 +1,8 @@
 // Motions in compiled coordinates.
 #pragma once
 
-#include "src/scene/compile/frame.h"
 #include "src/base/core/motion.h"
+#include "src/scene/compile/frame.h"
 
 namespace lanelight {
 

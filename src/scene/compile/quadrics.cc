@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "src/base/core/check.h"
+#include "src/base/core/error.h"
 #include "src/scene/compile/focus.h"
 #include "src/scene/compile/range.h"
 #include "src/scene/compile/store.h"
-#include "src/base/core/check.h"
-#include "src/base/core/error.h"
 
 namespace lanelight {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/compile/motion.h"
 #include "src/base/core/error.h"
+#include "src/scene/compile/motion.h"
 #include "src/scene/geometry/motion.h"
 
 namespace lanelight {

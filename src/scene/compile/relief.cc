@@ -8,7 +8,7 @@ namespace {
 Texture NormalMap(const Material& material) {
   Texture texture;
   texture.kind = TextureKind::kImage;
-  texture.name = "normal map of " + material.name;
+  texture.name = "normalmap of " + (material.name.empty() ? "a material" : material.name);
   texture.where = material.where;
   texture.path = material.normal_map;
   texture.encoding = Encoding::kLinear;

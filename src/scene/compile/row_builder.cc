@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/scene/compile/materials.h"
-#include "src/scene/compile/measured.h"
 #include "src/base/core/check.h"
 #include "src/base/image/upsampling.h"
+#include "src/scene/compile/materials.h"
+#include "src/scene/compile/measured.h"
 
 namespace lanelight {
 namespace {

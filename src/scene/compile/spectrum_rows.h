@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "src/scene/compiled/spectra.h"
 #include "src/base/image/upsampling.h"
 #include "src/base/image/wavelengths.h"
+#include "src/scene/compiled/spectra.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {

@@ -6,10 +6,10 @@
 #include "src/base/core/error.h"
 #include "src/base/core/error_text.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/mip_levels.h"
-#include "src/scene/compile/texture_programs.h"
 #include "src/base/image/color_channels.h"
 #include "src/base/image/repair.h"
+#include "src/scene/compile/mip_levels.h"
+#include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {
 namespace {

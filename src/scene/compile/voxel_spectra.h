@@ -1,8 +1,8 @@
 // Spectra of colours at the voxels of media.
 #pragma once
 
-#include "src/scene/compiled/media.h"
 #include "src/base/core/vec.h"
+#include "src/scene/compiled/media.h"
 
 namespace lanelight {
 

@@ -5,8 +5,8 @@
 
 #include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
-#include "src/scene/geometry/motion.h"
 #include "src/scene/description/description.h"
+#include "src/scene/geometry/motion.h"
 
 namespace lanelight {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/compiled/measured.h"
 #include "src/base/core/aligned.h"
+#include "src/scene/compiled/measured.h"
 #include "src/vocabulary/path/shade_kinds.h"
 
 namespace lanelight {

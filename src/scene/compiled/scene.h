@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/core/aligned.h"
+#include "src/base/core/vec.h"
 #include "src/scene/accel/accel.h"
 #include "src/scene/compiled/camera.h"
 #include "src/scene/compiled/footprint.h"
@@ -16,11 +18,9 @@
 #include "src/scene/compiled/media.h"
 #include "src/scene/compiled/spectra.h"
 #include "src/scene/compiled/texture_table.h"
-#include "src/base/core/aligned.h"
-#include "src/base/core/vec.h"
+#include "src/scene/description/description.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/features.h"
-#include "src/scene/description/description.h"
 
 namespace lanelight {
 

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "src/vocabulary/strategy/strategy.h"
 #include "src/base/core/error.h"
 #include "src/base/core/transform.h"
 #include "src/base/core/vec.h"
@@ -21,6 +20,7 @@
 #include "src/base/image/sparse_grid.h"
 #include "src/base/image/spectral_buckets.h"
 #include "src/base/image/spectrum_integral.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 

@@ -1,9 +1,9 @@
 #include <cctype>
 
+#include "src/base/core/suggest.h"
 #include "src/scene/parse/directives.h"
 #include "src/scene/parse/interpret.h"
 #include "src/scene/parse/motion.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 namespace {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "src/scene/parse/directives.h"
 #include "src/base/core/suggest.h"
+#include "src/scene/parse/directives.h"
 
 namespace lanelight {
 namespace {

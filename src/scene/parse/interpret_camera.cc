@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/core/suggest.h"
 #include "src/scene/parse/interpret.h"
 #include "src/scene/parse/motion.h"
 #include "src/scene/parse/number_file.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 

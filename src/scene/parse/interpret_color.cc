@@ -2,9 +2,9 @@
 #include <limits>
 
 #include "src/base/core/error_text.h"
+#include "src/base/core/suggest.h"
 #include "src/base/image/blackbody.h"
 #include "src/scene/parse/interpret.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "src/base/core/pi.h"
+#include "src/base/core/suggest.h"
 #include "src/scene/parse/interpret.h"
 #include "src/scene/parse/motion.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 namespace {

@@ -1,8 +1,8 @@
 #include <map>
 
-#include "src/scene/parse/interpret.h"
 #include "src/base/core/error_text.h"
 #include "src/base/core/suggest.h"
+#include "src/scene/parse/interpret.h"
 
 namespace lanelight {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/interpret.h"
-#include "src/scene/parse/motion.h"
 #include "src/scene/parse/medium_kinds.h"
+#include "src/scene/parse/motion.h"
 #include "src/scene/parse/scattering_presets.h"
 
 namespace lanelight {

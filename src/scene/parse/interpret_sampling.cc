@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "src/scene/parse/interpret.h"
 #include "src/base/core/suggest.h"
+#include "src/scene/parse/interpret.h"
 
 namespace lanelight {
 namespace {

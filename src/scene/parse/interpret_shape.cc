@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "src/base/core/suggest.h"
 #include "src/scene/parse/interpret.h"
 #include "src/scene/parse/motion.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 namespace {

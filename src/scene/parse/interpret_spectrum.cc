@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "src/scene/parse/interpret.h"
 #include "src/base/core/suggest.h"
 #include "src/base/image/upsampling.h"
+#include "src/scene/parse/interpret.h"
 #include "src/scene/parse/number_file.h"
 
 namespace lanelight {

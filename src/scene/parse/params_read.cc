@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "src/scene/parse/params.h"
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
+#include "src/scene/parse/params.h"
 
 namespace lanelight {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "src/base/core/gunzip.h"
 #include "src/base/core/input_file.h"
-#include "src/scene/parse/interpret.h"
 #include "src/base/core/suggest.h"
+#include "src/scene/parse/interpret.h"
 
 namespace lanelight {
 namespace {

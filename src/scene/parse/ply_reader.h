@@ -13,9 +13,9 @@
 #include <string_view>
 
 #include "src/base/core/error.h"
+#include "src/base/core/suggest.h"
 #include "src/scene/parse/lex.h"
 #include "src/scene/parse/ply_header.h"
-#include "src/base/core/suggest.h"
 
 namespace lanelight {
 

@@ -2,8 +2,8 @@
 // media around them.
 #pragma once
 
-#include "src/scene/compiled/scene.h"
 #include "src/base/core/vec.h"
+#include "src/scene/compiled/scene.h"
 
 namespace lanelight {
 

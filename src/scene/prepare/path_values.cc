@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/stat/relative_error.h"
 #include "src/base/core/check.h"
+#include "src/base/stat/relative_error.h"
 
 namespace lanelight {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "src/scene/compile/environment_table.h"
 #include "src/base/core/alias_table.h"
+#include "src/scene/compile/environment_table.h"
 #include "src/scene/prepare/light_bounds.h"
 #include "src/scene/prepare/light_tree.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "src/base/core/aligned.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/shadow_worth.h"
 
 namespace lanelight {

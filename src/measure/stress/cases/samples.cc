@@ -7,11 +7,11 @@
 
 #include "kernels/probe/points_probe.h"
 #include "kernels/probe/warp_probe.h"
-#include "src/vocabulary/path/dimensions.h"
-#include "src/vocabulary/strategy/choice_names.h"
 #include "src/measure/stress/cases/cases.h"
 #include "src/measure/stress/cases/points.h"
 #include "src/measure/stress/cases/scene_text.h"
+#include "src/vocabulary/path/dimensions.h"
+#include "src/vocabulary/strategy/choice_names.h"
 
 namespace lanelight::stress {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "src/measure/stress/cases/cases.h"
-#include "src/measure/stress/cases/strategy_measure.h"
 #include "src/measure/stress/cases/points.h"
 #include "src/measure/stress/cases/scene_text.h"
+#include "src/measure/stress/cases/strategy_measure.h"
 #include "src/measure/stress/closed_forms.h"
 
 namespace lanelight::stress {
