@@ -15,6 +15,7 @@ import io
 import json
 import math
 import os
+import shutil
 import sys
 
 from lanelight_draw import SECONDS, SPP, Panel, Plot, Point, draw, picture
@@ -279,20 +280,26 @@ def main(file, figure, out, scene, everything):
     except BrokenPipeError:
         pass
     except ImportError as error:
-        # The python3 of PATH may be another one than the system's, which has its packages.
-        system = "/usr/bin/python3"
-        if (os.path.exists(system)
-                and os.path.realpath(system) != os.path.realpath(sys.executable)):
-            os.execv(system, [system, *sys.orig_argv[1:]])
+        # The python3 of PATH may be another one than the system's, with its own packages.
+        other = shutil.which("python3")
+        if other and not os.environ.get("LANELIGHT_PLOT_AGAIN"):
+            os.environ["LANELIGHT_PLOT_AGAIN"] = "1"
+            os.execv(other, [other, *sys.orig_argv[1:]])
         return (f"error: {error}: drawing needs matplotlib; install python3-matplotlib "
                 "(Debian), or write .csv")
     except PlotError as error:
         return f"error: '{file}' {error}"
     except OSError as error:
         return f"error: cannot write '{out}': {error.strerror}"
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        return f"error: '{file}' is not JSON: it is not a text file"
+    except json.JSONDecodeError as error:
         return f"error: '{file}' is not JSON: {error}"
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+    except KeyError as error:
+        return f"error: '{file}' is damaged: it has no member {error}"
+    except IndexError:
+        return f"error: '{file}' is damaged: a list in it is empty"
+    except (TypeError, ValueError, AttributeError) as error:
         return f"error: '{file}' is damaged: {type(error).__name__}: {error}"
     return 0
 

@@ -54,8 +54,10 @@ std::string MeasuresText(const CompareResult& r) {
                                  fmt::join(r.relmse_filtered, ", "))) +
          FactRow("MAE", NumberText(r.mae)) +
          FactRow("MAPE", fmt::format("{:.4g} %", 100 * r.mape)) +
-         FactRow("PSNR", std::isinf(r.psnr) && r.psnr > 0 ? "infinite: no difference"
-                                                        : fmt::format("{:.2f} dB", r.psnr)) + ChannelText(r) +
+         FactRow("PSNR", std::isinf(r.psnr) && r.psnr > 0
+                             ? "infinite: no difference"
+                             : fmt::format("{:.2f} dB", r.psnr)) +
+         ChannelText(r) +
          FactRow("tile rel. MSE", fmt::format("median {:.3g}, largest {:.3g}",
                                               r.tile_relmse_median, r.tile_relmse_max)) +
          NoiseText(r.z);

@@ -40,8 +40,9 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                         "samples there are; ended after {:.0f} per pixel, {:.0f} times "
                         "what the estimate asks for: {}",
                         spp, kHopeless, error)
-          : fmt::format("error: the target was not reached before the end by {}; error {}",
-                        limit, error));
+          : fmt::format(
+                "error: the target was not reached before the end by {}; error {}", limit,
+                error));
   return kExitTargetMissed;
 }
 

@@ -85,10 +85,9 @@ std::string NextRow(const RenderReport& report, const Job& job,
   if (missed) times = SamplesNeeded(job.target, e, r.samples) / double(r.samples);
   if (!std::isfinite(times) || times <= 0) return "";
   const double spp = double(r.samples) / double(job.window.pixels());
-  const std::string amount =
-      job.seconds > 0 || missed
-          ? "--time " + TimeArgument(times * SecondsOf(r))
-          : fmt::format("--spp {:.0f}", std::ceil(times * spp));
+  const std::string amount = job.seconds > 0 || missed
+                                 ? "--time " + TimeArgument(times * SecondsOf(r))
+                                 : fmt::format("--spp {:.0f}", std::ceil(times * spp));
   std::string text = fmt::format("{} takes about {:.2g} times as long: {} ({})",
                                  missed ? "the target" : "half the error", times, amount,
                                  DurationText(times * SecondsOf(r)));

@@ -16,7 +16,7 @@ export UBSAN_OPTIONS=$common:print_stacktrace=1
 export TSAN_OPTIONS=$common:second_deadlock_stack=1:atexit_sleep_ms=50
 runs=0
 
-# expect CODE ARGUMENTS: runs lanelight.
+# expect CODES ARGUMENTS: runs lanelight; CODES is one exit code, or several in quotes.
 expect() {
   local wanted=$1 code=0
   shift
@@ -28,7 +28,7 @@ expect() {
 check() {
   local wanted=$1 code=$2
   shift 2
-  if [[ $code -ne $wanted ]] || grep -qE 'Sanitizer|runtime error:' "$out/log"; then
+  if [[ " $wanted " != *" $code "* ]] || grep -qE 'Sanitizer|runtime error:' "$out/log"; then
     cat "$out/log"
     echo "FAILED (exit code $code, not $wanted): lanelight $*"
     exit 1
@@ -85,7 +85,8 @@ render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=soli
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=projected
 render many-lights.pbrt --resolution 81x61 --spp 8 --strategy light-candidates=resampled:3
 expect 0 bench cornell-box --resolution 33x31 --spp 2 --threads 1,4 --time 0.1 --json "$out/bench.json"
-expect 0 bench cornell-box --resolution 33x31 --spp 2 --threads 1,4 --time 0.1 \
+# (10: the machine is busy.)
+expect "0 10" bench cornell-box --resolution 33x31 --spp 2 --threads 1,4 --time 0.1 \
   --against "$out/bench.json" --tolerance 1 --html "$out/bench.html"
 
 render glass.pbrt --resolution 64x48 --spp 4 --gbuffer camera --png --crop 3,5,50,40 --depth half \

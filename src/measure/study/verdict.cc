@@ -46,10 +46,10 @@ class Writer {
     const std::size_t repetitions = Of(best).AtLevel().repetitions;
     if (repetitions < 3) {
       return Say(fmt::format(
-          "{} has the least error for the time here, {} times the efficiency of {}; {} "
-          "repetition{} cannot say how sure that is.",
-          NameOf(best), EstimateText(gain), NameOf(analysis_.baseline), repetitions,
-          repetitions == 1 ? "" : "s"));
+          "No ranking: {} repetition{} too few for intervals; use 3 or more. In these "
+          "renders {} has the least error for the time, {} times the efficiency of {}.",
+          repetitions, repetitions == 1 ? " is" : "s are", NameOf(best),
+          EstimateText(gain), NameOf(analysis_.baseline)));
     }
     const std::string amount =
         best == analysis_.baseline

@@ -69,9 +69,8 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
     text += fmt::format("; {} cells (~) are judged by the others", sums.estimated);
   }
   if (prediction.pilots == 0) return text + "\n";
-  return text +
-         fmt::format("\nthe rest: {} on this machine by one process, {}\n",
-                     DurationText(sums.seconds), BytesText(sums.bytes));
+  return text + fmt::format("\nthe rest: {} on this machine by one process, {}\n",
+                            DurationText(sums.seconds), BytesText(sums.bytes));
 }
 
 }  // namespace lanelight

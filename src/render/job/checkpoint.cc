@@ -92,9 +92,10 @@ void Checkpoint::Open() {
   const bool exists = Exists(settings_.path);
   if (settings_.resume == Resume::kNever) {
     if (!exists || settings_.path.empty()) return;
-    throw InputError("'" + settings_.path +
-                     "' exists: continue it with --resume if it is a state of this render, or "
-                     "give --checkpoint another name");
+    throw InputError(
+        "'" + settings_.path +
+        "' exists: continue it with --resume if it is a state of this render, or "
+        "give --checkpoint another name");
   }
   const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
   if (settings_.resume == Resume::kIfAny && !Exists(from)) return;

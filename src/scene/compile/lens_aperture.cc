@@ -98,7 +98,10 @@ void StoreAperture(const Camera& camera, LensSystem& lenses) {
   }
   double sum = 0;
   for (const float v : lenses.aperture) sum += v;
-  if (!(sum > 0)) throw InputError(camera.where, "the picture of the aperture is black");
+  if (!(sum > 0))
+    throw InputError(camera.where,
+                     "the image \"" + camera.aperture +
+                         "\" of the aperture is black: white lets light through");
   const double scale = kPi / 4 * static_cast<double>(lenses.aperture.size()) / sum;
   for (float& v : lenses.aperture) v = static_cast<float>(v * scale);
 }

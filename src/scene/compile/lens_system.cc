@@ -199,7 +199,10 @@ LensSystem CompileLenses(const Camera& camera, double unit) {
   });
   const bool dark = std::all_of(out.pupils.begin(), out.pupils.end(),
                                 [](const auto& p) { return p.x1 <= p.x0; });
-  if (dark) throw InputError(camera.where, "the lenses let no light through to the film");
+  if (dark)
+    throw InputError(camera.where,
+                     "the lenses let no light through to the film: check "
+                     "\"focusdistance\", \"aperturediameter\" and the lens file");
   out.rings_per_mm = static_cast<float>(1 / ring);
   out.rear = static_cast<float>(elements.front().z);
   out.scene_from_mm = static_cast<float>(unit / kMillimetres);

@@ -31,7 +31,7 @@ double Versine(double degrees) {
 
 // A target such as "power"; 0 or less means not given, as in pbrt.
 double Target(ParamSet& params, const char* name) {
-  return params.Float(name, -1, {-1, kHuge});
+  return params.Float(name, -1, {-kHuge, kHuge});  // negative: not set, as in pbrt-v4
 }
 
 void ReadDirection(ParamSet& params, Light* light) {
