@@ -109,9 +109,9 @@ expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 
 expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.csv"
 # States are written beside the render; parts, and what they are merged into.
 render cornell-box.pbrt --resolution 40x30 --spp 256 --checkpoint "$out/whole.state" \
-  --every 0.05 --watch "$out/watch.exr" --watch "$out/watch.png" --strategy control=analytic
+  --every 0.05 --watch "$out/watch.exr" --watch "$out/watch.png" --strategy control=regression
 render cornell-box.pbrt --resolution 40x30 --spp 300 --resume "$out/whole.state" \
-  --strategy control=analytic
+  --strategy control=regression
 for part in 1 2; do
   expect 0 render cornell-box.pbrt --resolution 40x30 --spp 16 --quiet --part $part/2 \
     --checkpoint "$out/part-$part.state" --strategy roulette=adjoint
