@@ -15,7 +15,6 @@ import io
 import json
 import math
 import os
-import shutil
 import sys
 
 from lanelight_draw import SECONDS, SPP, Panel, Plot, Point, draw, picture
@@ -280,11 +279,11 @@ def main(file, figure, out, scene, everything):
     except BrokenPipeError:
         pass
     except ImportError as error:
-        # The python3 of PATH may be another one than the system's, with its own packages.
-        other = shutil.which("python3")
-        if other and not os.environ.get("LANELIGHT_PLOT_AGAIN"):
-            os.environ["LANELIGHT_PLOT_AGAIN"] = "1"
-            os.execv(other, [other, *sys.orig_argv[1:]])
+        # The python3 of PATH may be another one than the system's, which has its packages.
+        system = "/usr/bin/python3"
+        if (os.path.exists(system)
+                and os.path.realpath(system) != os.path.realpath(sys.executable)):
+            os.execv(system, [system, *sys.orig_argv[1:]])
         return (f"error: {error}: drawing needs matplotlib; install python3-matplotlib "
                 "(Debian), or write .csv")
     except PlotError as error:

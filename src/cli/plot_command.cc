@@ -40,10 +40,7 @@ int RunPlot(const PlotCommandOptions& options) {
   OpenInputFile(options.file);
   if (!options.list) CheckOutputPaths({{options.out}}, {options.file});
   setenv("PYTHONSAFEPATH", "1", 1);  // no modules of the working directory
-  // The system's Python has the system's packages; a script of the same name first on the
-  // PATH may not start at all.
-  const char* system = "/usr/bin/python3";
-  std::vector<std::string> words = {std::filesystem::exists(system) ? system : "python3",
+  std::vector<std::string> words = {"python3",
                                     "-c",
                                     PlotScript(),
                                     options.file,

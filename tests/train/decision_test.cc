@@ -9,6 +9,7 @@
 #include "src/render/train/pilot_comparison.h"
 #include "src/render/train/strategy_trial.h"
 #include "src/render/train/training.h"
+#include "src/scene/parse/parse.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/agreement/agreement.h"
 
@@ -80,6 +81,21 @@ TEST_CASE("the pilot plays a milder roulette where late light is most", "[decisi
   // The image is what it is with that asked for: the pilot leaves nothing behind.
   CHECK(SameImage(
       r, Decide(Room(0.9, 100), "control=regression,roulette=throughput:0:2:4")));
+}
+
+// The training of these may end with another roulette, which is not the one that was
+// asked for: path reuse does not go together with that.
+TEST_CASE("a trial beside a roulette that splits renders with it", "[decision]") {
+  SceneDescription corridor =
+      ParseScene(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/corridor.pbrt");
+  corridor.film.width = corridor.film.height = 64;
+  for (const char* roulette : {"adjoint", "efficiency"}) {
+    const Rendered r =
+        Decide(corridor, std::string("decide=pilot,roulette=") + roulette, 1u << 20);
+    INFO(r.result.training.note);
+    CHECK(r.result.samples == 64 * 64 * 4);
+    CHECK_THAT(r.result.training.changes, !Catch::Contains("reuse"));
+  }
 }
 
 TEST_CASE("the pilot has paths serve their block where light comes by bounces",

@@ -103,10 +103,16 @@ class Decider {
     return Choose();
   }
 
-  // Paths that serve their block, beside what has been chosen. Where that splits paths,
-  // it is one or the other.
+  // Whether the strategy as given splits paths with these changes, before its training.
+  bool Splits(const std::string& changes) const {
+    return PlannedStrategy(scene_, WithChanges(scene_, options_, changes)).Splits();
+  }
+
+  // Tries path reuse beside what has been chosen. Where that splits paths, it is one or
+  // the other; where the strategy as given does, reuse is not tried.
   void TryBlocksBeside(TriedStrategy& chosen) {
-    const bool splits = PlannedStrategy(scene_, chosen.options).Splits();
+    const bool splits = Splits(chosen.changes);
+    if (splits && Splits("")) return;
     const double must_gain = splits ? std::exp(chosen.Gain().log) : kMustGain;
     TriedStrategy usual = splits ? entries_.front() : chosen;
     for (const TriedBlocks& blocks :

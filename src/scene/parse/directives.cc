@@ -2,9 +2,15 @@
 
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
+#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 namespace {
+
+bool IsAscii(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
 
 enum class Block { kAny, kOptions, kWorld };  // before WorldBegin, after it
 
@@ -125,14 +131,15 @@ void RunDirectives(ParseState& state) {
                                                       "stand",
                                                       token.Describe()));
     }
-    if (token.text == "WorldEnd") {
-      throw InputError(
-          statement.where(),
-          "WorldEnd belongs to pbrt-v3; in pbrt-v4 files the world ends with "
-          "the file");
-    }
     const Directive* directive = FindDirective(token.text);
     if (directive == nullptr) {
+      CheckVersion3(statement.where(), "directive", token.text);
+      if (!IsAscii(token.text)) {
+        throw InputError(statement.where(),
+                         fmt::format("{} is not a directive: it has characters that are "
+                                     "not ASCII, such as a no-break space",
+                                     Quoted(token.text)));
+      }
       std::vector<std::string> known;
       for (const Directive& d : kDirectives) known.emplace_back(d.name);
       ThrowUnknown(statement.where(), "directive", token.text, known);

@@ -6,6 +6,7 @@
 #include "src/base/core/suggest.h"
 #include "src/base/image/color_spaces.h"
 #include "src/scene/parse/interpret.h"
+#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 namespace {
@@ -127,11 +128,7 @@ void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
 
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
   if (type != "rgb" && type != "gbuffer" && type != "spectral") {
-    if (type == "image") {  // the only film before pbrt-v4
-      throw InputError(params.where(),
-                       "film \"image\" is pbrt-v3 syntax: convert the file with `pbrt "
-                       "--upgrade`");
-    }
+    CheckVersion3(params.where(), "film", type);
     ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer", "spectral"});
   }
   Film film;

@@ -171,10 +171,11 @@ std::string_view Lexer::Unescape(const Token& token, std::string_view raw) {
     }
     const int meant = Escape(raw[++i]);
     if (meant < 0) {
-      throw InputError(Where(token.line, token.column + static_cast<int>(i)),
-                       fmt::format("unknown escape {} in a string; supported: "
-                                   "\\b \\f \\n \\r \\t \\\\ \\' \\\"",
-                                   Quoted(raw.substr(i - 1, 2))));
+      throw InputError(
+          Where(token.line, token.column + static_cast<int>(i)),
+          fmt::format("unknown escape {} in a string; supported: "
+                      "\\b \\f \\n \\r \\t \\\\ \\' \\\"; write / in file names",
+                      Quoted(raw.substr(i - 1, 2))));
     }
     out += static_cast<char>(meant);
   }

@@ -5,6 +5,7 @@
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
 #include "src/scene/parse/params.h"
+#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 namespace {
@@ -51,6 +52,7 @@ void ReadDeclaration(const Lexer& lexer, const Token& token, Param* param) {
       return;
     }
   }
+  CheckVersion3(lexer.Where(token), "parameter type", type);
   ThrowUnknown(lexer.Where(token),
                fmt::format("type of parameter {}:", Quoted(param->name)), type,
                TypeNames());

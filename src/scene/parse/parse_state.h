@@ -18,6 +18,7 @@
 #include "src/scene/parse/forward.h"
 #include "src/scene/parse/params.h"
 #include "src/scene/parse/parse.h"
+#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 
@@ -159,7 +160,10 @@ const auto& Lookup(const Table& table, const std::string& name,
     }
   };
   const auto found = find();
-  if (found == std::end(table)) ThrowUnknown(where, kind, name, Names(table));
+  if (found == std::end(table)) {
+    CheckVersion3(where, kind, name);
+    ThrowUnknown(where, kind, name, Names(table));
+  }
   return found->second;
 }
 
