@@ -26,7 +26,7 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/base/core/*.cc ${CMAKE_SOURCE_DIR}/src/scene/parse/*.cc
   ${CMAKE_SOURCE_DIR}/src/base/image/*.cc ${CMAKE_SOURCE_DIR}/src/vocabulary/strategy/*.cc
   ${CMAKE_SOURCE_DIR}/src/vocabulary/path/*.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/medium_*.cc
-  ${CMAKE_SOURCE_DIR}/src/scene/compile/frame.cc
+  ${CMAKE_SOURCE_DIR}/src/scene/compile/frame.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/voxel_spectra.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/reference/measured.cc)
 # It needs what the build writes of the version.
@@ -34,8 +34,12 @@ list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/base/core/version.
 set(FUZZ_FLAGS -O1 -gline-tables-only -fno-omit-frame-pointer -fno-sanitize-recover=all)
 add_library(lanelight_fuzz_lib STATIC EXCLUDE_FROM_ALL ${FUZZ_LIBRARY_SOURCES})
 lanelight_unity(lanelight_fuzz_lib ${FUZZ_LIBRARY_SOURCES})
+# Alone, so that those of media which need the rest of the compiler are not linked.
+file(GLOB FUZZ_MEDIUM_SOURCES CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/src/scene/compile/medium_*.cc)
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/base/image/sparse_grid.cc
-  ${CMAKE_SOURCE_DIR}/src/base/image/nanovdb_file.cc PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  ${CMAKE_SOURCE_DIR}/src/base/image/nanovdb_file.cc ${FUZZ_MEDIUM_SOURCES}
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # It goes over many thousand values of each grid, and would take ten times as long.
 set_property(SOURCE ${CMAKE_SOURCE_DIR}/src/base/image/sparse_grid.cc APPEND PROPERTY
   COMPILE_OPTIONS -O2 -fno-sanitize-coverage=trace-cmp)
