@@ -1,6 +1,7 @@
 // The registry of stages: one line each, in the order of execution. The plan keeps those
 // that the scene needs (src/render/plan/plan.cc). A file in kernels/ with a stage and no
-// line here fails tests/plan/registry_test.cc; a line without a file fails to link.
+// line here fails tests/render/plan/registry_test.cc; a line without a file fails to
+// link.
 #pragma once
 
 #include "kernels/simd/target.h"

@@ -2,7 +2,7 @@
 # behaviour sanitizers; needs clang and its run-time libraries. Only what reads input is
 # compiled again for it. Inputs are first those of fuzz/corpus/<target>, where there are any,
 # and those that <target>_ARGUMENTS names; new ones go to the first folder, in the build.
-set(parse_fuzz_ARGUMENTS ${CMAKE_CURRENT_SOURCE_DIR}/broken ${CMAKE_SOURCE_DIR}/scenes)
+set(parse_fuzz_ARGUMENTS ${CMAKE_CURRENT_SOURCE_DIR}/scene/broken ${CMAKE_SOURCE_DIR}/scenes)
 set(nanovdb_fuzz_ARGUMENTS -max_len=121 -len_control=0)  # ten changes
 set(LANELIGHT_FUZZ_SECONDS 10 CACHE STRING "Seconds that ctest fuzzes each target")
 file(GLOB FUZZ_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cc)
@@ -27,7 +27,7 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/base/image/*.cc ${CMAKE_SOURCE_DIR}/src/vocabulary/strategy/*.cc
   ${CMAKE_SOURCE_DIR}/src/vocabulary/path/*.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/medium_*.cc
   ${CMAKE_SOURCE_DIR}/src/scene/compile/frame.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/voxel_spectra.cc
-  ${CMAKE_CURRENT_SOURCE_DIR}/image/sparse_grid_file.cc
+  ${CMAKE_CURRENT_SOURCE_DIR}/base/image/sparse_grid_file.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/reference/measured.cc)
 # It needs what the build writes of the version.
 list(REMOVE_ITEM FUZZ_LIBRARY_SOURCES ${CMAKE_SOURCE_DIR}/src/base/core/version.cc)

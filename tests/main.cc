@@ -1,6 +1,6 @@
 // Catch's main, with a tag for every test case that names its file: `[#shade/stage_test]`
-// selects what tests/shade/stage_test.cc has. Catch's own tags of files have no folder,
-// and files of different folders share names.
+// selects what tests/kernels/shade/stage_test.cc has. Catch's own tags of files have no
+// folder, and files of different folders share names.
 #define CATCH_CONFIG_RUNNER
 #include <malloc.h>
 

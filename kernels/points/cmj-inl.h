@@ -15,7 +15,7 @@
 //               two dimensions alone; N^-3/2 for the rest, since all columns share p and
 //               with it the same error (independently jittered strata have N^-2). Of all
 //               blocks: N^-2 and N^-3/2, because the smallest keep the error of theirs.
-//               Measured in tests/points/convergence_test.cc
+//               Measured in tests/kernels/points/convergence_test.cc
 //   dependence  the samples of one block share the permutations; those of one group are
 //               one observation
 //   cost        two PCG-4D hashes and three permutations per point

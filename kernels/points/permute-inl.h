@@ -1,7 +1,8 @@
 // Random permutations of [0, 2^m), one per key, without tables: swap-or-not rounds. Round
 // r pairs each x with K_r - x modulo 2^m, and swaps the two or not, as a hash of the
 // larger says.
-//   uniform   tests/points/permute_test.cc bounds what ten rounds leave on images,
+//   uniform   tests/kernels/points/permute_test.cc bounds what ten rounds leave on
+//   images,
 //             pairs and, for few elements, whole permutations
 //   cost      ten rounds of three multiplications and twelve cheap instructions,
 //             whatever n

@@ -1,6 +1,6 @@
 // Elementary functions on vectors of float, without branches or tables. Each states its
-// range and error bound; tests/simd/math_test.cc asserts the same numbers per target.
-// Polynomials are Chebyshev fits made for this file.
+// range and error bound; tests/kernels/simd/math_test.cc asserts the same numbers per
+// target. Polynomials are Chebyshev fits made for this file.
 #ifndef LANELIGHT_SIMD_MATH_INL_H_
 #define LANELIGHT_SIMD_MATH_INL_H_
 

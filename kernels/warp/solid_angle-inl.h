@@ -5,8 +5,8 @@
 //               s s / 2 + s v2, s = v0 + v1; a rectangle is two triangles, added as
 //               complex numbers
 //   error       below 2e-6 (1 + 1 / c) relative, c: height over the distance of corner 0;
-//               tests/lights/solid_angle_test.cc asserts it. The second part is the
-//               rounding of the height, which area sampling meets as well
+//               tests/kernels/lights/solid_angle_test.cc asserts it. The second part is
+//               the rounding of the height, which area sampling meets as well
 //   source      van Oosterom and Strackee 1983, "The Solid Angle of a Plane Triangle"
 #ifndef LANELIGHT_WARP_SOLID_ANGLE_INL_H_
 #define LANELIGHT_WARP_SOLID_ANGLE_INL_H_

@@ -6,7 +6,7 @@
 #include "tests/reference/compare.h"
 #include "tests/reference/scenes.h"
 #include "tests/reference/texture.h"
-#include "tests/run/render_fixture.h"
+#include "tests/render/run/render_fixture.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {

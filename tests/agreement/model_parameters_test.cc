@@ -5,7 +5,7 @@
 
 #include "src/base/image/image.h"
 #include "tests/agreement/parameter_rows.h"
-#include "tests/image/temporary_folder.h"
+#include "tests/base/image/temporary_folder.h"
 
 namespace lanelight::test {
 namespace {

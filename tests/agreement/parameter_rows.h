@@ -6,7 +6,7 @@
 
 #include "src/base/core/pi.h"
 #include "tests/agreement/agreement.h"
-#include "tests/parse/parse_text.h"
+#include "tests/scene/parse/parse_text.h"
 
 namespace lanelight::test {
 

@@ -5,7 +5,7 @@
 
 #include "src/render/plan/plan.h"
 #include "tests/agreement/agreement.h"
-#include "tests/surface/relief_files.h"
+#include "tests/kernels/surface/relief_files.h"
 
 namespace lanelight::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "src/base/image/spectrum.h"
 #include "tests/agreement/spectral_reference.h"
-#include "tests/image/temporary_folder.h"
+#include "tests/base/image/temporary_folder.h"
 #include "tests/reference/measured.h"
 
 namespace lanelight::test {

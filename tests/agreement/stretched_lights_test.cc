@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/agreement/agreement.h"
-#include "tests/lights/image_strategies.h"
+#include "tests/kernels/lights/image_strategies.h"
 
 namespace lanelight::test {
 namespace {

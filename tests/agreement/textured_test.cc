@@ -202,7 +202,7 @@ TEST_CASE("textured coats agree with the reference", "[textured]") {
 
 TEST_CASE("a white coat of any texture neither gains nor loses light", "[textured]") {
   // In a furnace it shows what the constant coat shows, at and between the nodes of its
-  // tables; the constant coat's losses are tested in tests/shade/limits_test.cc.
+  // tables; the constant coat's losses are tested in tests/kernels/shade/limits_test.cc.
   const auto check = [](double roughness, double thickness, Member member) {
     Material m = Base(MaterialKind::kCoatedDiffuse);
     m.reflectance.constant = {1, 1, 1};

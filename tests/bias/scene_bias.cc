@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "src/scene/parse/parse.h"
-#include "tests/strategy/combinations.h"
+#include "tests/vocabulary/strategy/combinations.h"
 
 namespace lanelight::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "src/base/image/exr.h"
 #include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
-#include "tests/texture/texture_files.h"
+#include "tests/kernels/texture/texture_files.h"
 
 namespace lanelight {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
-#include "tests/study/study_file.h"
+#include "tests/measure/study/study_file.h"
 
 namespace lanelight {
 namespace {

@@ -14,8 +14,8 @@
 #include "src/base/core/error.h"
 #include "src/base/image/nanovdb_file.h"
 #include "src/scene/compile/medium_grid.h"
-#include "tests/image/sparse_grid_file.h"
-#include "tests/image/temporary_folder.h"
+#include "tests/base/image/sparse_grid_file.h"
+#include "tests/base/image/temporary_folder.h"
 
 namespace lanelight {
 

@@ -1,10 +1,10 @@
-// libFuzzer target for the scene parser and the PLY reader. Seeds: tests/broken and
+// libFuzzer target for the scene parser and the PLY reader. Seeds: tests/scene/broken and
 // scenes. Needs clang and its sanitizer run-time libraries; from the root of the
 // repository:
 //
 //   ./run build parse_fuzz
 //   mkdir -p corpus && build/release/tests/parse_fuzz -max_total_time=60 corpus \
-//     tests/broken tests/broken/parts scenes
+//     tests/scene/broken tests/scene/broken/parts scenes
 #include "tests/fuzz/parse_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,8 +1,8 @@
-// From a reference image to the statistics of tests/stat.
+// From a reference image to the statistics of tests/base/stat.
 #pragma once
 
+#include "tests/base/stat/compare_means.h"
 #include "tests/reference/path_tracer.h"
-#include "tests/stat/compare_means.h"
 
 namespace lanelight::test {
 

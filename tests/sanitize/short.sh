@@ -126,7 +126,7 @@ spp = [4, 16]
 resolution = "24x18"
 END
 expect 0 sweep "$out/sweep.toml" --out "$out/sweep" --quiet
-expect 1 plan ../tests/broken/error-in-include.pbrt
+expect 1 plan ../tests/scene/broken/error-in-include.pbrt
 expect 2 render --nonsense
 expect 0 info
 expect 0 completion zsh

@@ -9,7 +9,7 @@
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/prepared_scene.h"
-#include "tests/run/render_fixture.h"
+#include "tests/render/run/render_fixture.h"
 
 namespace lanelight::test {
 

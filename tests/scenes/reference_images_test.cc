@@ -12,7 +12,7 @@
 
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "tests/run/render_fixture.h"
+#include "tests/render/run/render_fixture.h"
 #include "tests/support/shared_scenes.h"
 
 namespace lanelight {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "src/scene/parse/parse.h"
-#include "tests/run/render_fixture.h"
+#include "tests/render/run/render_fixture.h"
 
 namespace lanelight::test {
 

@@ -146,8 +146,8 @@ TEST_CASE("an include of a folder above is found", "[layers]") {
         "");
   CHECK(UpwardIncludes("kernels/simd/vec3-inl.h",
                        "#include \"kernels/queue/batch-inl.h\"\n") != "");
-  CHECK(UpwardIncludes("src/base/core/check.h", "#include \"tests/stat/chi2.h\"\n") !=
-        "");
+  CHECK(UpwardIncludes("src/base/core/check.h",
+                       "#include \"tests/base/stat/chi2.h\"\n") != "");
   CHECK(UpwardIncludes("src/attic/old.h", "") != "");
 }
 

@@ -1,7 +1,7 @@
 // What differs between processors, and all of it: the names of x86 and ARM, their
 // counters and control registers are in machine.h and machine.cc alone
-// (tests/core/machine_test.cc). x86-64 and 64-bit ARM (AArch64) are known; whatever else
-// Highway compiles for renders too, with a clock that costs more.
+// (tests/base/core/machine_test.cc). x86-64 and 64-bit ARM (AArch64) are known; whatever
+// else Highway compiles for renders too, with a clock that costs more.
 #pragma once
 
 #include <cstdint>

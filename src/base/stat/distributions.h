@@ -1,5 +1,5 @@
 // Distribution functions for hypothesis tests, by Boost.Math, in double precision. Stated
-// errors are checked by tests/stat/distributions_test.cc.
+// errors are checked by tests/base/stat/distributions_test.cc.
 #pragma once
 
 namespace lanelight::stat {

@@ -19,9 +19,9 @@ struct Cost {
 /// of its logarithm is HalfWidth()'s (src/base/stat/bootstrap.h): Student's t with the
 /// jackknife's standard error, widened by the studentised bootstrap (Efron and Tibshirani
 /// 1993, "An Introduction to the Bootstrap", chapter 12) from 8 pairs on; deterministic.
-/// Its coverage, by simulation (tests/stat/efficiency_test.cc): nominal for errors that
-/// scatter by up to half their mean; where one strategy's errors are log-normal with a
-/// standard deviation of 1.3 of their mean and the other's are steady, 88 % at a
+/// Its coverage, by simulation (tests/base/stat/efficiency_test.cc): nominal for errors
+/// that scatter by up to half their mean; where one strategy's errors are log-normal with
+/// a standard deviation of 1.3 of their mean and the other's are steady, 88 % at a
 /// confidence of 95 %. Without bounds for fewer than three pairs. A mean error of zero
 /// (or below, where a reference's own error is subtracted) in either makes the ratio 0,
 /// infinite, or, in both, that of the seconds; then without bounds. Seconds below 1e-9

@@ -7,7 +7,8 @@
 namespace lanelight {
 namespace {
 
-// kernels/intersect/ names its stages so; tests/render/profile_report_test.cc compares.
+// kernels/intersect/ names its stages so; tests/render/job/profile_report_test.cc
+// compares.
 bool IsIntersect(std::string_view name) {
   if (name.starts_with(kSeenStage)) name.remove_prefix(kSeenStage.size());
   return name.starts_with("intersect_") || name.starts_with("shadow_");

@@ -3,7 +3,7 @@
 //
 // Every bounce has kDimensionsPerBounce of them and every purpose a range of its own, so
 // that a new dimension takes a free place and changes the numbers of no other one.
-// tests/points/golden_test.cc holds values of each.
+// tests/kernels/points/golden_test.cc holds values of each.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,153 @@
+// Locks exclude others name by name, and end with whoever has them.
+#include "src/base/core/file_lock.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "src/base/core/error.h"
+#include "tests/base/image/temporary_folder.h"
+
+namespace lanelight {
+
+TEST_CASE("a lock has one owner at a time", "[core][lock]") {
+  const TemporaryFolder folder;
+  // Two objects are like two processes: locks belong to open files.
+  const LockFile a(folder.File("a")), b(folder.File("a"));
+  CHECK(a.locking());
+  {
+    const auto x = a.Take("x");
+    REQUIRE(x);
+    CHECK_FALSE(b.Take("x"));
+    CHECK(b.Take("y"));
+    const auto z = b.Take("z");
+    CHECK(z);
+    CHECK_FALSE(a.Take("z"));
+  }
+  CHECK(b.Take("x"));
+  CHECK(a.Take("z"));
+}
+
+TEST_CASE("a lock goes where it is moved to", "[core][lock]") {
+  const TemporaryFolder folder;
+  const LockFile a(folder.File("a")), b(folder.File("a"));
+  std::optional<HeldLock> kept;
+  {
+    auto x = a.Take("x");
+    REQUIRE(x);
+    kept = std::move(x);
+  }
+  CHECK_FALSE(b.Take("x"));
+  kept = a.Take("y");
+  CHECK(b.Take("x"));
+  CHECK_FALSE(b.Take("y"));
+  kept.reset();
+  CHECK(b.Take("y"));
+}
+
+TEST_CASE("a lock goes away with its object, however often the file was opened",
+          "[core][lock]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("a");
+  const LockFile one(path);
+  {
+    const LockFile other(path);
+    const auto held = other.Take("x");
+    CHECK(held);
+    CHECK_FALSE(one.Take("x"));
+    {
+      const LockFile third(path);
+    }  // whose end frees nothing of the second one's
+    CHECK_FALSE(one.Take("x"));
+  }
+  CHECK(one.Take("x"));
+}
+
+TEST_CASE("locks of a process that is killed are free at once", "[core][lock]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("a");
+  int ready[2];
+  REQUIRE(pipe(ready) == 0);
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const LockFile file(path);
+    const auto held = file.Take("x");
+    const char taken = held ? 'y' : 'n';
+    if (write(ready[1], &taken, 1) == 1) pause();
+    _exit(1);
+  }
+  char taken = 0;
+  REQUIRE(read(ready[0], &taken, 1) == 1);
+  CHECK(taken == 'y');
+  const LockFile own(path), other(path);
+  CHECK_FALSE(own.Take("x"));
+  kill(child, SIGKILL);
+  // Until the kernel has closed the child's files.
+  const auto taken_over = own.Wait("x", [](double) { return true; });
+  CHECK(taken_over);
+  CHECK(waitpid(child, nullptr, 0) == child);
+  CHECK_FALSE(other.Take("x"));
+  close(ready[0]);
+  close(ready[1]);
+}
+
+TEST_CASE("waiting ends when it is told to", "[core][lock]") {
+  const TemporaryFolder folder;
+  const LockFile a(folder.File("a")), b(folder.File("a"));
+  const auto held = a.Take("x");
+  std::vector<double> waited;
+  const auto go_on = [&](double seconds) {
+    waited.push_back(seconds);
+    return waited.size() < 4;
+  };
+  CHECK_FALSE(b.Wait("x", go_on));
+  REQUIRE(waited.size() == 4);
+  CHECK(waited[0] < waited[1]);
+  CHECK(waited[3] >= 0.007);  // pauses of 1, 2 and 4 ms
+  CHECK(b.Wait("y", go_on));
+  CHECK(waited.size() == 4);
+}
+
+TEST_CASE("ten thousand locks take one file", "[core][lock]") {
+  const TemporaryFolder folder;
+  const LockFile a(folder.File("a")), b(folder.File("a"));
+  std::vector<HeldLock> taken;
+  for (int i = 0; i < 10000; ++i) {
+    auto lock = a.Take("cell " + std::to_string(i));
+    REQUIRE(lock);
+    taken.push_back(std::move(*lock));
+  }
+  CHECK_FALSE(b.Take("cell 0"));
+  CHECK_FALSE(b.Take("cell 9999"));
+  CHECK(b.Take("cell 10000"));
+  CHECK(folder.Count() == 1);
+}
+
+TEST_CASE("a lock file knows whether its path still names it", "[core][lock]") {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("a");
+  const LockFile one(path);
+  CHECK(one.IsNamed());
+  unlink(path.c_str());
+  CHECK_FALSE(one.IsNamed());
+  const LockFile other(path);
+  CHECK_FALSE(one.IsNamed());
+  CHECK(other.IsNamed());
+  CHECK_THROWS_WITH(LockFile(folder.File("none/a")),
+                    Catch::Contains("none/a") && Catch::Contains("No such file"));
+}
+
+TEST_CASE("a note is replaced as a whole", "[core][lock]") {
+  const TemporaryFolder folder;
+  LockFile file(folder.File("a"));
+  CHECK(file.Note().empty());
+  file.SetNote("something long");
+  file.SetNote("short");
+  CHECK(LockFile(file.path()).Note() == "short");
+}
+
+}  // namespace lanelight

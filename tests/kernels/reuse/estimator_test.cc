@@ -1,0 +1,106 @@
+// reuse=block has the mean of paths that serve their own pixels, with every roulette,
+// proposal, layout and material. (tests/vocabulary/strategy/unbiased_test.cc compares it
+// with the scalar reference.)
+#include <catch2/catch.hpp>
+
+#include "src/base/core/error.h"
+#include "tests/kernels/reuse/same_light.h"
+
+namespace lanelight::test {
+namespace {
+
+// A room that is seen by way of a mirror for a part, whose paths are cut at a depth.
+ReuseScene Room() { return {SmallRoom(8, 4, 0.3)}; }
+
+// Plastic, whose coat is a mirror.
+ReuseScene PlasticSides() {
+  Material plastic;
+  plastic.kind = MaterialKind::kCoatedDiffuse;
+  plastic.reflectance.constant = Grey(0.7);
+  plastic.uroughness.constant = plastic.vroughness.constant = 0;
+  return WithSides(plastic, 4);
+}
+
+// Mirrors, in which first vertices come an event later, with no suffix left.
+ReuseScene MirrorSides() {
+  Material mirror;
+  mirror.kind = MaterialKind::kConductor;
+  mirror.eta.constant = {0.2, 0.2, 0.2};
+  mirror.k.constant = {3.9, 3.9, 3.9};
+  mirror.uroughness.constant = mirror.vroughness.constant = 0;
+  return WithSides(mirror, 2);
+}
+
+}  // namespace
+
+TEST_CASE("no roulette takes light away on the way to a second vertex", "[reuse]") {
+  for (const char* roulette :
+       {"roulette=none", "roulette=constant:0.25", "roulette=throughput:0:1",
+        "roulette=luminance:0:1", "roulette=throughput"}) {
+    CheckSame(Room(), std::string("points=sobol,") + roulette, "reuse=block:16");
+  }
+}
+
+TEST_CASE("every proposal of directions finds second vertices as it says", "[reuse]") {
+  ReuseScene uniform = Room();
+  uniform.power = 0.05;
+  CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:8");
+  CheckSame(uniform, "points=sobol,directions=bsdf", "reuse=block:8");
+  CheckSame(Room(), "points=sobol,directions=light", "reuse=block:8");
+  CheckSame(Room(), "points=sobol,light-candidates=resampled", "reuse=block:8");
+}
+
+TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
+  for (const char* reuse : {"reuse=block:2", "reuse=block:4:compact",
+                            "reuse=block:32:apart", "reuse=block:64"}) {
+    CheckSame(Room(), "points=sobol", reuse);
+  }
+  ReuseScene odd = Room();
+  odd.description.film.width = 7;
+  odd.description.film.height = 7;
+  CheckSame(odd, "points=sobol", "reuse=block:16");
+}
+
+TEST_CASE("materials of every kind receive, and are seen", "[reuse]") {
+  for (const Material& material : MaterialZoo()) {
+    INFO(material.name);
+    ReuseScene plate = {Plate(material, 8, 3), 2048, 0.03};
+    CheckSame(plate, "points=sobol", "reuse=block:16");
+  }
+  // A coin decides between the coat's mirror and uniform directions.
+  ReuseScene uniform = PlasticSides();
+  uniform.power = 0.02;
+  CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:16");
+  CheckSame(PlasticSides(), "points=sobol", "reuse=block:16");
+}
+
+TEST_CASE("first vertices in mirrors are apart from those before", "[reuse]") {
+  CheckSame(MirrorSides(), "points=sobol", "reuse=block:64");
+}
+
+TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
+  for (const char* other :
+       {"roulette=adjoint", "roulette=efficiency", "control=regression"}) {
+    INFO(other);
+    CHECK_THROWS_AS(
+        EstimateWith(Room().description, std::string("reuse=block,") + other, 4, 1),
+        InputError);
+  }
+}
+
+TEST_CASE("without reuse=block nothing of it is there", "[reuse]") {
+  TestRender options;
+  const Plan none = RenderDescription(Room().description, options).plan;
+  CHECK(none.block_stages.empty());
+  CHECK_FALSE(none.features.Has(Feature::kReuse));
+  for (const PlannedStage& planned : none.stages) {
+    CHECK(std::string(planned.stage.name).find("reuse") == std::string::npos);
+  }
+  for (const Field field : none.live_fields) CHECK(field != Field::reuse);
+  options.strategy = "reuse=block";
+  const Plan block = RenderDescription(Room().description, options).plan;
+  CHECK(block.block_stages.size() == 3);
+  CHECK(block.bytes_per_path <= none.bytes_per_path + 12);
+}
+
+}  // namespace lanelight::test

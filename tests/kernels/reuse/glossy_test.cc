@@ -1,0 +1,103 @@
+// Glossy second vertices serve all first ones of a block, each with what it would see:
+// the mean is that of paths that serve their own pixels.
+#include <catch2/catch.hpp>
+
+#include "tests/kernels/reuse/same_light.h"
+
+namespace lanelight::test {
+namespace {
+
+Material Plastic(double alpha) {
+  Material plastic;
+  plastic.kind = MaterialKind::kCoatedDiffuse;
+  plastic.reflectance.constant = {0.7, 0.5, 0.6};
+  plastic.uroughness.constant = plastic.vroughness.constant = alpha;
+  plastic.remap_roughness = false;
+  return plastic;
+}
+
+// Nearly all of what it reflects is by its coat.
+Material Glaze(double alpha) {
+  Material glaze = Plastic(alpha);
+  glaze.reflectance.constant = Grey(0.05);
+  glaze.interface_eta = 4;
+  return glaze;
+}
+
+Material Metal(double u_alpha, double v_alpha) {
+  Material metal;
+  metal.kind = MaterialKind::kConductor;
+  metal.eta.constant = {0.2, 0.9, 1.1};
+  metal.k.constant = {3.9, 2.5, 2.2};
+  metal.uroughness.constant = u_alpha;
+  metal.vroughness.constant = v_alpha;
+  metal.remap_roughness = false;
+  return metal;
+}
+
+struct Named {
+  std::string name;
+  Material material;
+
+  /// Light samples and uniform directions hardly find what it reflects: a noise in which
+  /// nothing would be seen.
+  bool IsTooNarrowFor(const std::string& strategy) const {
+    const bool blind = strategy.find("directions=light") != std::string::npos ||
+                       strategy.find("directions=uniform") != std::string::npos;
+    return blind && name.find("narrow") != std::string::npos;
+  }
+};
+
+// The narrow ones serve nobody, or with their bases alone.
+std::vector<Named> GlossyMaterials() {
+  return {{"smooth plastic", Plastic(0)},      {"narrow plastic", Plastic(0.02)},
+          {"rough plastic", Plastic(0.3)},     {"glaze", Glaze(0.4)},
+          {"narrow metal", Metal(0.05, 0.05)}, {"rough metal", Metal(0.3, 0.3)},
+          {"brushed metal", Metal(0.15, 0.5)}};
+}
+
+}  // namespace
+
+TEST_CASE("glossy second vertices send each pixel what it would see", "[reuse]") {
+  for (const Named& side : GlossyMaterials()) {
+    INFO(side.name);
+    for (const std::string directions : {"mis", "light", "bsdf"}) {
+      const std::string alone = "points=sobol,directions=" + directions;
+      if (side.IsTooNarrowFor(alone)) continue;
+      ReuseScene room = WithSides(side.material, 4);
+      room.spp = 4096;
+      room.power = 0.03;
+      CheckSame(room, alone, "reuse=block:16");
+    }
+  }
+}
+
+TEST_CASE("glossy second vertices go with every proposal and roulette", "[reuse]") {
+  for (const Named& side :
+       {Named{"smooth plastic", Plastic(0)}, Named{"rough plastic", Plastic(0.3)},
+        Named{"brushed metal", Metal(0.15, 0.5)}}) {
+    INFO(side.name);
+    ReuseScene room = WithSides(side.material, 5);
+    room.spp = 4096;
+    room.power = 0.05;
+    for (const std::string with : {"directions=uniform", "directions=mis:balance",
+                                   "light-candidates=resampled", "roulette=constant"}) {
+      CheckSame(room, "points=sobol," + with, "reuse=block:32:compact");
+    }
+  }
+}
+
+TEST_CASE("columns of glossy second vertices are there where those are", "[reuse]") {
+  TestRender options;
+  options.strategy = "reuse=block";
+  const auto stages = [&](const Material& side) {
+    const Plan plan = RenderDescription(WithSides(side, 4).description, options).plan;
+    CHECK(plan.features.Has(Feature::kReuse));
+    return plan.block_stages.size();
+  };
+  Material diffuse;
+  CHECK(stages(diffuse) == 3);
+  CHECK(stages(Plastic(0.3)) == 5);
+}
+
+}  // namespace lanelight::test

@@ -1,0 +1,192 @@
+// Pages that come, ask and go, without sockets.
+#include "src/measure/live/laboratory.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/measure/live/live_scene.h"
+
+namespace lanelight::live {
+namespace {
+
+// A page that draws all that it is sent at once.
+class PretendedPage {
+ public:
+  explicit PretendedPage(Laboratory& laboratory) : laboratory_(laboratory) {
+    number_ = laboratory.Enter([this](std::string message, bool binary) {
+      const std::lock_guard lock(mutex_);
+      if (binary) {
+        ++pictures_;
+      } else {
+        const auto json = nlohmann::json::parse(message);
+        last_[json.at("kind")] = json;
+        texts_ += message.size();
+      }
+      come_.notify_all();
+    });
+  }
+  ~PretendedPage() { Leave(); }
+
+  void Ask(const std::string& message) { laboratory_.Receive(number_, message); }
+  void Leave() {
+    if (number_ != 0) laboratory_.Leave(number_);
+    number_ = 0;
+  }
+  std::size_t Received() {
+    const std::lock_guard lock(mutex_);
+    return texts_ + pictures_;
+  }
+  int Pictures() {
+    const std::lock_guard lock(mutex_);
+    return pictures_;
+  }
+  nlohmann::json Last(const std::string& kind) {
+    const std::lock_guard lock(mutex_);
+    return last_[kind];
+  }
+  // Draws until it is so; a minute at most.
+  bool Until(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      for (const char* what : {"0", "1", "2"}) {
+        Ask(std::string(R"({"do": "seen", "what": )") + what + "}");
+      }
+      std::unique_lock lock(mutex_);
+      come_.wait_for(lock, std::chrono::milliseconds(20));
+    }
+    return true;
+  }
+  bool UntilSpp(int slot, int spp) {
+    return Until([&] {
+      const nlohmann::json state = Last("state");
+      return state.is_object() &&
+             state["slots"][std::size_t(slot)].value("spp", 0) >= spp;
+    });
+  }
+
+ private:
+  Laboratory& laboratory_;
+  int number_ = 0;
+  std::mutex mutex_;
+  std::condition_variable come_;
+  std::map<std::string, nlohmann::json> last_;
+  std::size_t texts_ = 0;
+  int pictures_ = 0;
+};
+
+std::string ChooseText(int slot, const std::string& name) {
+  return nlohmann::json{{"do", "strategy"}, {"slot", slot}, {"name", name}}.dump();
+}
+
+}  // namespace
+
+TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "lanelight render box.pbrt");
+  PretendedPage page(laboratory);
+  REQUIRE(page.Until([&] { return page.Last("hello").is_object(); }));
+  CHECK(page.Last("hello").at("width") == 32);
+  CHECK(page.Last("hello").at("strategies").at("presets").size() == AllPresets().size());
+  page.Ask(ChooseText(0, "default"));
+  REQUIRE(page.UntilSpp(0, 16));
+  CHECK(page.Pictures() > 1);
+  const nlohmann::json slot = page.Last("state").at("slots")[0];
+  CHECK(slot.at("strategy") == ToText(Strategy{}));
+  CHECK(slot.at("command").get<std::string>().rfind("lanelight render box.pbrt -o ", 0) ==
+        0);
+  CHECK(slot.at("looks").size() > 0);
+  CHECK(slot.at("omitted").size() > 0);
+  page.Ask(R"({"do": "ask", "x": 1, "y": 2})");
+  REQUIRE(page.Until([&] { return page.Last("pixel").is_object(); }));
+  CHECK(page.Last("pixel").at("slots")[0].at("samples") >= 16);
+}
+
+TEST_CASE("two strategies take turns at equal samples", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "");
+  PretendedPage page(laboratory);
+  page.Ask(R"({"do": "pace", "by": "samples"})");
+  page.Ask(ChooseText(0, "paper-plain"));
+  page.Ask(ChooseText(1, "paper-roulette"));
+  REQUIRE(page.UntilSpp(0, 64));
+  REQUIRE(page.UntilSpp(1, 64));
+  page.Ask(R"({"do": "pause", "on": true})");
+  REQUIRE(page.Until([&] { return page.Last("state").value("paused", false); }));
+  const nlohmann::json state = page.Last("state");
+  const double a = state["slots"][0]["spp"], b = state["slots"][1]["spp"];
+  CHECK(std::max(a, b) <= 2 * std::min(a, b));
+  CHECK(state["ratio"]["value"].get<double>() > 0);
+}
+
+TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "");
+  PretendedPage page(laboratory);
+  page.Ask("no JSON");
+  REQUIRE(page.Until([&] { return page.Last("refused").is_object(); }));
+  CHECK_THAT(page.Last("refused")["text"].get<std::string>(), Catch::Contains("JSON"));
+  page.Ask(ChooseText(0, "reuse=block,roulette=adjoint"));
+  page.Ask(ChooseText(1, "default"));
+  REQUIRE(page.UntilSpp(1, 4));
+  const nlohmann::json slots = page.Last("state")["slots"];
+  CHECK_THAT(slots[0]["refused"].get<std::string>(),
+             Catch::Contains("reuse=block needs"));
+  page.Ask(R"({"do": "exr", "slot": 0})");
+  CHECK(page.Until([&] {
+    return page.Last("refused")["text"].get<std::string>().find("no whole picture") !=
+           std::string::npos;
+  }));
+}
+
+TEST_CASE("a strategy that was left goes on where it was", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "");
+  PretendedPage page(laboratory);
+  page.Ask(ChooseText(0, "default"));
+  REQUIRE(page.UntilSpp(0, 32));
+  page.Ask(ChooseText(0, "paper-plain"));
+  REQUIRE(page.Until(
+      [&] { return page.Last("state")["slots"][0]["name"] == "paper-plain"; }));
+  page.Ask(R"({"do": "pause", "on": true})");
+  page.Ask(ChooseText(0, "default"));
+  REQUIRE(page.Until([&] {
+    const nlohmann::json slot = page.Last("state")["slots"][0];
+    return slot["name"] == "default" && slot.contains("spp");
+  }));
+  CHECK(page.Last("state")["slots"][0]["spp"] >= 32);
+}
+
+TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "");
+  PretendedPage page(laboratory);
+  page.Ask(ChooseText(0, "default"));
+  REQUIRE(page.UntilSpp(0, 4));
+  CHECK(page.Last("state").at("moved") == false);
+  Eye eye = stage.eye;
+  eye.fov = 50;
+  page.Ask(nlohmann::json{{"do", "camera"}, {"eye", ToJson(eye)}}.dump());
+  REQUIRE(page.Until([&] { return page.Last("state").at("moved") == true; }));
+  CHECK(page.Last("state").at("eye").at("fov") == 50);
+  REQUIRE(page.UntilSpp(0, 4));
+  page.Ask(R"({"do": "camera-text"})");
+  REQUIRE(page.Until([&] { return page.Last("camera-text").is_object(); }));
+  CHECK_THAT(page.Last("camera-text")["text"].get<std::string>(),
+             Catch::Contains("\"float fov\" [ 50 ]"));
+}
+
+TEST_CASE("who has left is sent nothing any more, and others are", "[live]") {
+  Stage stage = SmallStage();
+  Laboratory laboratory(stage, "");
+  PretendedPage leaves(laboratory), stays(laboratory);
+  leaves.Ask(ChooseText(0, "default"));
+  stays.Ask(ChooseText(0, "paper-plain"));
+  REQUIRE(leaves.UntilSpp(0, 4));
+  leaves.Leave();
+  const std::size_t before = leaves.Received();
+  REQUIRE(stays.UntilSpp(0, 32));
+  CHECK(leaves.Received() == before);
+}
+
+}  // namespace lanelight::live

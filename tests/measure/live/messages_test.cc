@@ -1,0 +1,124 @@
+// What pages ask for, and what they are sent.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <half.h>
+#include <nlohmann/json.hpp>
+
+#include "src/base/core/error.h"
+#include "src/measure/live/commands.h"
+#include "src/measure/live/picture.h"
+#include "tests/measure/live/live_scene.h"
+
+namespace lanelight::live {
+namespace {
+
+class NobodyElse : public Attendant {
+ public:
+  bool Due() const override { return false; }
+  void Attend() override {}
+};
+
+struct ReadPicture {
+  nlohmann::json head;
+  std::vector<half> values;
+};
+
+ReadPicture Read(const std::string& message) {
+  std::uint32_t length = 0;
+  for (int i = 0; i < 4; ++i) {
+    length |= static_cast<std::uint32_t>(static_cast<unsigned char>(message[i])) << 8 * i;
+  }
+  REQUIRE((length + 4) % 8 == 0);
+  ReadPicture picture = {nlohmann::json::parse(message.substr(4, length)), {}};
+  const std::string rest = message.substr(4 + length);
+  REQUIRE(rest.size() % 2 == 0);
+  picture.values.resize(rest.size() / 2);
+  std::memcpy(picture.values.data(), rest.data(), rest.size());
+  return picture;
+}
+
+}  // namespace
+
+TEST_CASE("messages are understood", "[live]") {
+  CHECK(std::get<ChooseStrategy>(
+            ParseCommand(R"({"do": "strategy", "slot": 1, "name": "points=cmj"})"))
+            .name == "points=cmj");
+  CHECK(std::get<ChoosePace>(ParseCommand(R"({"do": "pace", "by": "samples"})")).pace ==
+        Pace::kSamples);
+  CHECK(std::get<Pause>(ParseCommand(R"({"do": "pause", "on": true})")).on);
+  CHECK(std::get<ChooseLayer>(ParseCommand(R"({"do": "layer", "name": "rays"})")).layer ==
+        Layer::kRays);
+  const Ask ask = std::get<Ask>(ParseCommand(R"({"do": "ask", "x": 3, "y": 4})"));
+  CHECK((ask.x == 3 && ask.y == 4));
+  CHECK(std::get<Seen>(ParseCommand(R"({"do": "seen", "what": 2})")).what == 2);
+  CHECK(std::get<SaveExr>(ParseCommand(R"({"do": "exr", "slot": 0})")).slot == 0);
+}
+
+TEST_CASE("messages that are not understood are refused, with what would be right",
+          "[live]") {
+  const std::string deep(100000, '[');
+  for (const std::string& text :
+       {std::string(""), std::string("{"), std::string("[]"), std::string("{}"),
+        std::string(R"({"do": 1})"), std::string(R"({"do": "camera"})"),
+        std::string(R"({"do": "camera", "eye": {"position": [1, 2]}})"),
+        std::string(R"({"do": "strategy", "slot": 2, "name": ""})"),
+        std::string(R"({"do": "strategy", "slot": 0.5, "name": ""})"),
+        std::string(R"({"do": "strategy", "slot": 1e300, "name": ""})"),
+        std::string(R"({"do": "ask", "x": -1, "y": 0})"),
+        std::string(R"({"do": "pause", "on": 1})"), deep, std::string("\xff\xfe")}) {
+    INFO(text.substr(0, 60));
+    CHECK_THROWS_AS(ParseCommand(text), InputError);
+  }
+  CHECK_THROWS_WITH(ParseCommand(R"({"do": "camara"})"),
+                    Catch::Contains("did you mean \"camera\""));
+  CHECK_THROWS_WITH(ParseCommand(R"({"do": "layer", "name": "ray"})"),
+                    Catch::Contains("\"rays\""));
+}
+
+TEST_CASE("a picture has the film's numbers, once, and then what has changed", "[live]") {
+  Stage stage = SmallStage(80, 70);
+  Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
+  NobodyElse nobody;
+  const std::atomic<bool> never{false};
+  contender.Pass(8, nobody, never);
+  SentPicture sent;
+  sent.layer = Layer::kError;
+  const ReadPicture picture = Read(EncodePicture(contender, {{"slot", 1}}, sent));
+  CHECK(picture.head.at("slot") == 1);
+  CHECK(picture.head.at("layer") == "error");
+  REQUIRE(picture.head.at("squares").size() == 4);
+  CHECK(picture.head.at("squares")[3] == nlohmann::json({64, 64, 16, 6}));
+  CHECK(picture.values.size() == 80u * 70 * 5);
+  // The first pixel of the last square.
+  const std::size_t at = picture.values.size() - 16 * 6 * 5;
+  const Rgb mean = contender.film().Mean(64, 64);
+  const Rgb variance = contender.film().Variance(64, 64);
+  for (std::size_t c = 0; c < 3; ++c) {
+    CHECK(float(picture.values[at + c]) == Approx(mean[int(c)]).epsilon(1e-3));
+  }
+  CHECK(float(picture.values[at + 3]) == 8);
+  CHECK(float(picture.values[at + 16 * 6 * 4]) ==
+        Approx(std::sqrt((variance[0] + variance[1] + variance[2]) / 3)).epsilon(1e-3));
+  CHECK(EncodePicture(contender, {{"slot", 1}}, sent).empty());
+  contender.Pass(9, nobody, never);
+  CHECK(Read(EncodePicture(contender, {}, sent)).head.at("squares").size() == 4);
+}
+
+TEST_CASE("the numbers of a pixel are exact, and unknown where they are", "[live]") {
+  Stage stage = SmallStage();
+  Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
+  NobodyElse nobody;
+  const std::atomic<bool> never{false};
+  contender.Pass(1, nobody, never);
+  CHECK(PixelJson(contender, 3, 4).at("error").is_null());
+  contender.Pass(8, nobody, never);
+  const nlohmann::json pixel = PixelJson(contender, 3, 4);
+  CHECK(pixel.at("value")[1] == contender.film().Mean(3, 4)[1]);
+  CHECK(pixel.at("error")[2] == std::sqrt(contender.film().Variance(3, 4)[2]));
+  CHECK(pixel.at("samples") == 8);
+  CHECK(PixelJson(contender, 32, 4).is_null());
+  CHECK(PixelJson(contender, 0, 24).is_null());
+}
+
+}  // namespace lanelight::live

@@ -1,0 +1,78 @@
+// Runs that are put down and picked up again, with what they leave in memory.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/render/wave/run_state.h"
+#include "tests/render/run/render_fixture.h"
+#include "tests/render/wave/kept_state.h"
+
+namespace lanelight::resume {
+
+inline constexpr int kWidth = 70, kHeight = 37;  // of the image
+
+/// What a run leaves.
+struct Rest : RunRecord {
+  bool taken = false;
+  std::vector<KeptColumn> columns;
+};
+
+/// Puts the run down once it has been asked so often, and lets it end there or go on.
+class Pauser : public RunKeeper {
+ public:
+  Pauser(Rest& rest, int patience, bool stops)
+      : rest_(rest), limit_(patience), stops_(stops) {}
+
+  bool Restore(RunState& state) override {
+    if (!rest_.taken) return false;
+    PutColumns(rest_.columns, state.films);
+    static_cast<RunRecord&>(state) = rest_;
+    return true;
+  }
+  bool Due() const override { return asked_.fetch_add(1) >= limit_; }
+  void Keep(RunState& state) override {
+    rest_ = {state, true, CopyColumns(state.films)};
+    kept_ += 1;
+    asked_ = 0;
+    if (stops_) stop_ = true;
+  }
+
+  const std::atomic<bool>& stop() const { return stop_; }
+  int kept() const { return kept_; }
+
+ private:
+  Rest& rest_;
+  int limit_;
+  bool stops_;
+  mutable std::atomic<int> asked_{0};
+  int kept_ = 0;
+  std::atomic<bool> stop_{false};
+};
+
+struct Request {
+  std::string strategy;
+  std::uint64_t spp = 0, seed = 1;
+  double target = 0;
+  int threads = 2;
+  std::uint32_t wavefront = 0;
+  RunKeeper* keeper = nullptr;
+  const std::atomic<bool>* stop = nullptr;
+  RankGroup* group = nullptr;  // of which this is a rank
+  bool keep_roulette = true;
+};
+
+/// A small scene: several tiles, whatever their size, and a few that are cut off.
+Rendered Render(const Request& request);
+
+/// In all but what clocks say.
+bool Same(const RunResult& a, const RunResult& b);
+
+/// Renders from rest to rest until `request` is met. The runs on the way want anything of
+/// `ends`; `pauses` counts those that were stopped.
+Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,
+                       Rest& rest, int& pauses, unsigned seed);
+
+}  // namespace lanelight::resume

@@ -1,0 +1,118 @@
+// Mistakes in what a run leaves: it must end elsewhere then, or say what is wrong.
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "src/base/core/error.h"
+#include "tests/render/run/resume_fixture.h"
+
+namespace lanelight::resume {
+namespace {
+
+using Catch::Contains;
+
+constexpr std::size_t kPerPixel = 3 * kWidth * kHeight;  // 7770
+
+// Half a run, and what is left of it.
+Rest HalfOf(const Request& request, int patience = 7) {
+  Rest rest;
+  Pauser pauser(rest, patience, true);
+  Request half = request;
+  half.keeper = &pauser;
+  half.stop = &pauser.stop();
+  CHECK(Render(half).result.stop_reason == StopReason::kInterrupted);
+  return rest;
+}
+
+FilmAccumulator RestOf(Request request, Rest rest) {
+  Pauser pauser(rest, 1 << 30, true);
+  request.keeper = &pauser;
+  return Render(request).film;
+}
+
+// What is said of what is left; nothing if a run goes on from it.
+std::string ErrorOf(const Request& request, const Rest& rest) {
+  try {
+    RestOf(request, rest);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]") {
+  Request request;
+  request.strategy = "points=sobol,decide=pilot";
+  request.spp = 21;
+  const FilmAccumulator whole = Render(request).film;
+  Rest rest = HalfOf(request);
+  CHECK(Identical(RestOf(request, rest), whole));
+  rest.training.changes = "roulette=none,decide=none";
+  CHECK_FALSE(Identical(RestOf(request, rest), whole));
+  rest.training.changes = "roulette=nonesuch";
+  CHECK_THROWS_AS(RestOf(request, rest), InputError);
+}
+
+TEST_CASE("planted: a run that forgets anything ends elsewhere", "[resume]") {
+  for (const char* strategy :
+       {"points=sobol", "points=independent,pairs=antithetic", "roulette=adjoint"}) {
+    Request request;
+    request.strategy = strategy;
+    request.spp = 21;
+    const FilmAccumulator whole = Render(request).film;
+    const Rest rest = HalfOf(request);
+    CHECK(Identical(RestOf(request, rest), whole));
+    for (std::size_t i = 0; i < rest.columns.size(); ++i) {
+      Rest damaged = rest;
+      // Open pairs are few: tasks hold whole ones.
+      if (rest.columns[i].name == "open") continue;
+      std::vector<char>& bytes = damaged.columns[i].bytes;
+      std::fill(bytes.begin(), bytes.end(), 0);
+      INFO(strategy << ", " << rest.columns[i].name);
+      CHECK_FALSE(Identical(RestOf(request, damaged), whole));
+    }
+    for (std::size_t i = 0; i < rest.tables.size(); ++i) {
+      INFO(rest.tables[i].name);
+      Rest damaged = rest;
+      std::vector<double>& values = damaged.tables[i].values;
+      if (values.empty()) continue;
+      values.pop_back();
+      CHECK_THROWS_AS(RestOf(request, damaged), InputError);
+      values = rest.tables[i].values;
+      damaged.tables[i].name += "_";
+      CHECK_THROWS_AS(RestOf(request, damaged), InputError);
+      damaged.tables[i].name = rest.tables[i].name;
+      if (rest.tables[i].name == "path_values") continue;
+      for (double& v : values) v *= 1.5;
+      CHECK_FALSE(Identical(RestOf(request, damaged), whole));
+    }
+  }
+}
+
+TEST_CASE("a state whose tables do not fit the image is refused", "[resume]") {
+  for (const char* strategy :
+       {"roulette=adjoint", "roulette=efficiency", "shadow-roulette=contribution"}) {
+    Request request;
+    request.strategy = strategy;
+    request.spp = 21;
+    const Rest rest = HalfOf(request);
+    CHECK(ErrorOf(request, rest) == "");
+    int per_pixel = 0;
+    for (std::size_t i = 0; i < rest.tables.size(); ++i) {
+      if (rest.tables[i].values.empty()) continue;
+      INFO(strategy << ", " << rest.tables[i].name);
+      Rest damaged = rest;
+      damaged.tables[i].values.clear();
+      CHECK_THAT(ErrorOf(request, damaged), Contains("table"));
+      if (rest.tables[i].values.size() != kPerPixel) continue;
+      ++per_pixel;
+      damaged.tables[i].values.resize(kPerPixel - 3);
+      CHECK_THAT(ErrorOf(request, damaged),
+                 Contains("'" + rest.tables[i].name + "' has 7767 values: 7770 are"));
+    }
+    CHECK(per_pixel == 1);
+  }
+}
+
+}  // namespace lanelight::resume

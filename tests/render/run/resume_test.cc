@@ -1,0 +1,119 @@
+// A run that is put down anywhere and picked up by another one, with other threads, other
+// tasks and another end in mind, ends at the same bits as one that was never stopped.
+#include <catch2/catch.hpp>
+
+#include "tests/render/run/resume_fixture.h"
+
+namespace lanelight::resume {
+namespace {
+
+const char* const kStrategies[] = {
+    "points=independent",
+    "points=sobol",
+    "points=independent,pairs=antithetic",
+    "points=cmj,pairs=antithetic",
+    "points=independent,control=regression",
+    "points=stratified,control=regression,pairs=antithetic",
+    "points=sobol,control=regression",
+    "points=independent,control=regression,pairs=antithetic",
+    "points=halton,roulette=adjoint",
+    "points=sobol,roulette=efficiency",
+    "points=sobol,decide=pilot",
+    "points=cmj,pairs=antithetic",
+    "points=sobol,shadow-roulette=contribution",
+    "points=sobol,reuse=block:16",
+    "points=independent,pairs=antithetic,reuse=block:32:compact",
+};
+
+}  // namespace
+
+TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
+          "[resume]") {
+  for (const char* strategy : kStrategies) {
+    INFO(strategy);
+    Request request;
+    request.strategy = strategy;
+    request.spp = 45;
+    const Rendered whole = Render(request);
+    std::vector<Request> ends;
+    // Fewer samples are other tiles, and tasks that end anywhere.
+    for (std::uint64_t spp : {1, 5, 8, 21, 45}) {
+      ends.push_back(request);
+      ends.back().spp = spp;
+    }
+    int pauses = 0;
+    Rest rest;
+    const Rendered parts = RenderInParts(request, ends, rest, pauses, 7);
+    CHECK(pauses >= 3);
+    CHECK(rest.counts.samples == whole.result.samples);
+    CHECK(rest.counts.samples == 45 * kWidth * kHeight);
+    CHECK(Identical(parts.film, whole.film));
+    CHECK(Same(parts.result, whole.result));
+    CHECK(whole.film.Variance(kWidth / 2, kHeight - 1).x > 0);
+    request.seed = 2;
+    CHECK_FALSE(Identical(Render(request).film, whole.film));
+  }
+}
+
+TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
+  for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
+                               "points=cmj,control=regression"}) {
+    for (double finest : {0.0004, 0.002}) {
+      INFO(strategy << ", " << finest);
+      Request request;
+      request.strategy = strategy;
+      request.target = finest;
+      const Rendered whole = Render(request);
+      CHECK(whole.result.stop_reason == StopReason::kTarget);
+      if (finest < 0.001) CHECK(whole.result.looks > 1);
+      std::vector<Request> ends;
+      for (double target : {25 * finest, 5 * finest, 2 * finest, finest}) {
+        ends.push_back(request);
+        ends.back().target = target;
+      }
+      int pauses = 0;
+      Rest rest;
+      const Rendered parts = RenderInParts(request, ends, rest, pauses, 8);
+      CHECK(parts.result.stop_reason == StopReason::kTarget);
+      CHECK(Identical(parts.film, whole.film));
+      CHECK(Same(parts.result, whole.result));
+      // What is reached already is not rendered again.
+      Pauser pauser(rest, 1 << 30, true);
+      request.keeper = &pauser;
+      CHECK(Same(Render(request).result, whole.result));
+    }
+  }
+}
+
+TEST_CASE("a roulette that the pilot passes prefer is kept", "[resume]") {
+  Request request;
+  request.strategy = "points=sobol,roulette=efficiency";
+  request.keep_roulette = false;
+  request.spp = 12;
+  const Rendered whole = Render(request);
+  int pauses = 0;
+  Rest rest;
+  const Rendered parts = RenderInParts(request, {}, rest, pauses, 9);
+  CHECK(pauses > 0);
+  CHECK(Identical(parts.film, whole.film));
+  CHECK(Same(parts.result, whole.result));
+  CHECK(whole.result.training.samples > 0);
+}
+
+TEST_CASE("a decision is kept, and nothing is decided anew", "[resume]") {
+  Request request;
+  request.strategy = "points=sobol,decide=pilot";
+  request.spp = 12;
+  const Rendered whole = Render(request);
+  CHECK_THAT(whole.result.training.changes, Catch::Contains("decide=none"));
+  CHECK(whole.result.training.samples > 0);
+  int pauses = 0;
+  Rest rest;
+  const Rendered parts = RenderInParts(request, {}, rest, pauses, 10);
+  CHECK(pauses > 0);
+  CHECK(Identical(parts.film, whole.film));
+  CHECK(Same(parts.result, whole.result));
+  CHECK(parts.result.training.changes == whole.result.training.changes);
+}
+
+}  // namespace lanelight::resume

@@ -1,0 +1,98 @@
+// Sequences of the samplers, what counts as an observation, and what is said about it.
+#include "src/scene/prepare/groups.h"
+
+#include <catch2/catch.hpp>
+
+#include "src/render/run/run.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/pmj02.h"
+#include "tests/kernels/points/draw.h"
+
+namespace lanelight::test {
+namespace {
+
+std::string TextOf(Points points, std::uint64_t spp, bool pairs = false) {
+  Strategy strategy;
+  strategy.points = points;
+  if (pairs) strategy.pairs = Pairs::kAntithetic;
+  return PointsText(strategy, spp);
+}
+
+// Samples of each replicate, counted one by one.
+void CheckCounts(const SampleGroups& groups) {
+  std::uint64_t counts[kReplicates] = {};
+  for (std::uint64_t n = 0; n <= 300; ++n) {
+    std::uint64_t observations = 0;
+    for (std::uint32_t r = 0; r < kReplicates; ++r) {
+      CAPTURE(groups.unit, n, r);
+      REQUIRE(groups.InReplicate(n, r) == counts[r]);
+      observations += counts[r] > 0;
+    }
+    if (groups.replicates) REQUIRE(groups.Observations(n) == observations);
+    ++counts[groups.Replicate(n)];
+  }
+}
+
+}  // namespace
+
+TEST_CASE("sequences are as long as the samplers are good for", "[points]") {
+  for (Points points : kAllPoints) {
+    INFO(Name(points));
+    CHECK(MakePointsParameters(points).group_shift == LogSequence(points));
+    // Sample counts begin anew after whole turns.
+    CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(points)) == 0);
+    CHECK(LogSequence(points) < 24);  // PermuteOctaves, CmjPoints
+  }
+  CHECK(LogSequence(Points::kIndependent) == 0);
+  CHECK(1u << LogSequence(Points::kPmj02) == kPmj02Points);
+  CHECK(1u << LogSequence(Points::kHalton) < 6561);
+  CHECK(LogSequence(Points::kSobol) == 20);
+}
+
+TEST_CASE("independent samples or pairs are observations, others by replicate",
+          "[points]") {
+  for (Points points : kAllPoints) {
+    for (Pairs pairs : {Pairs::kNone, Pairs::kAntithetic}) {
+      Strategy strategy;
+      strategy.points = points;
+      strategy.pairs = pairs;
+      const SampleGroups groups = GroupsOf(strategy);
+      CHECK(groups.replicates == (points != Points::kIndependent));
+      CHECK(groups.unit == (pairs == Pairs::kAntithetic ? 2u : 1u));
+      CheckCounts(groups);
+    }
+  }
+  CHECK(SampleGroups{1, false}.Observations(7) == 7);
+  CHECK(SampleGroups{2, false}.Observations(7) == 3);
+  CHECK(SampleGroups{2, true}.Observations(7) == 4);
+  CHECK(SampleGroups{2, true}.Observations(6) == 3);
+  CHECK(SampleGroups{1, true}.Observations(std::uint64_t{1} << 40) == 4);
+}
+
+TEST_CASE("what a number of samples is worth is said", "[points]") {
+  CHECK(TextOf(Points::kIndependent, 7) == "independent");
+  CHECK(TextOf(Points::kIndependent, 7, true) == "independent, antithetic pairs (all)");
+  CHECK(TextOf(Points::kStratified, 64) == "stratified, 4 randomisations of 16 points");
+  CHECK(TextOf(Points::kSobol, 8) == "sobol, 4 randomisations of 2 points");
+  CHECK(TextOf(Points::kSobol, 0) == "sobol, 4 randomisations");
+  CHECK(TextOf(Points::kCmj, 7) ==
+        "cmj, not stratified (that takes 8 samples): as independent");
+  CHECK(TextOf(Points::kSobol, 100) ==
+        "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
+  CHECK(TextOf(Points::kSobol, 9) ==
+        "sobol, 4 randomisations of 2 or 3 points (8 or 16 samples are better "
+        "stratified)");
+  CHECK(TextOf(Points::kPmj02, 4096) == "pmj02, 4 randomisations of 1024 points");
+  for (std::uint64_t spp : {4097, 5000, 8192}) {
+    CHECK(TextOf(Points::kPmj02, spp) ==
+          "pmj02, 8 randomisations of up to 1024 points, the most that it stratifies");
+  }
+  CHECK(TextOf(Points::kPmj02, 8193).starts_with("pmj02, 12 randomisations of up to"));
+  CHECK(TextOf(Points::kStratified, 128, true) ==
+        "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
+  CHECK(TextOf(Points::kHalton, 15, true) ==
+        "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
+  CHECK(TextOf(Points::kHalton, 14, true).find("takes 16 samples") != std::string::npos);
+}
+
+}  // namespace lanelight::test
