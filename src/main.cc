@@ -19,7 +19,7 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/render/job/memory.h"
-#include "src/render/ranks/ranks.h"
+#include "src/render/mpi/join_ranks.h"
 
 namespace lanelight {
 namespace {

@@ -4,10 +4,11 @@
 queues    stages and the queues between them: what a kernel reads, and what it pushes to
 streams   the ways that rays take through trees of triangles: which file goes on to which
 calls     from main to a kernel and back to the file: which function calls which
+samples   from a number of samples to a kernel: which type hands on which
 
-Edges of `queues` are found in the kernels. Those of the two others are named below, and
-each is looked for: an include for `streams`, a call for `calls`; one that the code does not
-have (any more) is an error. --check says whether the drawings are those of this code, and
+Edges of `queues` are found in the kernels. Those of the others are named below, and each is
+looked for: an include for `streams`, a call for `calls`, functions and types for `samples`;
+one that the code does not have (any more) is an error. --check says whether the drawings are those of this code, and
 needs no Graphviz (`dot`, which draws them). --program: `lanelight`, to see whether the stages
 of `queues` are those that it plans.
 """
@@ -94,14 +95,22 @@ CALLS = [
     ("src/render/job/job.cc", "PrepareJob", "MakePlan", "src/render/plan/plan.cc"),
     ("src/cli/render_command.cc", "Render", "RenderToFiles", "src/render/job/render.cc"),
     ("src/render/job/render.cc", "RenderToFiles", "Run", "src/render/run/run.cc"),
-    ("src/render/run/run.cc", "Run", "RunRound", "src/render/run/tasks.cc"),
-    ("src/render/run/tasks.cc", "RunRound", "TaskRunner::Run", "src/render/wave/task_runner.cc"),
+    ("src/render/run/run.cc", "Run", "RunRound", "src/render/schedule/thread_work.cc"),
+    ("src/render/schedule/thread_work.cc", "RunRound", "TaskRunner::Run", "src/render/wave/task_runner.cc"),
     ("src/render/wave/task_runner.cc", "TaskRunner::Run", "Drive", "src/render/wave/task_runner.cc"),
     ("src/render/wave/task_runner.cc", "Drive", "kernel", "kernels/"),
-    ("src/render/run/tasks.cc", "RunRound", "TaskRunner::Merge", "src/render/wave/task_runner.cc"),
+    ("src/render/schedule/thread_work.cc", "RunRound", "TaskRunner::Merge", "src/render/wave/task_runner.cc"),
     ("src/render/wave/task_runner.cc", "TaskRunner::Merge", "films.Add", "src/render/wave/films.cc"),
     ("src/render/job/render.cc", "RenderToFiles", "WriteRendering", "src/render/job/render.cc"),
     ("src/render/job/render.cc", "WriteRendering", "WriteExr", "src/base/image/exr_write.cc"),
+]
+
+# How a number of samples becomes work of a kernel: (file, function, what it hands on).
+SAMPLES = [
+    ("src/render/run/run_schedule.cc", "RunSchedule::Next", "Round"),
+    ("src/render/schedule/scheduler.cc", "Scheduler::Next", "SampleRange"),
+    ("src/render/wave/task_runner.cc", "TaskRunner::Run", "TileWork"),
+    ("kernels/generate/generate.cc", "Start", ""),
 ]
 
 
@@ -177,6 +186,20 @@ def calls():
     return "\n".join(lines) + "\n}\n"
 
 
+def samples():
+    lines = [HEAD % "LR", '  "--spp" [style=rounded];']
+    before, handed = '"--spp"', "RunOptions"
+    for file, function, hands_on in SAMPLES:
+        text = text_of(file)
+        for name in (function, hands_on):
+            if not re.search(rf"\b{name}\b", text):
+                sys.exit(f"draw: {file} has no {name}")
+        node = quoted(f"{function}{NEW_LINE}{file}")
+        lines.append(f"  {before} -> {node} [label={quoted(handed)}];")
+        before, handed = node, hands_on
+    return "\n".join(lines) + "\n}\n"
+
+
 def check_plan(program):
     done = subprocess.run([program, "plan", str(ROOT / SCENE), "--json"], check=True,
                           capture_output=True, text=True)
@@ -184,6 +207,9 @@ def check_plan(program):
     planned = [stage["name"] for stage in plan["stages"]]
     if planned != [stage for stage, _, _ in STAGES]:
         sys.exit(f"draw: the plan of {SCENE} has other stages: {' '.join(planned)}")
+
+
+DRAWINGS = (("queues", queues), ("streams", streams), ("calls", calls), ("samples", samples))
 
 
 def main():
@@ -194,7 +220,7 @@ def main():
     options, stale = parser.parse_args(), []
     if options.program:
         check_plan(options.program)
-    for name, drawing in (("queues", queues), ("streams", streams), ("calls", calls)):
+    for name, drawing in DRAWINGS:
         dot, file = drawing(), HERE / f"{name}.svg"
         mark = f"<!-- {hashlib.sha256(dot.encode()).hexdigest()} -->"
         if file.exists() and mark in file.read_text(encoding="utf-8"):

@@ -1,15 +1,16 @@
 #include "src/render/run/run.h"
 
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "src/base/core/check.h"
 #include "src/base/core/clock.h"
 #include "src/base/core/parallel.h"
-#include "src/render/run/convergence_checks.h"
-#include "src/render/run/film_show.h"
-#include "src/render/run/run_parts.h"
-#include "src/render/run/run_setting.h"
-#include "src/render/run/run_start.h"
+#include "src/render/ranks/rank_work.h"
+#include "src/render/ranks/run_messages.h"
+#include "src/render/run/run_context.h"
+#include "src/render/run/run_schedule.h"
 #include "src/render/run/run_strategy.h"
 #include "src/render/run/run_watch.h"
 #include "src/render/wave/profile.h"
@@ -19,30 +20,25 @@ namespace lanelight {
 
 namespace {
 
-// Without a sample count the partition assumes many samples.
-std::uint64_t PlannedSpp(const RunOptions& options) {
-  const bool open_ended = options.seconds > 0 || options.samples_needed;
-  return open_ended || options.spp == 0 ? kPilotSpp : options.spp;
-}
-
-// A run and its parts. Each refers to those above it.
+// A run from its start to its result. Members are initialised in order; each holds
+// references to earlier ones.
 struct Runner {
   Runner(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
-      : group(options.group != nullptr ? *options.group : alone),
-        strategy(scene, plan, options, clock),
-        tasks(scene, strategy.plan(), strategy.run(), options, PlannedSpp(options)),
+      : strategy(scene, plan, options, clock),
         films(strategy.run().planes, scene.strategy.coefficient.value_or(1), film),
-        work(group, clock, tasks, films),
-        setting{options, clock, tasks, films, work},
-        checks(setting),
-        show(setting),
-        watch(setting, checks, show),
-        parts(setting, checks, watch) {
+        threads(scene, strategy.plan(), strategy.run(), options, films) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films.UseResponse(scene.view.film.response);
-    LL_CHECK(options.windows.empty() || group.ranks() == 1);
+    min_tile_side = scene.strategy.MayReuse() ? kReuseTile : 1;
+    if (options.group != nullptr && options.group->ranks() > 1) {
+      LL_CHECK(options.windows.empty());
+      ranks = std::make_unique<RankWork>(*options.group, clock, threads, films);
+    }
+    context.emplace(RunContext{options, clock, films, threads, Work()});
+    schedule.emplace(*context);
+    watch.emplace(*context, *schedule);
   }
 
   void Start();
@@ -51,69 +47,70 @@ struct Runner {
   /// All of a run, for a worker.
   void Serve(const RunStart& start, const std::atomic<bool>* stop);
 
+  RoundRunner& Work() {
+    if (ranks) return *ranks;
+    return threads;
+  }
+  RankGroup& Group() { return ranks ? *context->options.group : alone; }
   bool Restore();
-  RunCounts Counts() const;
+  RunCounts Counts();
 
   RunClock clock;
   RankGroup alone;
-  RankGroup& group;
   RunStrategy strategy;
-  Tasks tasks;
   Films films;
-  GroupTasks work;
-  const RunSetting setting;
-  ConvergenceChecks checks;
-  FilmShow show;
-  RunWatch watch;
-  RunParts parts;
+  ThreadWork threads;
+  std::unique_ptr<RankWork> ranks;  // null: one process
+  int min_tile_side = 1;
+  std::optional<RunContext> context;
+  std::optional<RunSchedule> schedule;
+  std::optional<RunWatch> watch;
   TickScale ticks;  // the last to be made: a trace begins when the run does
 };
 
-// Starts the clock, and trains the strategy or goes on where a run was put down.
+// Starts the clock, and trains the strategy or resumes the run.
 void Runner::Start() {
   clock.Start();
-  const bool restored = setting.options.keeper != nullptr && Restore();
+  const bool restored = context->options.keeper != nullptr && Restore();
   RunStart start;
-  start.have_samples = tasks.counts().samples > 0;
+  start.have_samples = threads.Counts().samples > 0;
   start.planned_training = restored ? 0 : strategy.PlannedTraining();
-  if (group.ranks() > 1) {
-    start.tiles = tasks.tiles();
-    group.Share(ToBytes(start));
+  if (ranks) {
+    start.tiles = threads.scheduler().tiles();
+    Group().Share(ToBytes(start));
   }
-  if (start.planned_training > 0) strategy.Train(start.planned_training, group);
+  if (start.planned_training > 0) strategy.Train(start.planned_training, Group());
   films.film().set_dependents(strategy.Dependents());
-  if (group.ranks() > 1) {
-    group.Share(ToBytes(
+  if (ranks) {
+    Group().Share(ToBytes(
         RunTraining{strategy.trained(), strategy.training().changes, strategy.Tables()}));
+    ranks->Deal(start.have_samples, min_tile_side);
   }
-  work.Deal(start.have_samples);
-  parts.Start();
-  show.Start();
-  watch.Start();
-  if (restored) checks.CheckAgain();
+  watch->Start();
+  schedule->Start(restored);
 }
 
 bool Runner::Restore() {
   RunState state = {{}, films};
-  if (!setting.options.keeper->Restore(state)) return false;
+  if (!context->options.keeper->Restore(state)) return false;
   clock.GoOn(state.counts.seconds);
-  tasks.GoOn(films, state.counts);
+  threads.Resume(state.counts);
   if (!state.trained) return !NeedsTraining(strategy.plan());
   strategy.Restore(std::move(state.training), state.tables);
   return true;
 }
 
 void Runner::Keep(bool finished) {
-  work.Gather();
+  Work().Gather();
   RunState state = {
       {Counts(), strategy.trained(), strategy.training(), strategy.Tables()},
       films,
       finished};
-  setting.options.keeper->Keep(state);
+  context->options.keeper->Keep(state);
 }
 
-RunCounts Runner::Counts() const {
-  RunCounts counts = tasks.counts();
+RunCounts Runner::Counts() {
+  RunCounts counts = Work().Counts();
   counts.seconds = clock.Elapsed();
   // What came before, and of other ranks, is in it already.
   counts.cpu_seconds += clock.CpuSeconds();
@@ -122,34 +119,34 @@ RunCounts Runner::Counts() const {
 
 void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
   clock.Start();
-  if (start.planned_training > 0) strategy.Train(start.planned_training, group);
+  if (start.planned_training > 0) strategy.Train(start.planned_training, Group());
   // What the leader has learned, to the last bit, also where another processor's
   // elementary functions are rounded otherwise.
-  const RunTraining learned = RunTrainingFromBytes(group.Share(""));
+  const RunTraining learned = RunTrainingFromBytes(Group().Share(""));
   if (learned.trained) {
     TrainingOutcome training;
     training.changes = learned.changes;
     strategy.Restore(std::move(training), learned.tables);
   }
-  work.Deal(start.have_samples);
-  work.Serve([this](std::uint64_t first) { strategy.BeginWith(first); }, stop);
+  ranks->Deal(start.have_samples, min_tile_side);
+  ranks->Serve([this](const Round& round) { strategy.BeginWith(round.begin); }, stop);
 }
 
 RunResult Runner::Result() {
   RunResult result;
-  result.ranks = group.ranks();
-  result.bytes_between_ranks = group.bytes();
+  result.ranks = Group().ranks();
+  result.bytes_between_ranks = Group().bytes();
   films.film().FitControl();
   static_cast<RunCounts&>(result) = Counts();
-  result.stop_reason = watch.Reason();
+  result.stop_reason = watch->Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.looks = checks.Count();
+  result.looks = schedule->Checks();
   strategy.Describe(result);
   result.control = films.film().Control();
   result.parts = EmptyParts();
   result.trace.start = ticks.start();
   result.trace.seconds_per_tick = ticks.SecondsPerTick();
-  tasks.AddCounts(result);
+  threads.AddProfile(result);
   return result;
 }
 
@@ -169,24 +166,23 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
   Runner run(scene, plan, options, film);
   run.Start();
   RunKeeper* const keeper = options.keeper;
-  while (const auto part = run.parts.Next()) {
-    run.strategy.BeginWith(part->first);
-    const RoundWork round = {part->first, part->end, part->per_task};
-    if (run.group.ranks() == 1) {
-      run.tasks.RunRound(round, run.watch, run.films);
-    } else {
-      run.work.RunRound(round, run.watch);
+  while (!run.watch->Ended()) {
+    const auto round = run.schedule->Next();
+    if (!round) break;
+    run.strategy.BeginWith(round->begin);
+    run.Work().RunRound(*round, *run.watch);
+    if (!run.watch->Ended()) {
+      if (keeper != nullptr && keeper->Due()) run.Keep(false);
+      run.watch->ShowIfDue();
     }
-    if (keeper != nullptr && keeper->Due() && !run.watch.Ended()) run.Keep(false);
-    if (run.show.Due() && !run.watch.Ended()) run.show.Show();
     // It may have been stopped before its end.
-    if (run.tasks.Done() >= part->end) run.parts.Finish(*part);
+    if (run.Work().Done() >= round->end) run.schedule->Finish(*round);
   }
-  run.watch.Report();
-  run.work.Gather();
+  run.watch->Report();
+  run.Work().Gather();
   // The last state is kept too, also where another rank has failed.
-  if (keeper != nullptr) run.Keep(run.watch.Reason() != StopReason::kInterrupted);
-  run.work.Dismiss();
+  if (keeper != nullptr) run.Keep(run.watch->Reason() != StopReason::kInterrupted);
+  run.Work().Finish();
   return run.Result();
 }
 

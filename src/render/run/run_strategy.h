@@ -28,7 +28,7 @@ class RunStrategy {
 
   const Plan& plan() const { return plan_; }
   const RunParameters& run() const { return run_; }
-  /// Tasks from here on begin with this sample, or later ones.
+  /// Sets the seed of the kernels for rounds from this sample on.
   void BeginWith(std::uint64_t first);
 
   /// Samples that a training is planned for; 0 if the strategy asks for none.

@@ -1,61 +1,77 @@
 #include "src/render/run/run_watch.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace lanelight {
 
 void RunWatch::Start() {
-  limit_.emplace(setting_.options.seconds, setting_.clock.Elapsed());
+  const double now = context_.clock.Elapsed();
+  limit_.emplace(context_.options.seconds, now);
+  pixels_ = context_.pixels();
+  const bool shown = context_.options.on_film && context_.options.group == nullptr;
+  show_at_ = shown ? now + kShowSeconds * double(pixels_) / kShowShare
+                   : std::numeric_limits<double>::infinity();
+}
+
+void RunWatch::ShowIfDue() {
+  if (!ShowDue()) return;
+  const double since = show_at_;
+  context_.films.film().FitControl();
+  context_.options.on_film(context_.films.film());
+  const double now = context_.clock.Elapsed();
+  show_at_ = now + (now - since) / kShowShare;
 }
 
 bool RunWatch::OutOfTime() const {
-  const double budget = setting_.options.seconds;
-  // The first round always ends: an image with unsampled pixels is no image.
-  return budget > 0 && every_pixel_ && setting_.clock.Elapsed() >= budget - reserved_;
+  const double budget = context_.options.seconds;
+  // The first round always ends, so that every pixel has a sample.
+  return budget > 0 && every_pixel_ &&
+         context_.clock.Elapsed() >= budget - schedule_.reserved();
 }
 
 bool RunWatch::Ended() {
-  every_pixel_ = setting_.tasks.Done() > 0;
+  every_pixel_ = context_.work.Done() > 0;
   return Interrupted() || OutOfTime() || cancelled_;
 }
 
 bool RunWatch::Stopped() const {
-  const RunKeeper* const keeper = setting_.options.keeper;
-  return Interrupted() || OutOfTime() || cancelled_ || show_.Due() ||
+  const RunKeeper* const keeper = context_.options.keeper;
+  return Interrupted() || OutOfTime() || cancelled_ || ShowDue() ||
          (keeper != nullptr && keeper->Due());
 }
 
 bool RunWatch::Cancelled() const {
   // Without a budget only a stop matters, and clocks need not be read.
   const bool stopped = Interrupted();
-  if (!stopped && setting_.options.seconds <= 0) return false;
-  if (limit_->IsOver(stopped, every_pixel_, setting_.clock.Elapsed())) {
+  if (!stopped && context_.options.seconds <= 0) return false;
+  if (limit_->IsOver(stopped, every_pixel_, context_.clock.Elapsed())) {
     cancelled_ = true;
   }
   return cancelled_;
 }
 
 StopReason RunWatch::Reason() const {
-  if (checks_.reached()) return StopReason::kTarget;
-  if (checks_.hopeless()) return StopReason::kHopeless;
+  if (schedule_.reached()) return StopReason::kTarget;
+  if (schedule_.hopeless()) return StopReason::kHopeless;
   // Only what has left samples out counts: a signal may come after the last one.
-  if (setting_.tasks.Done() >= setting_.limit()) return StopReason::kSamples;
+  if (context_.work.Done() >= context_.limit()) return StopReason::kSamples;
   return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
 }
 
 double RunWatch::Fraction(double seconds, std::uint64_t samples) const {
-  const RunOptions& options = setting_.options;
-  const double per_pixel = double(samples) / double(setting_.tasks.pixels());
+  const RunOptions& options = context_.options;
+  const double per_pixel = double(samples) / double(pixels_);
   const double by_samples = options.spp > 0 ? per_pixel / double(options.spp) : 0;
   const double by_time = options.seconds > 0 ? seconds / options.seconds : 0;
   // Errors fall like 1 / samples, so samples are in proportion to the time it takes.
-  const double by_need = per_pixel / checks_.needed();
+  const double by_need = per_pixel / schedule_.needed();
   return std::min(1.0, std::max({by_samples, by_time, by_need}));
 }
 
 void RunWatch::TaskDone() {
-  const RunOptions& options = setting_.options;
-  if (options.seconds > 0) limit_->Ended(setting_.clock.Elapsed());
+  const RunOptions& options = context_.options;
+  if (options.seconds > 0) limit_->Ended(context_.clock.Elapsed());
   if (!options.on_progress) return;
   std::unique_lock lock(progress_mutex_, std::try_to_lock);
   if (!lock || SecondsSince(last_report_) < 0.1) return;
@@ -64,12 +80,12 @@ void RunWatch::TaskDone() {
 }
 
 void RunWatch::Report() {
-  if (!setting_.options.on_progress) return;
+  if (!context_.options.on_progress) return;
   Progress progress;
-  progress.seconds = setting_.clock.Elapsed();
-  progress.samples = setting_.tasks.taken();
+  progress.seconds = context_.clock.Elapsed();
+  progress.samples = context_.work.Taken();
   progress.fraction = Fraction(progress.seconds, progress.samples);
-  setting_.options.on_progress(progress);
+  context_.options.on_progress(progress);
 }
 
 }  // namespace lanelight

@@ -1,41 +1,45 @@
-// Watches the tasks of a run: when they have to end, and how far they have come.
+// Watches the tasks of a run: stops them in time, reports progress, and shows the film.
 #pragma once
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 
-#include "src/render/run/convergence_checks.h"
-#include "src/render/run/film_show.h"
-#include "src/render/run/run_setting.h"
+#include "src/render/run/run_context.h"
+#include "src/render/run/run_schedule.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/render/wave/time_limit.h"
 
 namespace lanelight {
 
+/// Tasks wait while the film is shown. That takes at most kShowShare of the run's time,
+/// if it takes as long as the last time; the first time is estimated by kShowSeconds per
+/// pixel.
+inline constexpr double kShowShare = 0.005, kShowSeconds = 2e-7;
+
 class RunWatch : public TaskWatcher {
  public:
-  /// Refers to all of these for as long as it lives.
-  RunWatch(const RunSetting& setting, const ConvergenceChecks& checks,
-           const FilmShow& show)
-      : setting_(setting), checks_(checks), show_(show) {}
+  /// Refers to both for as long as it lives.
+  RunWatch(const RunContext& context, const RunSchedule& schedule)
+      : context_(context), schedule_(schedule) {}
 
-  /// Tasks begin, after any training. Before it only Interrupted may be asked.
+  /// Before the first round, after any training. Before it only Interrupted may be
+  /// called.
   void Start();
   /// Between rounds: whether the run ends here, before its samples are done.
   bool Ended();
-  /// Between rounds: so many seconds of a time budget are needed after the last task.
-  void Reserve(double seconds) { reserved_ = seconds; }
-  double reserved() const { return reserved_; }
+  /// Between rounds, if it is time: calls RunOptions::on_film. One process alone.
+  void ShowIfDue();
   /// Why the run has ended.
   StopReason Reason() const;
 
   /// By a signal, to this process or another one.
   bool Interrupted() const override {
-    const std::atomic<bool>* const stop = setting_.options.stop;
+    const std::atomic<bool>* const stop = context_.options.stop;
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
-           setting_.work.Stopped();
+           context_.work.Stopped();
   }
   bool Stopped() const override;
   bool Cancelled() const override;
@@ -45,15 +49,16 @@ class RunWatch : public TaskWatcher {
 
  private:
   bool OutOfTime() const;
+  bool ShowDue() const { return context_.clock.Elapsed() >= show_at_; }
   double Fraction(double seconds, std::uint64_t samples) const;
 
-  const RunSetting& setting_;
-  const ConvergenceChecks& checks_;
-  const FilmShow& show_;
+  const RunContext& context_;
+  const RunSchedule& schedule_;
+  std::uint64_t pixels_ = 0;
   mutable std::optional<TimeLimit> limit_;
   mutable std::atomic<bool> cancelled_{false};  // tasks were; that ends the run
   bool every_pixel_ = false;                    // has a sample
-  double reserved_ = 0;
+  std::atomic<double> show_at_{0};              // seconds of the run's clock
   std::chrono::steady_clock::time_point last_report_;
   std::mutex progress_mutex_;
 };

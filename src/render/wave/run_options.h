@@ -41,16 +41,16 @@ struct RunOptions {
   /// end (src/render/wave/time_limit.h).
   double seconds = 0;
   /// If set, the render looks at itself at certain numbers of samples per pixel
-  /// (src/render/run/schedule.h), and ends once this returns `done` or less: how many the
-  /// image is estimated to need, of which `done` are in its film; below 0: no number will
-  /// do.
+  /// (src/render/schedule/schedule.h), and ends once this returns `done` or less: how
+  /// many the image is estimated to need, of which `done` are in its film; below 0: no
+  /// number will do.
   std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   std::function<void()> on_training;  // before a trial run or another training begins
   /// Is shown the film so far, all of it at rest, as often as costs next to nothing
-  /// (src/render/run/film_show.h). Alone, not in a group.
+  /// (src/render/run/run_watch.h). Alone, not in a group.
   std::function<void(const FilmAccumulator& film)> on_film;
   /// Is told of pixels of the film that have new samples, by the thread that has added
   /// them, and may read them and no others.

@@ -87,13 +87,14 @@ Workspace& TaskRunner::ThreadWorkspace() {
   return *workspaces_[thread];
 }
 
-TileWork TaskRunner::SetUp(const TileTask& task, Workspace& space) const {
-  TilePixels(task.rect, scene_.view.film.width, &space.pixels);
+TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
+                           Workspace& space) const {
+  TilePixels(rect, scene_.view.film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
-  work.first_sample = task.first_sample;
-  work.samples = task.samples;
+  work.first_sample = static_cast<std::uint32_t>(range.first % kSamplesPerSeed);
+  work.samples = range.count;
   work.together = SamplesTogether(scene_, plan_);
   Wave& wave = space.wavefront.wave();
   wave.rays_closest = wave.rays_shadow = 0;
@@ -112,38 +113,39 @@ SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
   return {out.values.data(), rows};
 }
 
-bool TaskRunner::Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out) {
+bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
+                     const TaskWatcher& watcher, TaskSamples& out) {
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
-  const TileWork work = SetUp(task, space);
+  const TileWork work = SetUp(range, rect, space);
   const SampleBuffer buffer = Buffer(work, out);
   if (space.reuse) space.reuse->Begin(work, space.wavefront.wave());
   const bool ended =
       Drive(space.wavefront.wave(), plan_, {work, buffer}, clock, &watcher);
-  out.count = ended ? task.samples : 0;
+  out.count = ended ? range.count : 0;
   if (ended) {
     const std::uint32_t stride = work.num_pixels * work.samples;
-    if (space.reuse) space.reuse->Connect(task.rect, space.wavefront.wave(), clock);
+    if (space.reuse) space.reuse->Connect(rect, space.wavefront.wave(), clock);
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
     if (plan_.features.Has(Feature::kSplitting)) {
       FoldCopies(out.values.data(), buffer.stride, run_.planes);
       if (clock) clock->FinishPart(TaskPart::kCopies, stride);
     }
-    if (seen_lights_) SeeLights(task, out, space);
+    if (seen_lights_) SeeLights(range, rect, out, space);
   }
   if (clock) clock->EndTask();
   return ended;
 }
 
-void TaskRunner::SeeLights(const TileTask& task, TaskSamples& out,
-                           Workspace& space) const {
-  const SeenLightTask seen = {task.tile,         space.pixels,
-                              task.first_sample, task.samples,
-                              out.values.data(), space.pixels.size() * task.samples};
+void TaskRunner::SeeLights(const SampleRange& range, const PixelRect& rect,
+                           TaskSamples& out, Workspace& space) const {
+  const SeenLightTask seen = {
+      range.tile,  space.pixels,      range.first % kSamplesPerSeed,
+      range.count, out.values.data(), space.pixels.size() * range.count};
   StageClock* const clock = space.Clock();
-  seen_lights_->Find(task.tile, task.rect, *space.seen_lights, clock);
+  seen_lights_->Find(range.tile, rect, *space.seen_lights, clock);
   const bool corrected =
       seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
   if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);

@@ -10,6 +10,7 @@
 #include "src/render/wave/films.h"
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
+#include "src/render/wave/sample_range.h"
 #include "src/render/wave/seen_lights.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/render/wave/workspace.h"
@@ -35,12 +36,6 @@ struct DriveTask {
 bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
            const TaskWatcher* watcher = nullptr);
 
-struct TileTask {
-  std::size_t tile = 0;                         // in what Begin has been given
-  PixelRect rect;                               // its pixels, of the full image
-  std::uint32_t first_sample = 0, samples = 0;  // of each pixel, as kernels count them
-};
-
 class TaskRunner {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until
@@ -56,8 +51,10 @@ class TaskRunner {
   // Safe from different threads:
   /// Looks for edges of lights in a tile, if nobody has, and they are integrated apart.
   void FindSeenLights(std::size_t tile, const PixelRect& rect);
-  /// False, and no samples, if the watcher has cancelled it.
-  bool Run(const TileTask& task, const TaskWatcher& watcher, TaskSamples& out);
+  /// Renders a range of samples of a tile, whose pixels are `rect` of the full image.
+  /// Returns false, and no samples, if the watcher has cancelled it.
+  bool Run(const SampleRange& range, const PixelRect& rect, const TaskWatcher& watcher,
+           TaskSamples& out);
   /// Adds samples to the films, whose pixels lie at `place`, and counts their time.
   void Merge(const PixelRect& place, TaskSamples& samples, Films& films);
   /// Room for samples, of this thread.
@@ -68,9 +65,10 @@ class TaskRunner {
 
  private:
   Workspace& ThreadWorkspace();
-  TileWork SetUp(const TileTask& task, Workspace& space) const;
+  TileWork SetUp(const SampleRange& range, const PixelRect& rect, Workspace& space) const;
   SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
-  void SeeLights(const TileTask& task, TaskSamples& out, Workspace& space) const;
+  void SeeLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
+                 Workspace& space) const;
 
   const PreparedScene& scene_;
   const Plan& plan_;

@@ -7,7 +7,7 @@
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/render/job/render.h"
-#include "src/render/ranks/ranks.h"
+#include "src/render/mpi/join_ranks.h"
 
 namespace lanelight {
 namespace {

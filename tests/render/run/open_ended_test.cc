@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/render/estimate/target.h"
-#include "src/render/run/schedule.h"
+#include "src/render/schedule/schedule.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/render/run/lamp_scene.h"
 #include "tests/render/run/render_fixture.h"

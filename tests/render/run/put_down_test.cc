@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "src/render/run/tasks.h"
+#include "src/render/schedule/thread_work.h"
 #include "src/render/wave/time_limit.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/prepare/tables.h"
@@ -143,24 +143,25 @@ Shape "sphere" "float radius" 3
   const StrategyTables tables = MakeStrategyTables(scene);
   RunParameters run = MakeRunParameters(scene, plan);
   run.tables = &tables;
-  const RunOptions options;
+  RunOptions options;
+  options.spp = 32;
   const auto render = [&](const std::vector<int>& put_down_after) {
     FilmAccumulator film(0, 0, 40, 24, GroupsOf(scene.strategy), Auxiliary::kNone);
     Films films(run.planes, 1, film);
-    Tasks tasks(scene, plan, run, options, 32);
+    ThreadWork work(scene, plan, run, options, films);
     for (const std::uint64_t limit_spp : {20u, 64u}) {
       for (const int after : put_down_after) {
         Watcher watcher;
         watcher.after = after;
-        tasks.RunRound({0, limit_spp, 8}, watcher, films);
+        work.RunRound({0, limit_spp, 8}, watcher);
       }
       Watcher patient;
       patient.after = 1 << 30;
-      tasks.RunRound({0, limit_spp, 8}, patient, films);
+      work.RunRound({0, limit_spp, 8}, patient);
     }
-    CHECK(tasks.Done() == 64);
-    CHECK(tasks.counts().samples == 40 * 24 * 64);
-    CHECK(tasks.taken() == 40 * 24 * 64);
+    CHECK(work.Done() == 64);
+    CHECK(work.Counts().samples == 40 * 24 * 64);
+    CHECK(work.Taken() == 40 * 24 * 64);
     return film;
   };
   const FilmAccumulator whole = render({});

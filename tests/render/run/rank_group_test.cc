@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "src/render/run/run_start.h"
+#include "src/render/ranks/run_messages.h"
+#include "tests/render/ranks/thread_group.h"
 #include "tests/render/run/resume_fixture.h"
-#include "tests/render/run/thread_group.h"
 
 namespace lanelight {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "src/render/train/rank_passes.h"
 #include "src/scene/prepare/tables.h"
+#include "tests/render/ranks/thread_group.h"
 #include "tests/render/run/lamp_scene.h"
 #include "tests/render/run/render_fixture.h"
-#include "tests/render/run/thread_group.h"
 
 namespace lanelight {
 namespace {

@@ -41,7 +41,8 @@ inline std::string MeshScene() {
          "] \"integer indices\" [ " + indices + "]\n";
 }
 
-/// What a task of a render does (src/render/run/tasks.cc), with a plan to tamper with.
+/// What a task of a render does (src/render/schedule/thread_work.cc), with a plan to
+/// tamper with.
 class TaskFixture {
  public:
   TaskFixture(const std::string& text, const std::string& strategy, Auxiliary auxiliary)

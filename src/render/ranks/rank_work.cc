@@ -1,4 +1,4 @@
-#include "src/render/run/group_tasks.h"
+#include "src/render/ranks/rank_work.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,9 +10,9 @@
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/render/run/held_tiles.h"
-#include "src/render/run/listening.h"
-#include "src/render/run/rank_balance.h"
+#include "src/render/ranks/packed_tiles.h"
+#include "src/render/ranks/poll_interval.h"
+#include "src/render/ranks/rank_balance.h"
 #include "src/render/wave/stop_watcher.h"
 
 namespace lanelight {
@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// After a signal mpirun leaves a second; for those who do not answer until then nobody
-// waits.
+// mpirun leaves a second after a signal. The leader does not wait longer than this for
+// ranks that do not answer.
 constexpr double kAnswerSeconds = 0.6;
 
 template <class Value>
@@ -36,7 +36,7 @@ std::string ToString(const Value& value) {
   return {reinterpret_cast<const char*>(&value), sizeof(Value)};
 }
 
-// Of a worker: a signal to this rank, and what others have said.
+// Stops the tasks of a worker: for a signal to this rank, or if another rank stops.
 class WorkerWatch : public TaskWatcher {
  public:
   explicit WorkerWatch(const std::atomic<bool>* stop) : signal_(stop) {}
@@ -44,7 +44,7 @@ class WorkerWatch : public TaskWatcher {
   bool Stopped() const override { return signal_.Stopped() || stopped_; }
   bool Cancelled() const override { return signal_.Cancelled() || cancelled_; }
   void TaskDone() override {}
-  void Hear(const RankStatus& all) {
+  void Update(const RankStatus& all) {
     stopped_ = all.stopped > 0;
     cancelled_ = all.cancelled > 0;
   }
@@ -57,15 +57,15 @@ class WorkerWatch : public TaskWatcher {
 }  // namespace
 
 // A round of this rank, on threads of its own.
-class GroupTasks::OwnRound {
+class RankWork::OwnRound {
  public:
-  OwnRound(GroupTasks& group, const RoundWork& work, TaskWatcher& watcher)
-      : group_(group), work_(work), watcher_(watcher), taken_before_(Taken()) {
-    total_ = group.tasks_.Missing(group.tasks_.Held(), work.limit);
+  OwnRound(RankWork& work, const Round& round, TaskWatcher& watcher)
+      : work_(work), round_(round), watcher_(watcher), taken_before_(Taken()) {
+    total_ = scheduler().Missing(scheduler().Snapshot(), round.end);
     Start();
   }
 
-  /// Whether it has ended, in no more than this time.
+  /// Waits at most this long; returns whether the round has ended.
   bool Wait(std::chrono::duration<double> most) {
     const bool done = running_.wait_for(most) == std::future_status::ready;
     const double seconds = since_.Lap();
@@ -76,32 +76,33 @@ class GroupTasks::OwnRound {
     const std::uint64_t taken = Taken() - taken_before_;
     return {total_ - taken, busy_ > 0 ? double(taken) / busy_ : 0};
   }
-  std::vector<HeldTile> Give(std::uint64_t samples) {
-    std::vector<HeldTile> given = group_.tasks_.Give(samples);
-    total_ -= group_.tasks_.Missing(given, work_.limit);
-    return given;
+  std::vector<TileProgress> Release(std::uint64_t samples) {
+    std::vector<TileProgress> tiles = scheduler().Release(samples);
+    total_ -= scheduler().Missing(tiles, round_.end);
+    return tiles;
   }
-  void Take(const std::vector<HeldTile>& tiles) {
+  void Adopt(const std::vector<TileProgress>& tiles) {
     if (tiles.empty()) return;
-    group_.tasks_.Take(tiles);
-    total_ += group_.tasks_.Missing(tiles, work_.limit);
+    scheduler().Adopt(tiles);
+    total_ += scheduler().Missing(tiles, round_.end);
     if (running_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) Start();
   }
 
  private:
-  std::uint64_t Taken() const { return group_.tasks_.own_taken(); }
+  Scheduler& scheduler() { return work_.threads_.scheduler(); }
+  std::uint64_t Taken() const { return work_.threads_.Taken(); }
   void Start() {
     running_ = std::async(std::launch::async, [this] {
       try {
-        group_.tasks_.RunRound(work_, watcher_, group_.films_);
+        work_.threads_.RunRound(round_, watcher_);
       } catch (...) {
-        group_.problem_ = std::current_exception();
+        work_.problem_ = std::current_exception();
       }
     });
   }
 
-  GroupTasks& group_;
-  const RoundWork work_;
+  RankWork& work_;
+  const Round round_;
   TaskWatcher& watcher_;
   const std::uint64_t taken_before_;
   std::uint64_t total_ = 0;  // samples of this round
@@ -110,29 +111,54 @@ class GroupTasks::OwnRound {
   std::future<void> running_;  // ends before the rest
 };
 
-void GroupTasks::Deal(bool have_samples) {
-  if (alone()) return;
+void RankWork::Deal(bool have_samples, int min_tile_side) {
   if (have_samples) {
     for (const MutableStateColumn& column : films_.Columns()) {
       group_.Broadcast({static_cast<char*>(column.data), column.Bytes()});
     }
   }
-  tasks_.Deal(group_.AllGather(MaxThreads()), group_.rank(), films_);
+  const auto parts = DealTiles(tiles(), group_.AllGather(MaxThreads()), min_tile_side);
+  std::vector<PixelRect> all;
+  std::vector<TileProgress> own;
+  for (std::size_t rank = 0; rank < parts.size(); ++rank) {
+    for (const PixelRect& tile : parts[rank]) {
+      const std::uint64_t done = films_.film().Samples(tile.x0, tile.y0);
+      if (rank == static_cast<std::size_t>(group_.rank())) {
+        own.push_back({all.size(), done});
+      } else {
+        other_levels_.Add({done, done});
+      }
+      all.push_back(tile);
+    }
+  }
+  threads_.ShareTiles(all, own);
 }
 
-GroupTasks::Command GroupTasks::Tell(Command command) {
+TileLevels RankWork::Levels() const {
+  TileLevels levels = threads_.Levels();
+  levels.Add(other_levels_);
+  return levels;
+}
+
+RunCounts RankWork::Counts() const {
+  RunCounts counts = threads_.Counts();
+  counts.Add(other_counts_);
+  return counts;
+}
+
+RankWork::Command RankWork::Share(Command command) {
   group_.Broadcast(BytesOf(command));
   return command;
 }
 
-void GroupTasks::RunRound(const RoundWork& work, TaskWatcher& watcher) {
-  Tell({Order::kRender, work});
+void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
+  Share({Order::kRender, round});
   gathered_ = false;
-  const RankStatus all = Render(work, watcher, [&](const RankStatus& sum) {
+  const RankStatus all = Render(round, watcher, [&](const RankStatus& sum) {
     if (sum.failed + sum.interrupted > 0) stopped_ = true;
     failed_ |= sum.failed > 0;
-    // Samples of others are progress too.
-    if (tasks_.OthersHaveTaken(sum.samples)) watcher.TaskDone();
+    // Samples of other ranks are progress too.
+    if (taken_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
   });
   if (problem_) std::rethrow_exception(problem_);
   if (gave_up_) {
@@ -140,42 +166,43 @@ void GroupTasks::RunRound(const RoundWork& work, TaskWatcher& watcher) {
   } else if (all.behind > 0) {
     Gather();
   } else {
-    tasks_.OthersAreAt(work.limit);
+    other_levels_ = {round.end, std::max(round.end, other_levels_.most)};
   }
 }
 
-// Renders this rank's tiles, hears what the others do until all have ended, and evens out
-// what is left to each of them.
-RankStatus GroupTasks::Render(const RoundWork& work, TaskWatcher& watcher,
-                              const Hear& hear) {
+// Renders this rank's tiles and exchanges status until all ranks have ended; balances
+// what is left.
+RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
+                            const OnStatus& on_status) {
   std::optional<Clock::time_point> signal;
   const GivesUp gives_up = [&] {
     if (!group_.leads() || !watcher.Interrupted()) return false;
     if (!signal) signal = Clock::now();
     return SecondsSince(*signal) > kAnswerSeconds;
   };
-  OwnRound own(*this, work, watcher);
-  Listening listening;
-  for (std::uint64_t turn = 0;; ++turn) {
-    const bool done = own.Wait(listening.UntilNext());
-    RankStatus status = Status(work, watcher, done);
+  OwnRound own(*this, round, watcher);
+  PollInterval interval;
+  for (std::uint64_t step = 0;; ++step) {
+    const bool done = own.Wait(interval.UntilNext());
+    RankStatus status = Status(round, watcher, done);
     status.left = own.load().left;
     auto all = group_.Sum(status, gives_up);
     gave_up_ = !all;
     if (gave_up_) return {};
-    listening.Hear(*all);
+    interval.Update(*all);
     all->samples -= status.samples;  // of others
-    hear(*all);
+    on_status(*all);
     if (all->busy == 0) return *all;
     // All ranks see the same, and go on alike.
     if (all->failed + all->interrupted + all->stopped > 0) continue;
-    gave_up_ = !Balance(turn, own, gives_up);
+    gave_up_ = !Balance(step, own, gives_up);
     if (gave_up_) return {};
   }
 }
 
-bool GroupTasks::Balance(std::uint64_t turn, OwnRound& own, const GivesUp& gives_up) {
-  const int partner = BalancePartner(group_.rank(), group_.ranks(), turn);
+// Returns false if it gave up on the other rank.
+bool RankWork::Balance(std::uint64_t step, OwnRound& own, const GivesUp& gives_up) {
+  const int partner = BalancePartner(group_.rank(), group_.ranks(), step);
   if (partner < 0) return true;
   RankLoad mine = own.load(), theirs;
   const auto load = group_.Swap(partner, ToString(mine), gives_up);
@@ -184,92 +211,91 @@ bool GroupTasks::Balance(std::uint64_t turn, OwnRound& own, const GivesUp& gives
   std::memcpy(&theirs, load->data(), sizeof(theirs));
   const std::uint64_t samples = SamplesToGive(mine, theirs);
   if (samples == 0 && SamplesToGive(theirs, mine) == 0) return true;
-  const std::vector<HeldTile> given = own.Give(samples);
-  std::string gift;
-  PackTiles(given, tasks_.tiles(), films_, gift);
-  const auto bytes = group_.Swap(partner, std::move(gift), gives_up);
+  std::string packed;
+  PackTiles(own.Release(samples), tiles(), films_, packed);
+  const auto bytes = group_.Swap(partner, std::move(packed), gives_up);
   if (!bytes) return false;
-  own.Take(UnpackTiles(*bytes, tasks_.tiles(), films_));
+  own.Adopt(UnpackTiles(*bytes, tiles(), films_));
   return true;
 }
 
-RankStatus GroupTasks::Status(const RoundWork& work, const TaskWatcher& watcher,
-                              bool done) const {
+RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
+                            bool done) const {
   RankStatus status;
   status.failed = done && problem_;
   status.interrupted = watcher.Interrupted();
   status.stopped = watcher.Stopped();
   status.cancelled = watcher.Cancelled();
   status.busy = !done;
-  status.behind = !done || tasks_.Levels().least < work.limit;
-  status.samples = tasks_.own_taken();
+  status.behind = !done || threads_.Levels().least < round.end;
+  status.samples = threads_.Taken();
   return status;
 }
 
-void GroupTasks::Gather() {
-  if (alone() || gathered_ || gave_up_) return;
-  Tell({Order::kGather, {}});
-  tasks_.ForgetOthers();
+void RankWork::Gather() {
+  if (gathered_ || gave_up_) return;
+  Share({Order::kGather, {}});
+  other_counts_ = {};
+  other_levels_ = {};
   for (int piece = MostPieces(0); piece > 0; --piece) {
-    group_.Gather("", [this](int, std::string_view bytes) { TakePiece(bytes); });
+    group_.Gather("", [this](int, std::string_view bytes) { ReceivePiece(bytes); });
   }
   gathered_ = true;
 }
 
-// What a worker has counted, and some of its tiles.
-void GroupTasks::TakePiece(std::string_view bytes) {
+// Adds the counts of a worker and some of its tiles.
+void RankWork::ReceivePiece(std::string_view bytes) {
   RunCounts counts;
   LL_CHECK_GE(bytes.size(), sizeof(counts));
   std::memcpy(&counts, bytes.data(), sizeof(counts));
-  tasks_.AddOthers(counts,
-                   UnpackTiles(bytes.substr(sizeof(counts)), tasks_.tiles(), films_));
+  other_counts_.Add(counts);
+  other_levels_.Add(LevelsOf(UnpackTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
 }
 
-void GroupTasks::SendPieces() {
-  const std::vector<HeldTile> held = tasks_.Held();
-  const auto pieces = InPieces(held, tasks_.tiles());
-  RunCounts counts = tasks_.counts();
+void RankWork::SendPieces() {
+  const std::vector<TileProgress> owned = threads_.scheduler().Snapshot();
+  const auto pieces = InPieces(owned, tiles());
+  RunCounts counts = threads_.Counts();
   counts.cpu_seconds = clock_.CpuSeconds();
   std::string bytes;
   const auto all = static_cast<std::size_t>(MostPieces(static_cast<int>(pieces.size())));
   for (std::size_t i = 0; i < all; ++i) {
     bytes.clear();
     bytes += ToString(std::exchange(counts, {}));
-    PackTiles(i < pieces.size() ? pieces[i] : std::span<const HeldTile>(), tasks_.tiles(),
+    PackTiles(i < pieces.size() ? pieces[i] : std::span<const TileProgress>(), tiles(),
               films_, bytes);
     group_.Gather(bytes, nullptr);
   }
 }
 
-// Of any rank.
-int GroupTasks::MostPieces(int own) {
+// Returns the largest number of pieces of any rank.
+int RankWork::MostPieces(int own) {
   const std::vector<int> all = group_.AllGather(own);
   return *std::max_element(all.begin(), all.end());
 }
 
-// All meet once more, so that the leader hears of a failure.
-void GroupTasks::Dismiss() {
-  if (alone()) return;
+// All ranks meet once more, so that the leader learns of a failure.
+void RankWork::Finish() {
   if (!gave_up_) {
-    Tell({Order::kLeave, {}});
+    Share({Order::kLeave, {}});
     group_.AllGather(0);
   } else if (failed_) {
     throw RankFailure("error: a rank has failed, and others do not end their tasks");
   }
 }
 
-void GroupTasks::Serve(const std::function<void(std::uint64_t)>& begin,
-                       const std::atomic<bool>* stop) {
+void RankWork::Serve(const std::function<void(const Round&)>& begin,
+                     const std::atomic<bool>* stop) {
   while (true) {
-    const Command command = Tell({});
+    const Command command = Share({});
     if (command.order == Order::kLeave) break;
     if (command.order == Order::kGather) {
       SendPieces();
       continue;
     }
-    begin(command.work.first);
+    begin(command.round);
     WorkerWatch watch(stop);
-    Render(command.work, watch, [&](const RankStatus& all) { watch.Hear(all); });
+    Render(command.round, watch, [&](const RankStatus& all) { watch.Update(all); });
   }
   if (problem_) std::rethrow_exception(problem_);
   group_.AllGather(0);

@@ -1,4 +1,4 @@
-// When ranks hear of each other while they render.
+// How often ranks exchange their status while they render.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,17 @@
 
 namespace lanelight {
 
-/// At most every 100 ms, a few times within what a signal leaves them, and seldom enough
-/// to cost nothing; more often towards the end of a round, which no rank is to sleep
-/// through. All of them know the same of the samples that are left, so that all of them
-/// come at about the same time.
-class Listening {
+/// At most 100 ms: a fraction of the time that a signal leaves to a rank, and long enough
+/// to cost nothing. Shorter towards the end of a round, so that no rank sleeps through
+/// it. All ranks compute the interval from the same sums, so they meet at about the same
+/// time.
+class PollInterval {
  public:
   std::chrono::duration<double> UntilNext() const {
     return std::chrono::duration<double>(until_next_);
   }
-  /// Of all ranks together.
-  void Hear(const RankStatus& all) {
+  /// Takes the sum of the status of all ranks.
+  void Update(const RankStatus& all) {
     const double seconds = since_.Lap(), taken = left_ - double(all.left);
     left_ = double(all.left);
     const double remaining = taken > 0 ? seconds * left_ / taken : kLongest;
@@ -29,7 +29,7 @@ class Listening {
  private:
   static constexpr double kShortest = 0.002, kLongest = 0.1;  // seconds
 
-  double left_ = 0;
+  double left_ = 0;  // samples
   double until_next_ = kShortest;
   Stopwatch since_;
 };

@@ -1,5 +1,5 @@
 // A program without MPI.
-#include "src/render/ranks/ranks.h"
+#include "src/render/mpi/join_ranks.h"
 
 namespace lanelight {
 

@@ -1,6 +1,6 @@
 // The decisions of renders without a fixed number of samples, played through with an
 // imaginary clock.
-#include "src/render/run/schedule.h"
+#include "src/render/schedule/schedule.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -47,8 +47,9 @@ Played Play(double budget, double per_sample, double overhead, const Pace::Tasks
   Played played;
   double now = 0;
   while (true) {
-    const Round round = pace.Next(now);
-    const double seconds = overhead + per_sample * double(round.samples) / tasks.threads;
+    const Round round = pace.Next(0, now);
+    const double seconds =
+        overhead + per_sample * double(round.samples()) / tasks.threads;
     if (now + seconds > budget) break;
     if (played.rounds > 0) {
       played.task =
@@ -57,7 +58,7 @@ Played Play(double budget, double per_sample, double overhead, const Pace::Tasks
     CHECK(round.per_task % tasks.unit == 0);
     now += seconds;
     ++played.rounds;
-    pace.Took(round.samples, seconds);
+    pace.Took(round.samples(), seconds);
   }
   played.end = now;
   return played;
@@ -83,10 +84,10 @@ TEST_CASE("rounds fill a time budget", "[schedule]") {
 
 TEST_CASE("a first round that takes too long is the only one", "[schedule]") {
   Pace pace(1, {100, 2, 32, 1});
-  CHECK(pace.Next(0).samples == 1);
+  CHECK(pace.Next(0, 0).samples() == 1);
   pace.Took(1, 5);
   CHECK(pace.Reach(5) == 0);
-  CHECK(pace.Next(5).samples == 1);  // the caller sees that the time is over
+  CHECK(pace.Next(0, 5).samples() == 1);  // the caller sees that the time is over
 }
 
 }  // namespace lanelight

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "src/render/run/rank_balance.h"
+#include "src/render/ranks/rank_balance.h"
 
 namespace lanelight {
 

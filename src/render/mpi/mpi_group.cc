@@ -1,4 +1,4 @@
-#include "src/render/ranks/mpi_group.h"
+#include "src/render/mpi/mpi_group.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "src/base/core/check.h"
-#include "src/render/ranks/ranks.h"
+#include "src/render/mpi/join_ranks.h"
 
 namespace lanelight {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/render/run/run_start.h"
+#include "src/render/ranks/run_messages.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "src/render/run/rank_balance.h"
+#include "src/render/ranks/rank_balance.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "src/render/run/held_tiles.h"
+#include "src/render/ranks/packed_tiles.h"
 
 #include <cstring>
 
@@ -7,16 +7,16 @@
 namespace lanelight {
 namespace {
 
-// 3 to 25 MB: memory that is used again and again, and not asked for anew.
+// 3 to 25 MB of films, in memory that all pieces use.
 constexpr std::uint64_t kPixelsOfPiece = 1 << 15;
 
 // Calls copy(address, bytes) for each row of each tile in each column of the films.
 template <class Copy>
-void ForEachRow(std::span<const HeldTile> held, const std::vector<PixelRect>& tiles,
+void ForEachRow(std::span<const TileProgress> packed, const std::vector<PixelRect>& tiles,
                 Films& films, const Copy& copy) {
   const FilmAccumulator& film = films.film();
   for (const MutableStateColumn& column : films.Columns()) {
-    for (const HeldTile& one : held) {
+    for (const TileProgress& one : packed) {
       const PixelRect& tile = tiles[one.tile];
       for (int y = tile.y0; y < tile.y1; ++y) {
         const auto row = static_cast<std::size_t>(y - film.y0()) *
@@ -31,20 +31,20 @@ void ForEachRow(std::span<const HeldTile> held, const std::vector<PixelRect>& ti
 
 }  // namespace
 
-void PackTiles(std::span<const HeldTile> held, const std::vector<PixelRect>& tiles,
+void PackTiles(std::span<const TileProgress> packed, const std::vector<PixelRect>& tiles,
                Films& films, std::string& out) {
-  const std::uint64_t count = held.size();
+  const std::uint64_t count = packed.size();
   out.append(reinterpret_cast<const char*>(&count), sizeof(count));
-  out.append(reinterpret_cast<const char*>(held.data()), held.size_bytes());
-  ForEachRow(held, tiles, films,
+  out.append(reinterpret_cast<const char*>(packed.data()), packed.size_bytes());
+  ForEachRow(packed, tiles, films,
              [&](const char* from, std::size_t size) { out.append(from, size); });
 }
 
-std::vector<std::span<const HeldTile>> InPieces(const std::vector<HeldTile>& held,
-                                                const std::vector<PixelRect>& tiles) {
-  std::vector<std::span<const HeldTile>> pieces(1);
+std::vector<std::span<const TileProgress>> InPieces(
+    const std::vector<TileProgress>& packed, const std::vector<PixelRect>& tiles) {
+  std::vector<std::span<const TileProgress>> pieces(1);
   std::uint64_t pixels = 0;
-  for (const HeldTile& one : held) {
+  for (const TileProgress& one : packed) {
     if (pixels >= kPixelsOfPiece) {
       pieces.push_back({&one, 0});
       pixels = 0;
@@ -56,8 +56,8 @@ std::vector<std::span<const HeldTile>> InPieces(const std::vector<HeldTile>& hel
   return pieces;
 }
 
-std::vector<HeldTile> UnpackTiles(std::string_view bytes,
-                                  const std::vector<PixelRect>& tiles, Films& films) {
+std::vector<TileProgress> UnpackTiles(std::string_view bytes,
+                                      const std::vector<PixelRect>& tiles, Films& films) {
   const auto take = [&bytes](void* to, std::size_t size) {
     LL_CHECK_GE(bytes.size(), size);
     if (size > 0) std::memcpy(to, bytes.data(), size);
@@ -66,12 +66,12 @@ std::vector<HeldTile> UnpackTiles(std::string_view bytes,
   std::uint64_t count = 0;
   take(&count, sizeof(count));
   LL_CHECK_LE(count, tiles.size());
-  std::vector<HeldTile> held(count);
-  take(held.data(), count * sizeof(HeldTile));
-  for (const HeldTile& one : held) LL_CHECK_LT(one.tile, tiles.size());
-  ForEachRow(held, tiles, films, take);
+  std::vector<TileProgress> packed(count);
+  take(packed.data(), count * sizeof(TileProgress));
+  for (const TileProgress& one : packed) LL_CHECK_LT(one.tile, tiles.size());
+  ForEachRow(packed, tiles, films, take);
   LL_CHECK(bytes.empty());
-  return held;
+  return packed;
 }
 
 }  // namespace lanelight

@@ -2,13 +2,15 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cstring>
+#include <stdexcept>
 #include <thread>
 
-#include "src/render/run/group_tasks.h"
+#include "src/render/ranks/rank_work.h"
 #include "src/scene/prepare/tables.h"
+#include "tests/render/ranks/thread_group.h"
 #include "tests/render/run/lamp_scene.h"
 #include "tests/render/run/render_fixture.h"
-#include "tests/render/run/thread_group.h"
 
 namespace lanelight {
 namespace {
@@ -25,18 +27,24 @@ void SlowStage(Wave& wave) {
   quick_stage.load()(wave);
 }
 
-// All that the tasks of one rank need.
+RunOptions Samples(std::uint64_t spp) {
+  RunOptions options;
+  options.spp = spp;
+  return options;
+}
+
+// All that the work of one rank needs.
 struct RankFixture {
   PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(kSide, kSide, 4), "test.pbrt", "."), {});
   Plan plan = MakePlan(scene, {});
   StrategyTables tables = MakeStrategyTables(scene);
   RunParameters run = MakeRunParameters(scene, plan);
-  RunOptions options;
+  RunOptions options = Samples(32);
   FilmAccumulator film{0, 0, kSide, kSide, GroupsOf(scene.strategy), Auxiliary::kNone};
   Films films{run.planes, 1, film};
   RunClock clock;
-  Tasks tasks{scene, plan, run, options, 32};
+  ThreadWork threads{scene, plan, run, options, films};
 
   RankFixture() {
     run.tables = &tables;
@@ -44,6 +52,15 @@ struct RankFixture {
     clock.Start();
   }
 };
+
+std::uint64_t Missing(ThreadWork& threads, std::uint64_t spp) {
+  return threads.scheduler().Missing(threads.scheduler().Snapshot(), spp);
+}
+
+// Fails the rank of this thread.
+void Expect(bool holds) {
+  if (!holds) throw std::runtime_error("expectation of a rank");
+}
 
 // Stops after so many tasks.
 struct CountingWatch : TaskWatcher {
@@ -58,22 +75,32 @@ struct CountingWatch : TaskWatcher {
 TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
   const ThreadLimit limit(1);
   RankFixture fixture;
-  RunOptions corner;
+  RunOptions corner = fixture.options;
   corner.tiles = {{0, 0, 2, 2}};
-  Tasks some(fixture.scene, fixture.plan, fixture.run, corner, 32);
+  ThreadWork some(fixture.scene, fixture.plan, fixture.run, corner, fixture.films);
   CountingWatch watch(1 << 30);
-  some.RunRound({0, 2, 2}, watch, fixture.films);
-  for (int rank = 0; rank < 3; ++rank) {
-    Tasks tasks(fixture.scene, fixture.plan, fixture.run, fixture.options, 32);
-    tasks.GoOn(fixture.films, {});
-    tasks.Deal({1, 1, 1}, rank, fixture.films);
-    CHECK(tasks.Held().size() == (tasks.tiles().size() + 2 - std::size_t(rank)) / 3);
-    CHECK(tasks.pixels() == kPixels);
-    CHECK(tasks.Done() == 0);
+  some.RunRound({0, 2, 2}, watch);
+  OnRanks(3, [&fixture](RankGroup& group) {
+    RankFixture own;
+    for (std::size_t i = 0; i < own.films.Columns().size(); ++i) {
+      const MutableStateColumn from = fixture.films.Columns()[i];
+      std::memcpy(own.films.Columns()[i].data, from.data, from.Bytes());
+    }
+    own.threads.Resume({});
+    RankWork work(group, own.clock, own.threads, own.films);
+    work.Deal(false, 1);
+    const auto rank = static_cast<std::size_t>(group.rank());
+    const Scheduler& scheduler = own.threads.scheduler();
+    Expect(scheduler.Snapshot().size() == (scheduler.tiles().size() + 2 - rank) / 3);
+    std::uint64_t pixels = 0;
+    for (const PixelRect& tile : scheduler.tiles()) pixels += tile.pixels();
+    Expect(pixels == kPixels);
+    Expect(work.Done() == 0);
     // One of them has the corner, and the others know.
-    CHECK(tasks.Levels().most == (rank == 0 ? 2 : 0));
-    CHECK_FALSE(tasks.IsAt(0));
-  }
+    Expect(own.threads.Levels().most == (rank == 0 ? 2 : 0));
+    Expect(work.Levels().most == 2);
+    Expect(!work.IsAt(0));
+  });
 }
 
 TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
@@ -82,31 +109,31 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
   OnRanks(3, [](RankGroup& group) {
     RankFixture own;
     if (!group.leads()) own.plan.stages[0].kernel = SlowStage;
-    GroupTasks work(group, own.clock, own.tasks, own.films);
-    work.Deal(false);
+    RankWork work(group, own.clock, own.threads, own.films);
+    work.Deal(false, 1);
     if (!group.leads()) {
       std::vector<std::uint64_t> firsts;
-      work.Serve([&](std::uint64_t first) { firsts.push_back(first); }, nullptr);
+      work.Serve([&](const Round& round) { firsts.push_back(round.begin); }, nullptr);
       if (firsts != std::vector<std::uint64_t>{0, 0, 12})
         throw std::runtime_error("first");
       return;
     }
-    CountingWatch hasty(static_cast<int>(own.tasks.Held().size()));
+    CountingWatch hasty(static_cast<int>(own.threads.scheduler().Snapshot().size()));
     work.RunRound({0, 4, 4}, hasty);
-    CHECK(own.tasks.Levels().least == 4);
-    CHECK(own.tasks.Done() == 0);
+    CHECK(own.threads.Levels().least == 4);
+    CHECK(work.Done() == 0);
     workers_are_slow = false;
     CountingWatch patient(1 << 30);
     work.RunRound({0, 12, 4}, patient);
-    CHECK(own.tasks.Done() == 12);
-    CHECK(own.tasks.IsAt(12));
-    CHECK(own.tasks.taken() == 12 * kPixels);
-    CHECK(own.tasks.counts().samples < 12 * kPixels);
+    CHECK(work.Done() == 12);
+    CHECK(work.IsAt(12));
+    CHECK(work.Taken() == 12 * kPixels);
+    CHECK(work.Counts().samples < 12 * kPixels);
     work.RunRound({12, 16, 4}, patient);
     work.Gather();
-    CHECK(own.tasks.counts().samples == 16 * kPixels);
+    CHECK(work.Counts().samples == 16 * kPixels);
     CHECK(own.film.Samples(kSide - 1, kSide - 1) == 16);
-    work.Dismiss();
+    work.Finish();
   });
 }
 
@@ -115,24 +142,24 @@ TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]
   constexpr std::uint64_t kSpp = 32;
   RankFixture alone;
   CountingWatch watch(1 << 30);
-  alone.tasks.RunRound({0, kSpp, 4}, watch, alone.films);
+  alone.threads.RunRound({0, kSpp, 4}, watch);
   workers_are_slow = true;
   OnRanks(3, [&alone](RankGroup& group) {
     RankFixture own;
     if (!group.leads()) own.plan.stages[0].kernel = SlowStage;
-    GroupTasks work(group, own.clock, own.tasks, own.films);
-    work.Deal(false);
-    if (!group.leads()) return work.Serve([](std::uint64_t) {}, nullptr);
-    const std::uint64_t dealt = own.tasks.Missing(own.tasks.Held(), kSpp);
+    RankWork work(group, own.clock, own.threads, own.films);
+    work.Deal(false, 1);
+    if (!group.leads()) return work.Serve([](const Round&) {}, nullptr);
+    const std::uint64_t dealt = Missing(own.threads, kSpp);
     CHECK(dealt < kSpp * kPixels / 2);
     CountingWatch patient(1 << 30);
     work.RunRound({0, kSpp, 4}, patient);
-    CHECK(own.tasks.own_taken() > 3 * dealt / 2);
+    CHECK(own.threads.Taken() > 3 * dealt / 2);
     work.Gather();
-    CHECK(own.tasks.counts().samples == kSpp * kPixels);
-    CHECK(own.tasks.IsAt(kSpp));
+    CHECK(work.Counts().samples == kSpp * kPixels);
+    CHECK(work.IsAt(kSpp));
     CHECK(Identical(own.film, alone.film));
-    work.Dismiss();
+    work.Finish();
   });
   workers_are_slow = false;
 }

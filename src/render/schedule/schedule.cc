@@ -1,9 +1,9 @@
-#include "src/render/run/schedule.h"
-
-#include "src/render/wave/run_options.h"
+#include "src/render/schedule/schedule.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "src/render/wave/run_options.h"
 
 namespace lanelight {
 namespace {
@@ -33,10 +33,10 @@ int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
 }
 
 Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit) {
-  if (done >= per_task) return {per_task, kMostSamplesPerPixel};
+  if (done >= per_task) return {done, done + kMostSamplesPerPixel, per_task};
   const auto samples =
       static_cast<std::uint32_t>(std::max<std::uint64_t>(3 * done, unit));
-  return {std::min(samples, per_task), samples};
+  return {done, done + samples, std::min(samples, per_task)};
 }
 
 std::uint32_t Pace::Whole(double samples) const {
@@ -46,16 +46,14 @@ std::uint32_t Pace::Whole(double samples) const {
          tasks_.unit;
 }
 
-Round Pace::Next(double elapsed) const {
-  if (speed_ == 0) return {tasks_.unit, tasks_.unit};
+Round Pace::Next(std::uint64_t done, double elapsed) const {
+  if (speed_ == 0) return {done, done + tasks_.unit, tasks_.unit};
   // Seconds of one sample of all pixels of a tile.
   const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
   const double most = Reach(elapsed) / 2;
-  Round round;
-  round.per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
-  round.samples =
-      round.per_task * static_cast<std::uint64_t>(std::max(1.0, most / round.per_task));
-  return round;
+  const std::uint32_t per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
+  const auto ranges = static_cast<std::uint64_t>(std::max(1.0, most / per_task));
+  return {done, done + per_task * ranges, per_task};
 }
 
 void Pace::Took(std::uint64_t samples, double seconds) {

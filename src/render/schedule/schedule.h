@@ -17,10 +17,13 @@ std::uint64_t CheckFrom(std::uint64_t done, std::uint32_t unit);
 /// How many there are up to `done`, itself included.
 int ChecksUpTo(std::uint64_t done, std::uint32_t unit);
 
-/// A part of a render: all tiles take so many samples per pixel, in tasks of `per_task`.
+/// Brings all tiles from at least `begin` samples per pixel to `end`, in ranges of
+/// `per_task` samples.
 struct Round {
+  std::uint64_t begin = 0, end = 0;
   std::uint32_t per_task = 1;
-  std::uint64_t samples = 1;
+
+  std::uint64_t samples() const { return end - begin; }
 };
 
 /// The next round of a render without a time budget, which has `done` samples per pixel.
@@ -43,8 +46,9 @@ class Pace {
   };
   Pace(double budget, const Tasks& tasks) : budget_(budget), tasks_(tasks) {}
 
-  /// The next round, `elapsed` seconds after the start of rendering.
-  Round Next(double elapsed) const;
+  /// The round after `done` samples per pixel, `elapsed` seconds after the start of
+  /// rendering.
+  Round Next(std::uint64_t done, double elapsed) const;
   /// A round of so many samples per pixel took `seconds`.
   void Took(std::uint64_t samples, double seconds);
   /// Samples per pixel that the time left is enough for; 0 before the first round.

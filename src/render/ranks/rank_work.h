@@ -1,0 +1,80 @@
+// Renders rounds on several ranks: each renders its part of the tiles, and hands tiles
+// over, with all that the films have of their pixels, where it would end later than
+// others. The samples of a pixel are added in the same order as by one process, so the
+// image is bit-identical.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "src/base/core/rank_group.h"
+#include "src/render/schedule/thread_work.h"
+#include "src/render/wave/films.h"
+#include "src/render/wave/run_clock.h"
+
+namespace lanelight {
+
+class RankWork : public RoundRunner {
+ public:
+  /// Refers to all of these for as long as it lives.
+  RankWork(RankGroup& group, const RunClock& clock, ThreadWork& threads, Films& films)
+      : group_(group), clock_(clock), threads_(threads), films_(films) {}
+
+  /// Collective, before the first round, when all ranks have the same tiles: gives each
+  /// rank its part of them. `have_samples`: workers get the leader's first.
+  void Deal(bool have_samples, int min_tile_side);
+
+  // Leader:
+  void RunRound(const Round& round, TaskWatcher& watcher) override;
+  /// If some ranks do not answer, after a signal, theirs are those of the last time.
+  void Gather() override;
+  TileLevels Levels() const override;
+  RunCounts Counts() const override;
+  std::uint64_t Taken() const override { return threads_.Taken() + taken_elsewhere_; }
+  bool Stopped() const override { return stopped_; }
+  void Finish() override;
+
+  /// Worker: renders what the leader asks for until it finishes. Calls begin(round)
+  /// before each round; `stop`: a signal came to this rank.
+  void Serve(const std::function<void(const Round&)>& begin,
+             const std::atomic<bool>* stop);
+
+ private:
+  enum class Order : std::uint64_t { kRender, kGather, kLeave };
+  struct Command {
+    Order order = Order::kLeave;
+    Round round;
+  };
+  using GivesUp = std::function<bool()>;
+  class OwnRound;
+  using OnStatus = std::function<void(const RankStatus& all)>;
+
+  Command Share(Command command);
+  RankStatus Render(const Round& round, TaskWatcher& watcher, const OnStatus& on_status);
+  RankStatus Status(const Round& round, const TaskWatcher& watcher, bool done) const;
+  bool Balance(std::uint64_t step, OwnRound& own, const GivesUp& gives_up);
+  void SendPieces();
+  void ReceivePiece(std::string_view bytes);
+  int MostPieces(int own);
+  const std::vector<PixelRect>& tiles() const { return threads_.scheduler().tiles(); }
+
+  RankGroup& group_;
+  const RunClock& clock_;
+  ThreadWork& threads_;
+  Films& films_;
+  // Of the other ranks, as of the last round or Gather().
+  RunCounts other_counts_;
+  TileLevels other_levels_;
+  std::atomic<std::uint64_t> taken_elsewhere_{0};
+  bool gathered_ = true;  // nothing has been rendered since
+  std::atomic<bool> stopped_{false};
+  bool failed_ = false;         // a rank has
+  bool gave_up_ = false;        // on a rank that has not answered
+  std::exception_ptr problem_;  // of this rank's tasks
+};
+
+}  // namespace lanelight
