@@ -62,7 +62,7 @@ inline Job RecordJob(const std::string& path, const std::string& shapes) {
   RenderSettings settings;
   settings.spp = 4;
   Job job = PrepareJob(path, settings);
-  for (PlannedStage& planned : job.plan.stages) {
+  for (PlannedStage& planned : job.plan.phases[0].stages) {
     const std::string name = planned.stage.name;
     if (name == "intersect_" + shapes) {
       closest_rays = {planned.kernel, {"closest", false, {}, {}}};

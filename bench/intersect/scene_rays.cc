@@ -55,7 +55,7 @@ void Record(Wave& wave) {
 }
 
 void InsertTaps(Plan& plan) {
-  for (PlannedStage& planned : plan.stages) {
+  for (PlannedStage& planned : plan.phases[0].stages) {
     const std::string name = planned.stage.name;
     if (name == "intersect_triangles") {
       closest_tap = {planned.kernel, {"closest", false, {}, {}}};

@@ -127,6 +127,7 @@ Stage AccumulateStage() {
   return {.name = "accumulate",
           .meaning = "checks finished samples and frees their slots",
           .input = QueueId::kDone,
+          .role = StageRole::kAccumulate,
           .reads = fields::kRadiance | fields::kAov | fields::kGbuffer |
                    fields::kFirstNumbers |
                    FieldSet{Field::output, Field::weight, Field::wavelength},

@@ -77,6 +77,7 @@ Stage AovStage() {
   return {.name = "aov",
           .meaning = "albedo, normal and depth of the first hit",
           .input = QueueId::kSurface,
+          .role = StageRole::kAccumulate,
           .needs = {Feature::kAov, Feature::kScatters},
           .reads = fields::kNormal | fields::kParameters |
                    FieldSet{Field::depth, Field::t, Field::material, Field::passed,

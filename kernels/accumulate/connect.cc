@@ -20,6 +20,7 @@ Stage ConnectStage() {
   return {.name = "connect",
           .meaning = "adds the light of unoccluded shadow rays",
           .input = QueueId::kShadow,
+          .role = StageRole::kAccumulate,
           .needs = {Feature::kLights, Feature::kScatters},
           .reads = fields::kRadiance | fields::kShadow,
           .writes = fields::kRadiance,

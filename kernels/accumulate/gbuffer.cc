@@ -80,6 +80,7 @@ Stage GbufferStage() {
   return {.name = "gbuffer",
           .meaning = "point, normals, coordinates and slopes of the first hit",
           .input = QueueId::kSurface,
+          .role = StageRole::kAccumulate,
           .needs = {Feature::kGbuffer, Feature::kScatters},
           .reads = fields::kPoint | fields::kNormal | fields::kUv |
                    FieldSet{Field::depth, Field::time},

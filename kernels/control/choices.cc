@@ -56,6 +56,7 @@ Stage ChoiceStage(const char* name) {
   return {.name = name,
           .meaning = "keeps the first choices between lobes",
           .input = ShadeQueue(kKind),
+          .role = StageRole::kShade,
           .needs = {Feature::kRegressionControl, ShadeFeature(kKind)},
           .reads = kNormal | kParameters |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material,

@@ -41,6 +41,7 @@ inline Stage MakeCameraStage(const char* name, const char* meaning, Feature proj
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kCamera,
+          .role = StageRole::kCamera,
           .needs = {projection},
           .reads = {Field::pixel, Field::u_film_0, Field::u_film_1, Field::u_lens_0,
                     Field::u_lens_1},

@@ -89,6 +89,7 @@ Stage GenerateStage() {
   return {.name = "generate",
           .meaning = "starts the next samples in free slots",
           .input = QueueId::kFree,
+          .role = StageRole::kCamera,
           .writes = {Field::pixel, Field::sample, Field::output, Field::depth,
                      Field::branch, Field::budget},
           .resolve = ByFeature<Feature::kSplitting, Start<true>, Start<false>>};

@@ -37,6 +37,7 @@ Stage MotionStage() {
   return {.name = "motion",
           .meaning = "times of paths, and a camera that moves",
           .input = QueueId::kCamera,
+          .role = StageRole::kCamera,
           .needs = {Feature::kMotion},
           .reads = fields::kRay | FieldSet{Field::time},
           .writes = fields::kRay | FieldSet{Field::time},

@@ -170,6 +170,7 @@ Stage IntersectCurvesStage() {
   return {.name = "intersect_curves",
           .meaning = "closest hit on curves",
           .input = QueueId::kActive,
+          .role = StageRole::kIntersect,
           .needs = {Feature::kCurves},
           .reads = kClosestRay,
           .writes = {Field::t, Field::prim, Field::b1, Field::inst},
@@ -181,6 +182,7 @@ Stage ShadowCurvesStage() {
   return {.name = "shadow_curves",
           .meaning = "drop shadow rays blocked by curves",
           .input = QueueId::kShadow,
+          .role = StageRole::kShadow,
           .needs = {Feature::kCurves, Feature::kLights, Feature::kOpaqueShadows},
           .reads = kShadowRay,
           .resolve = Always<ShadowOfCurves>};

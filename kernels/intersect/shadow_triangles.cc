@@ -40,6 +40,7 @@ Stage ShadowTrianglesStage() {
   return {.name = "shadow_triangles",
           .meaning = "drop shadow rays blocked by triangles",
           .input = QueueId::kShadow,
+          .role = StageRole::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},
           .reads = kShadowRay | FieldSet{Field::prim, Field::time},
           .resolve = [](const FeatureSet& features) -> StageFn {

@@ -52,6 +52,7 @@ Stage IntersectTrianglesStage() {
   return {.name = "intersect_triangles",
           .meaning = "closest hit on triangles",
           .input = QueueId::kActive,
+          .role = StageRole::kIntersect,
           .needs = {Feature::kTriangles},
           .reads = kClosestRay | FieldSet{Field::prim, Field::time},
           .writes = fields::kHit,

@@ -62,6 +62,7 @@ Stage BeginCandidatesStage() {
   return {.name = "light_candidates",
           .meaning = "begins with the candidates of light samples",
           .input = QueueId::kLit,
+          .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .writes = {Field::worth_sum},
           .resolve = Always<BeginCandidates>};
@@ -71,6 +72,7 @@ Stage KeepCandidateStage() {
   return {.name = "light_keep",
           .meaning = "takes the candidate that was kept",
           .input = QueueId::kLit,
+          .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .reads = fields::kKeptSample | fields::kLightSample |
                    FieldSet{Field::worth_sum, Field::ls_light},

@@ -59,6 +59,7 @@ Stage EscapeStage() {
   return {.name = "escape",
           .meaning = "adds the environment to rays that left the scene",
           .input = QueueId::kMiss,
+          .role = StageRole::kEmission,
           .needs = {Feature::kInfiniteLights},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
                    FieldSet{Field::bsdf_pdf, Field::wavelength},

@@ -50,6 +50,7 @@ Stage HitLightTreeStage() {
   return {.name = "light_hit_tree",
           .meaning = "probability of having selected the light that was hit",
           .input = QueueId::kHit,
+          .role = StageRole::kEmission,
           .needs = {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},
           .reads = fields::kRay | FieldSet{Field::prim},
           .writes = {Field::light_pmf},

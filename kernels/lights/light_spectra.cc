@@ -24,6 +24,7 @@ Stage LightSpectraStage() {
   return {.name = "light_spectra",
           .meaning = "light samples at the wavelengths of their paths",
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = {Feature::kSpectral, Feature::kLights, Feature::kScatters},
           .reads = color | FieldSet{Field::ls_light, Field::wavelength},
           .writes = color,

@@ -18,6 +18,7 @@ inline Stage SampleLightStage(const char* name, const char* meaning, Feature sha
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = needs,
           .reads = fields::kPoint | fields::kNormal |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::u_light_0,
@@ -32,6 +33,7 @@ inline Stage EmittedThereStage(const char* name, const char* meaning, Feature ne
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = {need, Feature::kSampledHittableLights, Feature::kLights,
                     Feature::kScatters},
           .reads = fields::kPoint | fields::kLightSample | FieldSet{Field::ls_light},
@@ -45,6 +47,7 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kHit,
+          .role = StageRole::kEmission,
           .needs = {shape},
           .reads = fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
                    fields::kStartNormal |

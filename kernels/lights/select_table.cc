@@ -49,6 +49,7 @@ Stage SelectLightStage() {
   return {.name = "light_select_table",
           .meaning = "chooses a light by the table",
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = {Feature::kManyLights, Feature::kLightTable, Feature::kScatters},
           .reads = {Field::u_select},
           .writes = {Field::ls_light},

@@ -73,6 +73,7 @@ Stage SelectLightTreeStage() {
   return {.name = "light_select_tree",
           .meaning = "chooses a light by descending the tree",
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = {Feature::kManyLights, Feature::kLightTree, Feature::kScatters},
           .reads = fields::kPoint | FieldSet{Field::u_select},
           .writes = {Field::ls_light, Field::light_pmf},

@@ -69,6 +69,7 @@ Stage EnterMediaStage() {
   return {.name = "enter_media",
           .meaning = "which medium scattered rays go into",
           .input = QueueId::kScattered,
+          .role = StageRole::kMedia,
           .needs = {Feature::kMediumChanges, Feature::kScatters},
           .reads = FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::prim} |
                    fields::kNormal | ray |

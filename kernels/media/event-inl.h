@@ -84,6 +84,7 @@ inline Stage MediumEventStage(const char* name, const char* meaning, Feature kin
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kActive,
+          .role = StageRole::kMedia,
           .needs = {Feature::kMedia, kind},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance | ray |
                    FieldSet{Field::wavelength} |

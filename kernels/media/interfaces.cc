@@ -53,6 +53,7 @@ Stage InterfacesStage() {
   return {.name = "interfaces",
           .meaning = "takes out the paths that go through interfaces of media",
           .input = QueueId::kSurface,
+          .role = StageRole::kMedia,
           .needs = {Feature::kInterfaces, Feature::kScatters},
           .reads = {Field::prim, Field::depth, Field::crossings, Field::medium,
                     Field::walked},
@@ -64,6 +65,7 @@ Stage PassInterfacesStage() {
   return {.name = "pass_interfaces",
           .meaning = "sends paths on behind interfaces of media",
           .input = QueueId::kPassed,
+          .role = StageRole::kMedia,
           .needs = {Feature::kInterfaces, Feature::kScatters},
           .reads = fields::kRay | fields::kPoint | fields::kNormal | ray |
                    FieldSet{Field::prim},

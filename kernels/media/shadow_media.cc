@@ -27,6 +27,7 @@ Stage ShadowMediaStage() {
   return {.name = "media_dim",
           .meaning = "what media leave of shadow rays",
           .input = QueueId::kShadow,
+          .role = StageRole::kMedia,
           .needs = {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights,
                     Feature::kScatters},
           .reads = light | fields::kShadow | fields::kNormal | fields::kPoint |

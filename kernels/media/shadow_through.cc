@@ -115,6 +115,7 @@ Stage ShadowThroughStage() {
   return {.name = "media_shadow",
           .meaning = "traces shadow rays through interfaces of media",
           .input = QueueId::kShadow,
+          .role = StageRole::kShadow,
           .needs = {Feature::kInterfaces, Feature::kLights, Feature::kScatters},
           .reads = light |
                    FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,

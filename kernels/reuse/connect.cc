@@ -136,6 +136,7 @@ Stage ReuseShadowStage() {
   return {.name = "reuse_shadow",
           .meaning = "finds out which pairs of a block see each other",
           .input = QueueId::kShadow,
+          .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
           .resolve = Always<TracePairs>};
@@ -145,6 +146,7 @@ Stage ReuseConnectStage() {
   return {.name = "reuse_connect",
           .meaning = "shares the light of second vertices out to the block",
           .input = QueueId::kScratch,
+          .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {

@@ -126,6 +126,7 @@ Stage ReuseGlossyStage() {
   return {.name = "reuse_glossy",
           .meaning = "evaluates what glossy second vertices send to all first ones",
           .input = QueueId::kScratch,
+          .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .scope = StageScope::kBlock,
           .resolve = Always<LightGlossy>};

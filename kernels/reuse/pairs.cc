@@ -219,6 +219,7 @@ Stage ReusePairsStage() {
   return {.name = "reuse_pairs",
           .meaning = "evaluates second vertices of a block from all first ones",
           .input = QueueId::kScratch,
+          .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},
           .scope = StageScope::kBlock,
           .resolve = [](const FeatureSet& features) -> StageFn {

@@ -200,6 +200,7 @@ Stage RecordReuseStage() {
   return {.name = "reuse_record",
           .meaning = "keeps first and second vertices of paths for their block",
           .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
           .needs = {Feature::kReuse, Feature::kScatters},
           .reads = FirstVertexFields(true, true) | kRadiance | state |
                    FieldSet{Field::output, Field::bsdf_pdf, Field::prim},

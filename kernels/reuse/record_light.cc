@@ -44,6 +44,7 @@ Stage RecordReuseLightStage() {
   return {.name = "reuse_light",
           .meaning = "keeps what lights glossy second vertices",
           .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .reads = kRadiance | kLightSample |
                    FieldSet{Field::output, Field::bsdf_pdf, Field::reuse, Field::d_x,

@@ -138,6 +138,7 @@ Stage ReuseSplitStage() {
   return {.name = "reuse_split",
           .meaning = "takes what serves others out of what paths have gathered",
           .input = QueueId::kScratch,
+          .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .scope = StageScope::kTile,
           .resolve = Always<SplitGlossy>};

@@ -91,6 +91,7 @@ Stage RecordVertexStage() {
   return {.name = "record_vertex",
           .meaning = "records a vertex of a pilot path",
           .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},
           .reads = fields::kThroughput | fields::kRadiance | fields::kRay |
                    fields::kPoint | fields::kNormal | fields::kVertices |
@@ -102,6 +103,7 @@ Stage RecordDecisionStage() {
   return {.name = "record_decision",
           .meaning = "what roulette would add to the second moment of a pilot path",
           .input = QueueId::kScattered,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},
           .reads = fields::kThroughput | fields::kRadiance | fields::kRisk |
                    FieldSet{Field::depth, Field::eta_scale},
@@ -112,6 +114,7 @@ Stage RecordPathStage() {
   return {.name = "record_path",
           .meaning = "writes the record of a finished pilot path",
           .input = QueueId::kDone,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths},
           .reads = fields::kVertices | fields::kRisk | fields::kRadiance |
                    FieldSet{Field::output, Field::depth},

@@ -46,6 +46,7 @@ Stage ShadowRouletteStage() {
   return {.name = "roulette_shadow",
           .meaning = "Russian roulette on shadow rays",
           .input = QueueId::kShadow,
+          .role = StageRole::kRoulette,
           .needs = {Feature::kContributionShadowRoulette, Feature::kLights,
                     Feature::kScatters},
           .reads = fields::kShadow | FieldSet{Field::pixel, Field::u_shadow},

@@ -58,6 +58,7 @@ Stage RouletteStage(const char* name, const char* meaning, Feature kind) {
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kScattered,
+          .role = StageRole::kRoulette,
           .needs = {Feature::kRoulette, kind},
           .reads = fields::kThroughput | FieldSet{Field::eta_scale, Field::depth,
                                                   Field::u_roulette, Field::reuse},

@@ -122,6 +122,7 @@ Stage UnsplitBeforeStage() {
   return {.name = "unsplit_before",
           .meaning = "what a pilot path would be alone, before it may split",
           .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = fields::kThroughput | fields::kRadiance | fields::kUnsplit,
           .writes = FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
@@ -131,6 +132,7 @@ Stage UnsplitAfterStage() {
   return {.name = "unsplit_after",
           .meaning = "the weight of a pilot path that has been decided on",
           .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
           .writes = FieldSet{Field::copy_weight, Field::decided_at},
@@ -141,6 +143,7 @@ Stage UnsplitDecisionStage() {
           .meaning =
               "what roulette would add to the second moment of a pilot path that splits",
           .input = QueueId::kScattered,
+          .role = StageRole::kRecord,
           .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
           .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
           .writes = fields::kRisk,
@@ -151,6 +154,7 @@ Stage UnsplitPathStage() {
       .name = "unsplit_path",
       .meaning = "writes what a finished pilot path would have brought without splitting",
       .input = QueueId::kDone,
+      .role = StageRole::kRecord,
       .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
       .reads = kTransport | FieldSet{Field::output, Field::pixel},
       .resolve = Always<UnsplitPath>};

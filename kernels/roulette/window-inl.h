@@ -149,6 +149,7 @@ Stage WindowStage(const char* name, const char* meaning, Feature kind) {
   return {.name = name,
           .meaning = meaning,
           .input = QueueId::kVertex,
+          .role = StageRole::kRoulette,
           .needs = {Feature::kSplitting, Feature::kScatters, kind},
           .reads = fields::kThroughput | fields::kRay | fields::kPoint | fields::kNormal |
                    identity | FieldSet{Field::eta_scale},

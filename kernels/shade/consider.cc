@@ -85,6 +85,7 @@ Stage ConsiderStage() {
   return {.name = "light_consider",
           .meaning = "keeps the candidate, or the one before",
           .input = QueueId::kLit,
+          .role = StageRole::kLight,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .reads = numbers | kThroughput | kNormal | kTangent | kParameters |
                    kLightSample |

@@ -75,6 +75,7 @@ Stage ForceDiffuseStage() {
   return {.name = "force_diffuse",
           .meaning = "reflectances of all materials, which scatter evenly",
           .input = QueueId::kSurface,
+          .role = StageRole::kShade,
           .needs = {Feature::kForcedDiffuse, Feature::kScatters},
           .reads = kNormal | kTangent | kParameters | identity |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::uv_v,

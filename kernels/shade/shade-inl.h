@@ -260,6 +260,7 @@ Stage ShadeStage(const char* name, const char* meaning) {
   return {.name = name,
           .meaning = meaning,
           .input = ShadeQueue(kKind),
+          .role = StageRole::kShade,
           .needs = {ShadeFeature(kKind), Feature::kScatters},
           .reads = identity | direction | kThroughput | kPoint | kNormal | kTangent |
                    kParameters | points | kLightSample | across | spectra |

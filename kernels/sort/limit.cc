@@ -2,19 +2,22 @@
 // stages. As in pbrt, a path of maximum depth D sees emission after D events.
 #include "kernels/simd/each_target-inl.h"
 
-#include <utility>
+#include <algorithm>
 
 #include "kernels/queue/depth-inl.h"
 #include "kernels/simd/vec3-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-// Where paths go through interfaces of media, stage `interfaces` ends the others.
+// Where paths go through interfaces of media, all go on: stage `interfaces` ends those
+// that meet another surface.
 template <bool kInterfaces>
 void LimitDepth(Wave& wave) {
   if constexpr (kInterfaces) {
-    std::swap(wave.queue(QueueId::kHit), wave.queue(QueueId::kSurface));
-    wave.queue(QueueId::kHit).size = 0;
+    const Queue& hits = wave.queue(QueueId::kHit);
+    Queue& surfaces = wave.queue(QueueId::kSurface);
+    std::copy_n(hits.items, hits.size, surfaces.items);
+    surfaces.size = hits.size;
     return;
   }
   ForEachBatch(wave, wave.queue(QueueId::kHit),
@@ -30,6 +33,7 @@ Stage LimitStage() {
       .name = "limit",
       .meaning = "ends paths at the maximum depth",
       .input = QueueId::kHit,
+      .role = StageRole::kSort,
       .reads = {Field::depth, Field::medium, Field::walked},
       .resolve = ByFeature<Feature::kInterfaces, LimitDepth<true>, LimitDepth<false>>};
 }

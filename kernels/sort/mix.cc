@@ -62,6 +62,7 @@ Stage MixStage() {
   return {.name = "mix",
           .meaning = "chooses one material of a mix",
           .input = QueueId::kSurface,
+          .role = StageRole::kSort,
           .needs = {Feature::kMix, Feature::kScatters},
           .reads = FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
                             Field::material} |

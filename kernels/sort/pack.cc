@@ -72,6 +72,7 @@ Stage PackStage() {
   return {.name = "pack",
           .meaning = "moves the paths that go on into the first slots",
           .input = QueueId::kDone,
+          .role = StageRole::kSort,
           .reads = fields::EverCarried(),
           .writes = fields::EverCarried(),
           .resolve = Always<Pack>};

@@ -30,6 +30,7 @@ Stage RegularizeStage() {
   return {.name = "regularize",
           .meaning = "rougher materials behind a bounce that is not specular",
           .input = QueueId::kSurface,
+          .role = StageRole::kShade,
           .needs = {Feature::kRegularizes, Feature::kScatters},
           .reads = {Field::bsdf_pdf, Field::regular, Field::material},
           .writes = {Field::regular, Field::material},

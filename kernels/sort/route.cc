@@ -43,6 +43,7 @@ Stage RouteStage() {
   return {.name = "route",
           .meaning = "bins what scatters by material kind",
           .input = QueueId::kVertex,
+          .role = StageRole::kSort,
           .needs = {Feature::kScatters},
           .reads = {Field::material},
           .resolve = ByFeature<Feature::kLights, Route<true>, Route<false>>};

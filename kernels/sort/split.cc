@@ -36,6 +36,7 @@ Stage SplitStage() {
   return {.name = "split",
           .meaning = "sorts paths into hits and misses",
           .input = QueueId::kActive,
+          .role = StageRole::kSort,
           .reads = {Field::t},
           .resolve = ByFeature<Feature::kInfiniteLights, Split<true>, Split<false>>};
 }

@@ -17,6 +17,7 @@ Stage VerticesStage() {
   return {.name = "vertices",
           .meaning = "brings together all that scatters",
           .input = QueueId::kSurface,
+          .role = StageRole::kSort,
           .needs = {Feature::kOtherEvents, Feature::kScatters},
           .resolve = Always<Vertices>};
 }

@@ -117,6 +117,7 @@ Stage BumpsStage() {
   return {.name = "bumps",
           .meaning = "shading normals of displacement textures",
           .input = QueueId::kSurface,
+          .role = StageRole::kTexture,
           .needs = {Feature::kBumps, Feature::kScatters},
           .reads = kReliefReads | fields::kSpread | FieldSet{Field::prim, Field::inst},
           .writes = kReliefWrites,

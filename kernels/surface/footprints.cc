@@ -56,6 +56,7 @@ Stage FootprintsStage() {
   return {.name = "footprints",
           .meaning = "footprint of a pixel in surface coordinates",
           .input = QueueId::kSurface,
+          .role = StageRole::kTexture,
           .needs = {Feature::kTextureFootprints, Feature::kScatters},
           .reads = fields::kPoint | fields::kNormal | fields::kTangents |
                    FieldSet{Field::time},

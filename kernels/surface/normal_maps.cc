@@ -38,6 +38,7 @@ Stage NormalMapsStage() {
   return {.name = "normal_maps",
           .meaning = "shading normals of normal maps",
           .input = QueueId::kSurface,
+          .role = StageRole::kTexture,
           .needs = {Feature::kNormalMaps, Feature::kScatters},
           .reads = kReliefReads,
           .writes = kReliefWrites,

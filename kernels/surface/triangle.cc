@@ -313,6 +313,7 @@ Stage SurfaceTriangleStage() {
   return {.name = "surface_triangle",
           .meaning = "point, normals and material of hits on triangles",
           .input = QueueId::kSurface,
+          .role = StageRole::kSurface,
           .needs = {Feature::kTriangles, Feature::kScatters},
           .reads = {Field::prim, Field::b1, Field::b2, Field::inst, Field::time},
           .writes = kSurfaceFields,

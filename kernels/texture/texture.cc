@@ -240,6 +240,7 @@ Stage TextureStage() {
   return {.name = "texture",
           .meaning = "textured material parameters of surface hits",
           .input = QueueId::kSurface,
+          .role = StageRole::kTexture,
           .needs = {Feature::kTextures},
           .reads = FieldSet{Field::material} | fields::kUv | fields::kPoint |
                    fields::kNormal | fields::kSpread | fields::kTangents,

@@ -39,29 +39,33 @@ std::string Features(const FeatureSet& features) {
   return text;
 }
 
-std::string Stages(const Plan& plan) {
-  std::string text = fmt::format("stages ({}), in order:\n", plan.stages.size());
-  for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-    const Stage& s = plan.stages[i].stage;
-    const bool repeated = i >= plan.first_repeated && i < plan.last_repeated;
+std::string StagesOf(const Phase& phase) {
+  std::string text;
+  for (std::size_t i = 0; i < phase.stages.size(); ++i) {
+    const Stage& s = phase.stages[i].stage;
+    const bool repeated = i >= phase.first_repeated && i < phase.last_repeated;
     text += NamedRow(
         s.name, std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
   }
-  if (!plan.block_stages.empty()) {
-    text += fmt::format("\nstages of blocks of paths that have ended ({}), in order:\n",
-                        plan.block_stages.size());
+  return text;
+}
+
+// Phases on camera rays have stages of the paths, whose meaning has been said.
+std::string NamesOf(const Phase& phase) {
+  std::string names;
+  for (const PlannedStage& s : phase.stages) {
+    names += std::string(names.empty() ? "" : " ") + s.stage.name;
   }
-  for (const PlannedStage& s : plan.block_stages) {
-    text += NamedRow(s.stage.name, s.stage.meaning);
-  }
-  if (!plan.seen_stages.empty()) {
-    text += fmt::format("\nof them, for camera rays at edges of lights ({}):\n",
-                        plan.seen_stages.size());
-    std::string names;
-    for (const PlannedStage& s : plan.seen_stages) {
-      names += std::string(names.empty() ? "" : " ") + s.stage.name;
-    }
-    text += FactRow("", names, 1);
+  return FactRow("", names, 1);
+}
+
+std::string Stages(const Plan& plan) {
+  std::string text;
+  for (const Phase& phase : plan.phases) {
+    const bool again = phase.in_waves && phase.id != PhaseId::kPaths;
+    text += fmt::format("{}stages of {} ({}), in order:\n", text.empty() ? "" : "\n",
+                        Meaning(phase.id), phase.stages.size());
+    text += again ? NamesOf(phase) : StagesOf(phase);
   }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {

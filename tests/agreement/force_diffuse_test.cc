@@ -18,7 +18,7 @@ Plan PlanOf(const SceneDescription& description) {
 }
 
 bool HasStage(const Plan& plan, const std::string& name) {
-  return std::any_of(plan.stages.begin(), plan.stages.end(),
+  return std::any_of(plan.paths().stages.begin(), plan.paths().stages.end(),
                      [&](const PlannedStage& s) { return s.stage.name == name; });
 }
 

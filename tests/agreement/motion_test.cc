@@ -344,9 +344,10 @@ TEST_CASE("motion is there where something moves, and only there",
     return std::find(live.begin(), live.end(), Field::time) != live.end();
   };
   const auto has_stage = [](const Plan& plan) {
-    return std::any_of(plan.stages.begin(), plan.stages.end(), [](const auto& planned) {
-      return std::string_view(planned.stage.name) == "motion";
-    });
+    return std::any_of(plan.paths().stages.begin(), plan.paths().stages.end(),
+                       [](const auto& planned) {
+                         return std::string_view(planned.stage.name) == "motion";
+                       });
   };
   const SceneDescription room = SmallRoom(8, 3);
   const CompiledScene still = CompileScene(room);

@@ -46,9 +46,9 @@ Plan RegularPlanOf(const SceneDescription& description) {
 }
 
 bool HasRegularStage(const Plan& plan) {
-  return std::any_of(plan.stages.begin(), plan.stages.end(), [](const PlannedStage& s) {
-    return std::string(s.stage.name) == "regularize";
-  });
+  return std::any_of(
+      plan.paths().stages.begin(), plan.paths().stages.end(),
+      [](const PlannedStage& s) { return std::string(s.stage.name) == "regularize"; });
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
   CHECK(scene.compiled->materials.displacement_texture.empty());
   CHECK(scene.compiled->materials.normal_map_texture.empty());
   const Plan plan = MakePlan(scene, {});
-  for (const PlannedStage& s : plan.stages) {
+  for (const PlannedStage& s : plan.paths().stages) {
     const std::set<std::string> relief = {"footprints", "bumps", "normal_maps"};
     CHECK(relief.count(s.stage.name) == 0);
   }

@@ -42,7 +42,7 @@ void RayTracer::Allocate(std::size_t rays) {
 }
 
 void RayTracer::RunStages(const char* prefix) {
-  for (const PlannedStage& planned : job_.plan.stages) {
+  for (const PlannedStage& planned : job_.plan.paths().stages) {
     if (std::string_view(planned.stage.name).starts_with(prefix)) planned.kernel(wave_);
   }
 }

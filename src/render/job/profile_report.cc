@@ -7,18 +7,12 @@
 namespace lanelight {
 namespace {
 
-// kernels/intersect/ names its stages so; tests/render/job/profile_report_test.cc
-// compares.
-bool IsIntersect(std::string_view name) {
-  if (name.starts_with(kSeenStage)) name.remove_prefix(kSeenStage.size());
-  return name.starts_with("intersect_") || name.starts_with("shadow_");
-}
-
 ProfileRow MakeRow(RowKind kind, const StageProfile& counts) {
   ProfileRow row;
   row.kind = kind;
   row.counts = counts;
-  row.intersect = kind == RowKind::kStage && IsIntersect(counts.name);
+  row.intersect =
+      counts.role == StageRole::kIntersect || counts.role == StageRole::kShadow;
   return row;
 }
 

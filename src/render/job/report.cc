@@ -88,13 +88,18 @@ std::string PointsText(const Job& job) {
 Json ToJson(const Plan& plan) {
   Json stages = Json::array(), omitted = Json::array(), live = Json::array(),
        absent = Json::array(), features = Json::array();
-  for (const auto* planned : {&plan.stages, &plan.block_stages}) {
-    for (const PlannedStage& s : *planned) {
-      stages.push_back({{"name", s.stage.name}, {"meaning", s.stage.meaning}});
+  Json seen = Json::array();
+  for (const Phase& phase : plan.phases) {
+    for (const PlannedStage& s : phase.stages) {
+      if (phase.id == PhaseId::kVisibleLights) {
+        seen.push_back(s.stage.name);
+      } else if (phase.id != PhaseId::kFindEdges) {
+        stages.push_back({{"name", s.stage.name},
+                          {"role", Name(s.stage.role)},
+                          {"meaning", s.stage.meaning}});
+      }
     }
   }
-  Json seen = Json::array();
-  for (const PlannedStage& s : plan.seen_stages) seen.push_back(s.stage.name);
   for (const OmittedStage& s : plan.omitted) {
     omitted.push_back({{"name", s.stage.name}, {"reason", s.reason}});
   }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/stages.h"
 #include "src/base/core/check.h"
@@ -15,7 +16,9 @@ namespace lanelight {
 
 namespace {
 
-std::vector<Stage> RegisteredStages(SimdTarget target) {
+using Stages = std::vector<Stage>;
+
+Stages RegisteredStages(SimdTarget target) {
   return {
 #define X(name) name##Stage(target),
       LANELIGHT_STAGES(X)
@@ -39,7 +42,7 @@ void CheckReadsAreWritten(const std::vector<PlannedStage>& stages,
       const Field field = static_cast<Field>(i);
       if (!IsLive(field, features)) continue;
       if (!planned.stage.reads.Has(field) || written.Has(field)) continue;
-      // A stage may update what it also writes only if somebody initialised it.
+      // A stage may update what it also writes only if an earlier stage initialised it.
       FailCheck(__FILE__, __LINE__, "every column read has been written",
                 std::string(planned.stage.name) + " reads " + FieldName(field));
     }
@@ -47,35 +50,76 @@ void CheckReadsAreWritten(const std::vector<PlannedStage>& stages,
   }
 }
 
-// What lies between the first and the last stage of light candidates (light_candidates,
-// light_keep: kernels/lights/candidates.cc) is run for each of them.
-void FindRepeated(Plan& plan) {
-  if (!plan.features.Has(Feature::kLightCandidates)) return;
+// The stages between the first and the last that resample light candidates
+// (kernels/lights/candidates.cc) run once for each candidate, with the last.
+void FindRepeated(Phase& phase) {
   const auto resamples = [](const PlannedStage& planned) {
-    return planned.stage.needs.Has(Feature::kLightCandidates);
+    return planned.stage.role == StageRole::kResample;
   };
-  const auto& stages = plan.stages;
+  const auto& stages = phase.stages;
   const auto first = std::find_if(stages.begin(), stages.end(), resamples);
+  if (first == stages.end()) return;
   const auto last = std::find_if(stages.rbegin(), stages.rend(), resamples);
-  LL_CHECK(first != stages.end());
-  plan.first_repeated = static_cast<std::size_t>(first - stages.begin()) + 1;
-  plan.last_repeated = static_cast<std::size_t>(stages.rend() - last) - 1;
-  LL_CHECK_LT(plan.first_repeated, plan.last_repeated);
+  phase.first_repeated = static_cast<std::size_t>(first - stages.begin()) + 1;
+  phase.last_repeated = static_cast<std::size_t>(stages.rend() - last) - 1;
+  LL_CHECK_LT(phase.first_repeated, phase.last_repeated);
 }
 
 // Whether two vertices see each other has nothing to do with lights.
-void FindShadowKernels(Plan& plan) {
+void FindShadowKernels(const Stages& registered, Plan& plan) {
   if (!plan.features.Has(Feature::kReuse)) return;
   RayKernels& found = plan.ray_kernels;
   FeatureSet shadows = plan.features;
   shadows.Add({Feature::kLights, Feature::kOpaqueShadows});
-  for (const Stage& stage : RegisteredStages(plan.options.target)) {
-    if (!stage.needs.Has(Feature::kOpaqueShadows) || !shadows.HasAll(stage.needs)) {
-      continue;
-    }
+  for (const Stage& stage : registered) {
+    if (stage.role != StageRole::kShadow || !shadows.HasAll(stage.needs)) continue;
     LL_CHECK_LT(found.num_shadow, RayKernels::kMost);
     found.shadow[found.num_shadow++] = stage.resolve(shadows);
   }
+}
+
+PhaseId PhaseOf(StageScope scope) {
+  switch (scope) {
+    case StageScope::kTile:
+      return PhaseId::kTile;
+    case StageScope::kBlock:
+      return PhaseId::kBlock;
+    default:
+      return PhaseId::kPaths;
+  }
+}
+
+// Adds a phase of those stages of the registry that its features need, unless there are
+// none; that of paths always.
+void AddPhase(PhaseId id, const FeatureSet& features, const Stages& registered,
+              Plan& plan) {
+  Phase phase;
+  phase.id = id;
+  phase.in_waves = id != PhaseId::kTile && id != PhaseId::kBlock;
+  phase.features = features;
+  const PhaseId stages = phase.in_waves ? PhaseId::kPaths : id;
+  for (const Stage& stage : registered) {
+    if (PhaseOf(stage.scope) != stages || !features.HasAll(stage.needs)) continue;
+    phase.stages.push_back({stage, stage.resolve(features)});
+  }
+  if (phase.stages.empty() && id != PhaseId::kPaths) return;
+  phase.first_row = plan.phases.empty() ? 0 : plan.rows();
+  if (phase.in_waves) CheckReadsAreWritten(phase.stages, features);
+  FindRepeated(phase);
+  plan.phases.push_back(std::move(phase));
+}
+
+void AddPhases(const PreparedScene& scene, const Stages& registered, Plan& plan) {
+  for (const PhaseId id : {PhaseId::kPaths, PhaseId::kTile, PhaseId::kBlock}) {
+    AddPhase(id, plan.features, registered, plan);
+  }
+  if (!SeesLightsApart(scene)) return;
+  FeatureSet features = SeenLightFeatures(scene, plan.options);
+  AddPhase(PhaseId::kVisibleLights, features, registered, plan);
+  // A path with other wavelengths sees no other lights.
+  if (!features.Has(Feature::kSpectral)) return;
+  features.Remove(Feature::kSpectral);
+  AddPhase(PhaseId::kFindEdges, features, registered, plan);
 }
 
 // Shadow rays through interfaces use the kernels of the path's rays. Of a surface they
@@ -86,15 +130,13 @@ RayKernels FindRayKernels(const Plan& plan) {
   FeatureSet bare = plan.features;
   bare.Remove({Feature::kTangents, Feature::kUv, Feature::kBumps, Feature::kNormalMaps,
                Feature::kTextureFootprints});
-  for (const PlannedStage& planned : plan.stages) {
-    const Stage& stage = planned.stage;
-    const bool point = stage.writes.Has(Field::p_error);
-    if (stage.input == QueueId::kActive && stage.writes.Has(Field::prim) && !point) {
+  for (const PlannedStage& planned : plan.paths().stages) {
+    if (planned.stage.role == StageRole::kIntersect) {
       LL_CHECK_LT(found.num_closest, RayKernels::kMost);
       found.closest[found.num_closest++] = planned.kernel;
-    } else if (stage.input == QueueId::kSurface && point) {
+    } else if (planned.stage.role == StageRole::kSurface) {
       LL_CHECK_LT(found.num_surface, RayKernels::kMost);
-      found.surface[found.num_surface++] = stage.resolve(bare);
+      found.surface[found.num_surface++] = planned.stage.resolve(bare);
     }
   }
   return found;
@@ -111,6 +153,12 @@ std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
 
 }  // namespace
 
+const Phase* Plan::Find(PhaseId id) const {
+  const auto found = std::find_if(phases.begin(), phases.end(),
+                                  [id](const Phase& phase) { return phase.id == id; });
+  return found == phases.end() ? nullptr : &*found;
+}
+
 Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
   if (options.auxiliary != Auxiliary::kNone && options.max_depth == 0) {
     throw InputError(
@@ -122,30 +170,19 @@ Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
   plan.options = options;
   plan.features = PlanFeatures(scene, options);
   plan.notes = CheckStrategy(scene, options);
-  const bool seen = SeesLightsApart(scene);
-  if (seen) plan.seen_features = SeenLightFeatures(scene, options);
-  for (const Stage& stage : RegisteredStages(options.target)) {
-    if (plan.features.HasAll(stage.needs)) {
-      auto& stages = stage.scope == StageScope::kWave ? plan.stages : plan.block_stages;
-      stages.push_back({stage, stage.resolve(plan.features)});
-    } else {
-      plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});
-    }
-    if (seen && stage.scope == StageScope::kWave &&
-        plan.seen_features.HasAll(stage.needs)) {
-      plan.seen_stages.push_back({stage, stage.resolve(plan.seen_features)});
-    }
+  const Stages registered = RegisteredStages(options.target);
+  AddPhases(scene, registered, plan);
+  for (const Stage& stage : registered) {
+    if (plan.features.HasAll(stage.needs)) continue;
+    plan.omitted.push_back({stage, ReasonToOmit(stage, plan.features)});
   }
   for (std::size_t i = 0; i < kNumFields; ++i) {
     const Field field = static_cast<Field>(i);
     const bool live = IsLive(field, plan.features);
     (live ? plan.live_fields : plan.absent_fields).push_back(field);
   }
-  CheckReadsAreWritten(plan.stages, plan.features);
-  CheckReadsAreWritten(plan.seen_stages, plan.seen_features);
-  FindRepeated(plan);
   plan.ray_kernels = FindRayKernels(plan);
-  FindShadowKernels(plan);
+  FindShadowKernels(registered, plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
   // New samples start only while the live paths fit (kernels/generate/generate.cc), and
   // slots are taken from the top of a stack, so most of the room for copies is seldom

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
+#include "src/render/plan/phase.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/sample_planes.h"
 #include "src/vocabulary/path/stage.h"
@@ -31,27 +32,15 @@ struct PlanOptions {
   std::optional<Strategy> strategy;
 };
 
-struct PlannedStage {
-  Stage stage;
-  StageFn kernel = nullptr;
-};
 struct OmittedStage {
   Stage stage;
   std::string reason;  // "no spheres", ...
 };
 
 struct Plan {
-  FeatureSet features;               // of scene and options together
-  std::vector<PlannedStage> stages;  // in execution order
-  /// Of blocks of paths that have ended (reuse=block), likewise.
-  std::vector<PlannedStage> block_stages;
-  /// Of camera rays that are followed to the light they see (seen-lights=apart): those of
-  /// `stages` that these need, for `seen_features` alone, on the same columns.
-  std::vector<PlannedStage> seen_stages;
-  FeatureSet seen_features;
-  /// Of them, [first, last) make and consider one candidate of a light sample: run once
-  /// for each (RunParameters::candidates). None where light samples are not resampled.
-  std::size_t first_repeated = 0, last_repeated = 0;
+  FeatureSet features;  // of scene and options together
+  /// In the order of PhaseId; the first is that of paths. All work on the same columns.
+  std::vector<Phase> phases;
   /// For stages that send rays of their own; none without kInterfaces or kReuse.
   RayKernels ray_kernels;
   std::vector<OmittedStage> omitted;
@@ -62,9 +51,13 @@ struct Plan {
   std::vector<std::string> notes;  // choices of the strategy that do nothing here
   PlanOptions options;
 
-  /// Rows of a profile before those of seen_stages, and all of them.
-  std::size_t FirstSeenRow() const { return stages.size() + block_stages.size(); }
-  std::size_t rows() const { return FirstSeenRow() + seen_stages.size(); }
+  const Phase& paths() const { return phases.front(); }
+  /// Returns null if the plan does not have the phase.
+  const Phase* Find(PhaseId id) const;
+  /// Rows of a profile: the stages of all phases.
+  std::size_t rows() const {
+    return phases.back().first_row + phases.back().stages.size();
+  }
 };
 
 /// The plan of the scene's strategy. Throws InputError for a strategy that cannot work on

@@ -60,7 +60,7 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
 
 std::string PlanKey(const PreparedScene& scene, const Plan& plan) {
   std::string key = FeaturesText(plan.features);
-  for (const PlannedStage& planned : plan.stages) {
+  for (const PlannedStage& planned : plan.paths().stages) {
     key += fmt::format(" {} {}", planned.stage.name,
                        reinterpret_cast<std::uintptr_t>(planned.kernel));
   }

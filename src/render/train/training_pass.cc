@@ -11,7 +11,7 @@
 #include "src/render/train/rank_passes.h"
 #include "src/render/wave/block_reuse.h"
 #include "src/render/wave/copies.h"
-#include "src/render/wave/task_runner.h"
+#include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/description/rendered_pixels.h"
@@ -109,9 +109,8 @@ class Pass {
       reuse.emplace(plan_, strategy_);
       reuse->Begin(work, wavefront->wave());
     }
-    if (!Drive(wavefront->wave(), plan_, {work, {values.data(), rows}}, nullptr,
-               watcher_))
-      return;
+    wavefront->wave().Begin(work, {values.data(), rows});
+    if (!RunPhase(wavefront->wave(), plan_.paths(), nullptr, watcher_)) return;
     if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
     if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "src/base/core/check.h"
+#include "src/render/wave/phase_driver.h"
 #include "src/vocabulary/path/sent.h"
 
 namespace lanelight {
@@ -191,16 +192,6 @@ float BlockReuse::SurelyKept(std::uint32_t sample) {
   }
 }
 
-void BlockReuse::RunStages(StageScope scope, StageClock* clock) {
-  for (std::size_t i = 0; i < plan_.block_stages.size(); ++i) {
-    if (plan_.block_stages[i].stage.scope != scope) continue;
-    wave_.lanes = {};
-    plan_.block_stages[i].kernel(wave_);
-    if (clock == nullptr) continue;
-    clock->Finish(plan_.stages.size() + i, wave_.lanes.items, wave_.lanes.vectors);
-  }
-}
-
 void BlockReuse::ConnectSample(const BlockKey& key, std::uint32_t sample,
                                StageClock* clock) {
   LayOutBlocks(key, layout_, paths_, order_);
@@ -214,8 +205,11 @@ void BlockReuse::ConnectSample(const BlockKey& key, std::uint32_t sample,
   block_.sample = sample;
   block_.records = members_.data();
   block_.size = wave_.work.num_pixels;
-  RunStages(StageScope::kTile, clock);
+  // Only glossy second vertices are prepared for the whole tile.
+  const Phase* const tile = plan_.Find(PhaseId::kTile);
+  if (tile != nullptr) RunPhase(wave_, *tile, clock);
   block_.surely_kept = SurelyKept(sample);
+  const Phase& blocks = *plan_.Find(PhaseId::kBlock);
   std::uint32_t begin = 0;
   std::size_t b = 0;
   for (const std::uint32_t end : order_.ends) {
@@ -223,7 +217,7 @@ void BlockReuse::ConnectSample(const BlockKey& key, std::uint32_t sample,
     block_.size = end - begin;
     block_.u = order_.numbers[b++];
     begin = end;
-    RunStages(StageScope::kBlock, clock);
+    RunPhase(wave_, blocks, clock);
   }
 }
 

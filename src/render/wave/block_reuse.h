@@ -31,7 +31,6 @@ class BlockReuse {
   void MakeRoom(std::uint32_t samples, const PathColumns& paths);
   void PlacePairs();
   float SurelyKept(std::uint32_t sample);
-  void RunStages(StageScope scope, StageClock* clock);
   void ConnectSample(const BlockKey& key, std::uint32_t sample, StageClock* clock);
 
   const Plan& plan_;

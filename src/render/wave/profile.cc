@@ -25,20 +25,18 @@ const char* Name(TaskPart part) {
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   std::vector<StageProfile> profiles;
-  const auto add = [&](const std::vector<PlannedStage>& stages, std::string_view before) {
-    for (const PlannedStage& planned : stages) {
+  for (const Phase& phase : plan.phases) {
+    for (const PlannedStage& planned : phase.stages) {
       StageProfile& profile = profiles.emplace_back();
-      profile.name = std::string(before) + planned.stage.name;
+      profile.name = std::string(Prefix(phase.id)) + planned.stage.name;
+      profile.role = planned.stage.role;
       for (Field f : plan.live_fields) {
         profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
         profile.bytes_written += 4.0 * planned.stage.writes.Has(f);
       }
       profile.bytes_per_item = profile.bytes_read + profile.bytes_written;
     }
-  };
-  add(plan.stages, "");
-  add(plan.block_stages, "");
-  add(plan.seen_stages, kSeenStage);
+  }
   return profiles;
 }
 

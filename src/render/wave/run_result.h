@@ -4,22 +4,20 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "src/base/core/hardware_counters.h"
 #include "src/base/core/untouched.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/wave/run_state.h"
+#include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
 
-/// Before the names of stages that follow rays at edges of lights (Plan::seen_stages).
-inline constexpr std::string_view kSeenStage = "seen: ";
-
 struct StageProfile {
   std::string name;
+  std::optional<StageRole> role;  // of a stage; none: a part of a task
   std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
   double seconds = 0;                                  // processor time of all threads
   double bytes_per_item = 0;                           // columns read + written

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/render/wave/phase_driver.h"
 #include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
@@ -106,6 +107,18 @@ class SeenRanges {
 
 }  // namespace
 
+SeenLightRays::SeenLightRays(const PreparedScene& scene, const Plan& plan,
+                             const RunParameters& run, const Wavefront& wavefront)
+    : scene_(scene),
+      plan_(plan),
+      image_run_(run),
+      visible_(*plan.Find(PhaseId::kVisibleLights)),
+      edges_(plan.Find(PhaseId::kFindEdges) ? *plan.Find(PhaseId::kFindEdges) : visible_),
+      visible_wave_(wavefront.Narrowed(visible_.features)),
+      edges_wave_(wavefront.Narrowed(edges_.features)) {
+  visible_wave_.run = edges_wave_.run = &run_;
+}
+
 void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float>& out) {
   TileWork work;
   work.pixels = rays.pixels;
@@ -119,14 +132,13 @@ void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float
   run_.seed = rays.seed;
   run_.max_depth = 0;
   run_.candidates = 1;
-  run_.features = plan_.seen_features;
-  run_.planes = SamplePlanes(plan_.seen_features);
-  float* const wavelength = wave_.path.wavelength;
-  if (rays.in_rgb) wave_.path.wavelength = nullptr;
-  Drive(wave_, plan_,
-        {work, {out.data(), static_cast<std::uint32_t>(rows)}, /*seen_lights=*/true},
-        clock);
-  wave_.path.wavelength = wavelength;
+  const Phase& phase = rays.finds_edges ? edges_ : visible_;
+  Wave& wave = rays.finds_edges ? edges_wave_ : visible_wave_;
+  run_.features = phase.features;
+  run_.planes = SamplePlanes(phase.features);
+  wave.Begin(work, {out.data(), static_cast<std::uint32_t>(rows)});
+  if (clock) clock->FinishPart(TaskPart::kSetUp, rows);
+  RunPhase(wave, phase, clock);
 }
 
 SeenLightEdges::SeenLightEdges(const PreparedScene& scene, std::size_t tiles)

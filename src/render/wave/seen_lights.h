@@ -8,7 +8,8 @@
 // seed of their own, so nothing is biased). What a path
 // brings there is corrected when its task is done: less the emission that its own camera
 // ray sees (traced again: the same numbers), plus the mean of what kSeenLightRays others
-// see. These rays go through Plan::seen_stages, in the wavefront of the task's thread.
+// see. These rays go through PhaseId::kVisibleLights, in the wavefront of the task's
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -43,19 +44,12 @@ class SeenLightRays {
     std::uint32_t seed = 0;
     std::uint64_t first = 0;
     std::uint32_t count = 0;
-    /// Whatever paths carry: one that has other wavelengths sees no other light.
-    bool in_rgb = false;
+    bool finds_edges = false;  // by PhaseId::kFindEdges, if the plan has it
   };
 
-  /// Of a plan with seen_stages. Refers to all of these.
+  /// `plan` has PhaseId::kVisibleLights. Refers to all of these.
   SeenLightRays(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
-                const Wavefront& wavefront)
-      : scene_(scene),
-        plan_(plan),
-        image_run_(run),
-        wave_(wavefront.Narrowed(plan.seen_features)) {
-    wave_.run = &run_;
-  }
+                const Wavefront& wavefront);
 
   /// Overwrites `out`: plane by plane, of each the samples of one pixel after the other.
   void Trace(const Work& work, StageClock* clock, std::vector<float>& out);
@@ -70,8 +64,9 @@ class SeenLightRays {
   const PreparedScene& scene_;
   const Plan& plan_;
   const RunParameters& image_run_;
+  const Phase &visible_, &edges_;  // may be the same
   RunParameters run_;
-  Wave wave_;
+  Wave visible_wave_, edges_wave_;  // on the same columns
 };
 
 class SeenLightEdges {

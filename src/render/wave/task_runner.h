@@ -22,20 +22,6 @@ namespace lanelight {
 /// samples come in pairs.
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan);
 
-/// Samples to take, and where finished ones go.
-struct DriveTask {
-  TileWork work;
-  SampleBuffer buffer;
-  bool seen_lights = false;  // by Plan::seen_stages alone
-};
-
-/// The loop of one task: runs it to the end on `wave`, whose columns are those of the
-/// plan, or of its seen_features. `clock` times the stages; null: nothing is timed.
-/// Returns false if the watcher has cancelled it; then the buffer is of no use. Null:
-/// nobody does.
-bool Drive(Wave& wave, const Plan& plan, const DriveTask& task, StageClock* clock,
-           const TaskWatcher* watcher = nullptr);
-
 class TaskRunner {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until

@@ -33,7 +33,8 @@ struct Workspace {
     if (plan.features.Has(Feature::kReuse)) {
       reuse.emplace(plan, PlannedStrategy(scene, plan.options));
     }
-    if (!plan.seen_stages.empty()) seen_lights.emplace(scene, plan, run, wavefront);
+    if (plan.Find(PhaseId::kVisibleLights))
+      seen_lights.emplace(scene, plan, run, wavefront);
   }
   /// Null if nothing is timed.
   StageClock* Clock() { return clock ? &*clock : nullptr; }

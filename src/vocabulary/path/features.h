@@ -2,6 +2,7 @@
 // variants name the bits they need; the plan drops the rest.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
@@ -146,35 +147,43 @@ class FeatureSet {
   }
   static constexpr FeatureSet All() {
     FeatureSet all;
-    all.low_ = all.high_ = ~std::uint64_t{0};
+    for (std::uint64_t& word : all.words_) word = ~std::uint64_t{0};
     return all;
   }
-  constexpr void Add(Feature f) { Word(f) |= Bit(f); }
-  constexpr void Add(const FeatureSet& o) { low_ |= o.low_, high_ |= o.high_; }
-  constexpr void Remove(Feature f) { Word(f) &= ~Bit(f); }
-  constexpr void Remove(const FeatureSet& o) { low_ &= ~o.low_, high_ &= ~o.high_; }
-  constexpr bool Has(Feature f) const {
-    return ((static_cast<int>(f) < 64 ? low_ : high_) & Bit(f)) != 0;
+  constexpr void Add(Feature f) { words_[Word(f)] |= Bit(f); }
+  constexpr void Add(const FeatureSet& o) {
+    for (std::size_t i = 0; i < kWords; ++i) words_[i] |= o.words_[i];
   }
-  constexpr bool HasAll(FeatureSet o) const {
-    return (o.low_ & ~low_) == 0 && (o.high_ & ~high_) == 0;
+  constexpr void Remove(Feature f) { words_[Word(f)] &= ~Bit(f); }
+  constexpr void Remove(const FeatureSet& o) {
+    for (std::size_t i = 0; i < kWords; ++i) words_[i] &= ~o.words_[i];
   }
-  constexpr bool HasAny(FeatureSet o) const {
-    return (o.low_ & low_) != 0 || (o.high_ & high_) != 0;
+  constexpr bool Has(Feature f) const { return (words_[Word(f)] & Bit(f)) != 0; }
+  constexpr bool HasAll(const FeatureSet& o) const {
+    std::uint64_t missing = 0;
+    for (std::size_t i = 0; i < kWords; ++i) missing |= o.words_[i] & ~words_[i];
+    return missing == 0;
   }
-  constexpr bool empty() const { return low_ == 0 && high_ == 0; }
+  constexpr bool HasAny(const FeatureSet& o) const {
+    std::uint64_t common = 0;
+    for (std::size_t i = 0; i < kWords; ++i) common |= o.words_[i] & words_[i];
+    return common != 0;
+  }
+  constexpr bool empty() const { return !HasAny(All()); }
   friend constexpr bool operator==(const FeatureSet&, const FeatureSet&) = default;
 
  private:
+  static constexpr std::size_t kWords =
+      (static_cast<std::size_t>(Feature::kCount) + 63) / 64;
+  static constexpr std::size_t Word(Feature f) {
+    return static_cast<std::size_t>(f) / 64;
+  }
   static constexpr std::uint64_t Bit(Feature f) {
     return std::uint64_t{1} << (static_cast<int>(f) % 64);
   }
-  constexpr std::uint64_t& Word(Feature f) {
-    return static_cast<int>(f) < 64 ? low_ : high_;
-  }
-  std::uint64_t low_ = 0, high_ = 0;
+  std::uint64_t words_[kWords] = {};
 };
-static_assert(static_cast<int>(Feature::kCount) <= 128);
+static_assert(static_cast<int>(Feature::kCount) < 256);  // Feature's own type
 
 /// The feature that says that a scene has a kind of material.
 constexpr Feature ShadeFeature(ShadeKind kind) {

@@ -16,10 +16,38 @@ enum class StageScope : std::uint8_t {
   kBlock  // of these one block
 };
 
+/// What a stage does for paths. X(name, meaning)
+#define LANELIGHT_STAGE_ROLES(X)                            \
+  X(Camera, "starts paths and their camera rays")           \
+  X(Sampling, "sample points")                              \
+  X(Intersect, "closest hits")                              \
+  X(Media, "events in media, and their interfaces")         \
+  X(Sort, "sorts paths into queues")                        \
+  X(Emission, "light that rays hit")                        \
+  X(Surface, "point and normals of hits")                   \
+  X(Texture, "textures and spectra of materials")           \
+  X(Light, "samples of lights")                             \
+  X(Resample, "candidates of light samples")                \
+  X(Shade, "scattering")                                    \
+  X(Shadow, "drops shadow rays that are blocked, and dims") \
+  X(Roulette, "Russian roulette and splitting")             \
+  X(Record, "records for training and path reuse")          \
+  X(Accumulate, "adds light to samples, and ends them")     \
+  X(Block, "path reuse of pixel blocks")
+
+enum class StageRole : std::uint8_t {
+#define X(name, meaning) k##name,
+  LANELIGHT_STAGE_ROLES(X)
+#undef X
+};
+/// "camera", ...
+const char* Name(StageRole role);
+
 struct Stage {
-  const char* name;       // also the profile row
-  const char* meaning;    // one line
-  QueueId input;          // skipped when empty
+  const char* name;     // also the profile row
+  const char* meaning;  // one line
+  QueueId input;        // skipped when empty
+  StageRole role;
   FeatureSet needs = {};  // all of these, or the stage is absent
   FieldSet reads = {}, writes = {};
   StageScope scope = StageScope::kWave;

@@ -1,5 +1,7 @@
 #include "src/vocabulary/path/wave.h"
 
+#include <utility>
+
 namespace lanelight {
 
 ColumnLists::ColumnLists(const PathColumns& path, const FeatureSet& features) {
@@ -30,6 +32,20 @@ void Wave::Reset() {
   // The generate stage takes slots from the end: slot 0 first.
   for (std::uint32_t i = 0; i < capacity; ++i) free.items[i] = capacity - 1 - i;
   free.size = capacity;
+}
+
+void Wave::Begin(const TileWork& new_work, const SampleBuffer& new_buffer) {
+  Reset();
+  work = new_work;
+  buffer = new_buffer;
+}
+
+void Wave::BeginWave() {
+  std::swap(queue(QueueId::kActive), queue(QueueId::kScattered));
+  for (int i = 0; i < kNumQueues; ++i) {
+    const QueueId id = static_cast<QueueId>(i);
+    if (id != QueueId::kFree && id != QueueId::kActive) queues[i].size = 0;
+  }
 }
 
 }  // namespace lanelight

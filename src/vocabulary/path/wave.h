@@ -16,7 +16,7 @@ struct LightChances;  // src/scene/compiled/lights.h
 struct Block;         // src/vocabulary/path/block.h
 
 // Queues hold path slots. Stages append and read; the driver
-// (src/render/wave/task_runner.cc) clears all but kFree, and kActive, which it takes from
+// (src/render/wave/phase_driver.h) clears all but kFree, and kActive, which it takes from
 // kScattered, before a wave. X(name, meaning)
 #define LANELIGHT_QUEUES(X)                                   \
   X(kFree, "slots without a path")                            \
@@ -150,6 +150,13 @@ struct Wave : SceneParts {
 
   /// Empties every queue and frees every slot.
   void Reset();
+  /// Resets the queues, and takes work and the buffer for its samples.
+  void Begin(const TileWork& new_work, const SampleBuffer& new_buffer);
+  /// Whether samples are left to start, or paths to continue.
+  bool HasWork() { return !work.Done() || queue(QueueId::kScattered).size > 0; }
+  /// Makes the scattered rays those to intersect next, and empties all other queues but
+  /// that of free slots.
+  void BeginWave();
 };
 
 }  // namespace lanelight

@@ -147,7 +147,7 @@ TEST_CASE("paths know the triangle that they start on, wherever they are moved",
         "LightSource \"point\" \"point3 from\" [ 0 1 0 ] \"rgb I\" [ 9 9 9 ]\n";
     TaskFixture task(MeshScene() + light, strategy, Auxiliary::kNone);
     num_closest = num_shadow = num_wrong = 0;
-    for (PlannedStage& planned : task.plan.stages) {
+    for (PlannedStage& planned : task.plan.phases[0].stages) {
       const std::string name = planned.stage.name;
       if (name == "intersect_triangles") {
         closest = planned.kernel;

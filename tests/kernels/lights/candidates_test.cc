@@ -255,7 +255,8 @@ TEST_CASE("resampling that can do nothing says so", "[light]") {
     ApplyStrategy("light-candidates=resampled", {}, copy.strategy);
     const PreparedScene scene = PrepareScene(copy);
     const Plan plan = MakePlan(scene, {});
-    CHECK(plan.notes.empty() == (plan.first_repeated < plan.last_repeated));
+    CHECK(plan.notes.empty() ==
+          (plan.paths().first_repeated < plan.paths().last_repeated));
     return plan.notes;
   };
   SceneBuilder point = PointReceiver(Lambert(Grey(0.5)));

@@ -56,7 +56,8 @@ double FloorBy(const SceneDescription& scene, const char* strategy) {
 }
 
 bool HasStage(const SceneDescription& scene, const std::string& name) {
-  const std::vector<PlannedStage> stages = MakePlan(PrepareScene(scene), {}).stages;
+  const std::vector<PlannedStage> stages =
+      MakePlan(PrepareScene(scene), {}).paths().stages;
   return std::any_of(stages.begin(), stages.end(), [&](const PlannedStage& planned) {
     return planned.stage.name == name;
   });

@@ -189,7 +189,8 @@ TEST_CASE("scenes without images of lights have nothing of them", "[lights]") {
   CHECK(scene.compiled->lights.texels.empty());
   CHECK(scene.compiled->lights.portals.empty());
   CHECK(scene.compiled->geometry.uvs.empty());
-  for (const PlannedStage& planned : MakePlan(scene, {}).stages) {
+  const Plan plan = MakePlan(scene, {});
+  for (const PlannedStage& planned : plan.paths().stages) {
     const std::string name = planned.stage.name;
     CHECK(name != "light_image");
     CHECK(name != "light_emission_image");

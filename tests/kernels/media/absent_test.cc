@@ -12,7 +12,7 @@ namespace {
 Plan PlanOf(const SceneDescription& scene) { return MakePlan(PrepareScene(scene), {}); }
 
 bool Runs(const Plan& plan, const std::string& stage) {
-  return std::any_of(plan.stages.begin(), plan.stages.end(),
+  return std::any_of(plan.paths().stages.begin(), plan.paths().stages.end(),
                      [&](const PlannedStage& s) { return stage == s.stage.name; });
 }
 

@@ -91,15 +91,17 @@ TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
 TEST_CASE("without reuse=block nothing of it is there", "[reuse]") {
   TestRender options;
   const Plan none = RenderDescription(Room().description, options).plan;
-  CHECK(none.block_stages.empty());
+  CHECK(none.Find(PhaseId::kTile) == nullptr);
+  CHECK(none.Find(PhaseId::kBlock) == nullptr);
   CHECK_FALSE(none.features.Has(Feature::kReuse));
-  for (const PlannedStage& planned : none.stages) {
+  for (const PlannedStage& planned : none.paths().stages) {
     CHECK(std::string(planned.stage.name).find("reuse") == std::string::npos);
   }
   for (const Field field : none.live_fields) CHECK(field != Field::reuse);
   options.strategy = "reuse=block";
   const Plan block = RenderDescription(Room().description, options).plan;
-  CHECK(block.block_stages.size() == 3);
+  CHECK(block.Find(PhaseId::kTile) == nullptr);
+  CHECK(block.Find(PhaseId::kBlock)->stages.size() == 3);
   CHECK(block.bytes_per_path <= none.bytes_per_path + 12);
 }
 

@@ -93,7 +93,12 @@ TEST_CASE("columns of glossy second vertices are there where those are", "[reuse
   const auto stages = [&](const Material& side) {
     const Plan plan = RenderDescription(WithSides(side, 4).description, options).plan;
     CHECK(plan.features.Has(Feature::kReuse));
-    return plan.block_stages.size();
+    std::size_t count = 0;
+    for (const PhaseId id : {PhaseId::kTile, PhaseId::kBlock}) {
+      const Phase* const phase = plan.Find(id);
+      if (phase != nullptr) count += phase->stages.size();
+    }
+    return count;
   };
   Material diffuse;
   CHECK(stages(diffuse) == 3);

@@ -36,7 +36,7 @@ TEST_CASE("a job has the kernels of the target of its settings", "[job]") {
     const Job job = JobOn(0, name);
     CHECK(job.plan.options.target.name() == name);
     CHECK(SettingsInForce(job).target == name);
-    for (const PlannedStage& planned : job.plan.stages) {
+    for (const PlannedStage& planned : job.plan.paths().stages) {
       CHECK(planned.kernel == planned.stage.resolve(job.plan.features));
     }
   }

@@ -23,11 +23,13 @@ Peaks SomePeaks() {
   return peaks;
 }
 
-StageProfile Stage(const std::string& name, double seconds, std::uint64_t items) {
+StageProfile Stage(const std::string& name, double seconds, std::uint64_t items,
+                   StageRole role = StageRole::kAccumulate) {
   StageProfile s;
   s.name = name;
   s.seconds = seconds;
   s.items = items;
+  s.role = role;
   s.calls = 10;
   s.lane_slots = 2 * items;
   s.bytes_read = 24, s.bytes_written = 8, s.bytes_per_item = 32;
@@ -37,8 +39,9 @@ StageProfile Stage(const std::string& name, double seconds, std::uint64_t items)
 RunResult SomeResult() {
   RunResult r;
   r.stages = {Stage("camera", 0.1, 1000000),
-              Stage("seen: intersect_triangles", 0.4, 4000000),
-              Stage("shadow_spheres", 0.2, 2000000), Stage("connect", 0.2, 2000000)};
+              Stage("seen: intersect_triangles", 0.4, 4000000, StageRole::kIntersect),
+              Stage("shadow_spheres", 0.2, 2000000, StageRole::kShadow),
+              Stage("connect", 0.2, 2000000)};
   r.parts = EmptyParts();
   r.parts[static_cast<std::size_t>(TaskPart::kFilm)].seconds = 0.05;
   r.parts[static_cast<std::size_t>(TaskPart::kFilm)].calls = 4;

@@ -221,7 +221,7 @@ TEST_CASE("spectral film: nothing of it is there without", "[render][plan][bucke
   CHECK(SamplePlanes(with.plan.features).count() == 7);
   CHECK(SamplePlanes(without.plan.features).count() == 3);
   CHECK(with.plan.bytes_per_path == without.plan.bytes_per_path);
-  CHECK(with.plan.stages.size() == without.plan.stages.size());
+  CHECK(with.plan.paths().stages.size() == without.plan.paths().stages.size());
   CHECK(MakeFilm(without).buckets() == nullptr);
   CHECK_FALSE(IdentityOf(without).contains("buckets"));
   // Colours are the same bits.

@@ -73,13 +73,15 @@ class Checker {
   // Returns "stage writes column" and "stage depends on column or order" findings.
   std::set<std::string> Run() {
     Wave& wave = wavefront_->wave();
-    wave.work.pixels = pixels_.data();
-    wave.work.num_pixels = static_cast<std::uint32_t>(pixels_.size());
-    wave.work.samples = kSamples;
-    wave.buffer = {samples_.data(), Rows()};
+    TileWork work;
+    work.pixels = pixels_.data();
+    work.num_pixels = static_cast<std::uint32_t>(pixels_.size());
+    work.samples = kSamples;
+    wave.Begin(work, {samples_.data(), Rows()});
     if (reuse_) reuse_->Begin(wave.work, wave);
-    for (int i = 0; i < 400 && Begin(); ++i) {
-      for (const PlannedStage& planned : plan_.stages) {
+    for (int i = 0; i < 400 && wave.HasWork(); ++i) {
+      wave.BeginWave();
+      for (const PlannedStage& planned : plan_.paths().stages) {
         if (wave.queue(planned.stage.input).size > 0) Check(planned);
       }
     }
@@ -110,18 +112,6 @@ class Checker {
     v.survive.assign(v.grid.cells(), 1.5f);
     v.split.assign(v.grid.cells(), 1.5f);
     v.inverse_pixel.assign(std::size_t{run_.width} * run_.height * 3, 0.7f);
-  }
-
-  // Between waves, as Drive() does it.
-  bool Begin() {
-    Wave& wave = wavefront_->wave();
-    if (wave.work.Done() && wave.queue(QueueId::kScattered).size == 0) return false;
-    std::swap(wave.queue(QueueId::kActive), wave.queue(QueueId::kScattered));
-    for (int i = 0; i < kNumQueues; ++i) {
-      const auto id = static_cast<QueueId>(i);
-      if (id != QueueId::kFree && id != QueueId::kActive) wave.queues[i].size = 0;
-    }
-    return true;
   }
 
   WaveState Save() const {

@@ -73,7 +73,8 @@ TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]"
 TEST_CASE("a scene without surfaces pays for none", "[plan]") {
   const Rendered r = RenderText(std::string(kEmpty) + kSky + kDegenerate);
   std::string stages;
-  for (const PlannedStage& s : r.plan.stages) stages += std::string(s.stage.name) + " ";
+  for (const PlannedStage& s : r.plan.paths().stages)
+    stages += std::string(s.stage.name) + " ";
   CHECK(stages ==
         "generate points_camera_independent camera_perspective split escape limit "
         "accumulate pack ");

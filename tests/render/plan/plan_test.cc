@@ -36,7 +36,7 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
 
 std::set<std::string> StageNames(const Plan& plan) {
   std::set<std::string> names;
-  for (const PlannedStage& s : plan.stages) names.insert(s.stage.name);
+  for (const PlannedStage& s : plan.paths().stages) names.insert(s.stage.name);
   return names;
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("plan: stages that are left out are never called", "[plan]") {
   TestRender options;
   const Rendered r =
       RenderText(kHead + "WorldBegin\n" + kPointLight + kTriangle, options);
-  CHECK(r.result.stages.size() == r.plan.stages.size());
+  CHECK(r.result.stages.size() == r.plan.paths().stages.size());
   for (const StageProfile& stage : r.result.stages) {
     INFO(stage.name);
     CHECK(stage.calls > 0);  // and every planned stage of this scene is needed

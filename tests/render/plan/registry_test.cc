@@ -96,6 +96,24 @@ TEST_CASE("every shape of light has the stages that its traits ask for", "[regis
   }
 }
 
+TEST_CASE("stages that follow rays have the role of it", "[registry]") {
+  const Stage stages[] = {
+#define X(name) name##Stage({}),
+      LANELIGHT_STAGES(X)
+#undef X
+  };
+  for (const Stage& stage : stages) {
+    INFO(stage.name);
+    const std::string_view name = stage.name;
+    CHECK((stage.role == StageRole::kIntersect) == name.starts_with("intersect_"));
+    const bool shadow = name.starts_with("shadow_") || name == "media_shadow";
+    CHECK((stage.role == StageRole::kShadow) == shadow);
+    CHECK((stage.role == StageRole::kSurface) == name.starts_with("surface_"));
+    CHECK((stage.role == StageRole::kBlock) == (stage.scope != StageScope::kWave));
+  }
+  CHECK(std::string(Name(StageRole::kIntersect)) == "intersect");
+}
+
 TEST_CASE("every stage in kernels/ is registered", "[registry]") {
   CHECK(StagesInFiles() == StagesInRegistry());
 }

@@ -27,7 +27,7 @@ Plan SpectralPlan(const SceneDescription& scene, const std::string& strategy = "
 }
 
 bool HasStage(const Plan& plan, const std::string& name) {
-  return std::any_of(plan.stages.begin(), plan.stages.end(),
+  return std::any_of(plan.paths().stages.begin(), plan.paths().stages.end(),
                      [&](const auto& planned) { return planned.stage.name == name; });
 }
 

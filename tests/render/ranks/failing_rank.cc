@@ -28,8 +28,8 @@ void Render(const char* scene, const char* state, RankGroup& group) {
   settings.spp = 1000;
   Job job = PrepareJob(scene, settings);
   if (group.rank() == 1) {
-    good_stage = job.plan.stages[0].kernel;
-    job.plan.stages[0].kernel = FailingStage;
+    good_stage = job.plan.paths().stages[0].kernel;
+    job.plan.phases[0].stages[0].kernel = FailingStage;
   }
   if (!group.leads()) return ServeRender(job, group, nullptr);
   RenderTargets targets;

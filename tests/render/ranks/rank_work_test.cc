@@ -48,7 +48,7 @@ struct RankFixture {
 
   RankFixture() {
     run.tables = &tables;
-    quick_stage = plan.stages[0].kernel;
+    quick_stage = plan.paths().stages[0].kernel;
     clock.Start();
   }
 };
@@ -108,7 +108,7 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
   workers_are_slow = true;
   OnRanks(3, [](RankGroup& group) {
     RankFixture own;
-    if (!group.leads()) own.plan.stages[0].kernel = SlowStage;
+    if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
     work.Deal(false, 1);
     if (!group.leads()) {
@@ -146,7 +146,7 @@ TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]
   workers_are_slow = true;
   OnRanks(3, [&alone](RankGroup& group) {
     RankFixture own;
-    if (!group.leads()) own.plan.stages[0].kernel = SlowStage;
+    if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
     work.Deal(false, 1);
     if (!group.leads()) return work.Serve([](const Round&) {}, nullptr);

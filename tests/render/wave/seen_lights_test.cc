@@ -119,16 +119,19 @@ TEST_CASE("only scenes with lights that can be seen have stages for their edges"
   SceneBuilder b(kSize, kSize);
   b.AddQuad({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, b.AddDiffuse(Grey(0.5)));
   b.AddPoint({0, 0, 2}, Grey(1));
-  CHECK(MakePlan(PrepareScene(b.Build(), {}), {}).seen_stages.empty());
+  CHECK(MakePlan(PrepareScene(b.Build(), {}), {}).Find(PhaseId::kVisibleLights) ==
+        nullptr);
   b.AddEnvironment(Grey(1));
   const PreparedScene scene = PrepareScene(b.Build(), {});
   const Plan plan = MakePlan(scene, {});
-  CHECK_FALSE(plan.seen_stages.empty());
+  const Phase* const visible = plan.Find(PhaseId::kVisibleLights);
+  REQUIRE(visible != nullptr);
+  CHECK(plan.Find(PhaseId::kFindEdges) == nullptr);  // the scene is not spectral
   // What shades and samples lights is not among them; all of them are stages of the
   // paths.
-  for (const PlannedStage& seen : plan.seen_stages) {
+  for (const PlannedStage& seen : visible->stages) {
     INFO(seen.stage.name);
-    CHECK(std::any_of(plan.stages.begin(), plan.stages.end(),
+    CHECK(std::any_of(plan.paths().stages.begin(), plan.paths().stages.end(),
                       [&](const PlannedStage& planned) {
                         return std::string(planned.stage.name) == seen.stage.name;
                       }));
@@ -146,7 +149,7 @@ TEST_CASE("a profile says what the edges of lights cost, stage by stage",
     const Rendered rendered = RenderDescription(Lamp(0.3), t);
     std::uint64_t generated = 0, rows = 0;
     for (const StageProfile& row : rendered.result.stages) {
-      if (!row.name.starts_with(kSeenStage)) continue;
+      if (!row.name.starts_with(Prefix(PhaseId::kVisibleLights))) continue;
       ++rows;
       CHECK(row.seconds >= 0);
       if (row.name == "seen: generate") generated = row.items;

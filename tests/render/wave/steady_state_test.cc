@@ -32,8 +32,8 @@ void PlantedStage(Wave& wave) {
 }
 
 void Plant(Plan& plan) {
-  honest_stage = plan.stages.front().kernel;
-  plan.stages.front().kernel = PlantedStage;
+  honest_stage = plan.paths().stages.front().kernel;
+  plan.phases[0].stages.front().kernel = PlantedStage;
   waves = 0;
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
       CHECK(untimed.locks == 0);
       ProfileOptions profile;
       profile.trace_events = 100;  // the buffer fills up on the way
-      StageClock clock(task.plan.stages.size(), profile);
+      StageClock clock(task.plan.paths().stages.size(), profile);
       const InterposedCalls timed = CallsOfSecondTask(task, &clock);
       CHECK(timed.allocations == 0);
       CHECK(timed.locks == 0);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/render/train/training.h"
-#include "src/render/wave/task_runner.h"
+#include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/prepare/path_values.h"
@@ -73,7 +73,8 @@ class TaskFixture {
     work.samples = kSamples;
     work.together = kSamples;
     if (clock) clock->StartTask();
-    Drive(wavefront_->wave(), plan, {work, {buffer_.data(), Rows()}}, clock);
+    wavefront_->wave().Begin(work, {buffer_.data(), Rows()});
+    RunPhase(wavefront_->wave(), plan.paths(), clock);
     if (clock) clock->EndTask();
   }
 
