@@ -46,12 +46,12 @@ function drawTruth(u, ratio) {
 
 function describeCalibration(line, { level }) {
   return [
-    el("b", {}, line.name),
-    el("div", {}, `${fmtCount(level.spp)} spp`),
-    el("div", {}, `true ${joined(intervalTexts(level.relmse))}`),
-    el("div", {}, `estimated ${joined(intervalTexts(level.self.relmse))}`),
-    el("div", {}, `interval held in ${level.self.inside} of ${level.self.total} renders`),
-    level.self.refused > 0 && el("div", {}, `${level.self.refused} renders stated none`),
+    el("b", line.name),
+    el("div", `${fmtCount(level.spp)} spp`),
+    el("div", `true ${joined(intervalTexts(level.relmse))}`),
+    el("div", `estimated ${joined(intervalTexts(level.self.relmse))}`),
+    el("div", `interval held in ${level.self.inside} of ${level.self.total} renders`),
+    level.self.refused > 0 && el("div", `${level.self.refused} renders stated none`),
   ];
 }
 
@@ -66,26 +66,22 @@ function refusedText({ refused, total }) {
 
 function calibrationNumber(calibration) {
   if (!calibration) {
-    return el("p", {}, "No render had an estimate of its own error.");
+    return el("p", "No render had an estimate of its own error.");
   }
-  if (!known(valueOf(calibration.share))) return el("p", {}, refusedText(calibration));
+  if (!known(valueOf(calibration.share))) return el("p", refusedText(calibration));
   const stated = known(calibration.stated)
     ? fmtShortPercent(calibration.stated)
     : UNKNOWN;
   const { value, bounds } = percentTexts(calibration.share);
-  return el(
-    "div",
-    { class: "big-number" },
-    el("div", { class: "number" }, value),
-    bounds && el("div", { class: "bounds" }, bounds),
-    el(
-      "p",
-      {},
+  return el("div.big-number",
+    el("div.number", value),
+    bounds && el("div.bounds", bounds),
+    el("p",
       `of the ${fmtCount(calibration.total)} renders that stated an interval have their ` +
         `true relative MSE in it (${fmtCount(calibration.inside)} renders). ` +
         `Stated confidence: ${stated}.`,
     ),
-    calibration.refused > 0 && el("p", {}, refusedText(calibration)),
+    calibration.refused > 0 && el("p", refusedText(calibration)),
     whiskerRow(calibration),
   );
 }
@@ -98,9 +94,7 @@ function whiskerRow(calibration) {
   );
   const options = { width: 220, format: fmtShortPercent, most: 4 };
   const marks = known(calibration.stated) ? [calibration.stated] : [];
-  return el(
-    "div",
-    { class: "axis-block" },
+  return el("div.axis-block",
     whiskerAxis(scale, options),
     whisker(calibration.share, scale, { width: 220, marks, label: "Coverage" }),
   );
@@ -137,8 +131,7 @@ function calibrationSection(view) {
   };
   whenVisible(view, figure, () => draw("values"));
   figure.firstChild.append(
-    choiceButtons(
-      "Scale",
+    choiceButtons("Scale",
       [
         ["values", "Values"],
         ["ratio", "Ratio"],
@@ -147,20 +140,12 @@ function calibrationSection(view) {
       draw,
     ),
   );
-  return section(
-    "calibration",
-    title,
-    el(
-      "div",
-      { class: "calibration" },
+  return section("calibration", title,
+    el("div.calibration",
       figure,
-      el(
-        "div",
-        { class: "calibration-text" },
+      el("div.calibration-text",
         number,
-        el(
-          "p",
-          { class: "hint" },
+        el("p.hint",
           "On the line the estimate is right; below it, the render " +
             "thinks itself better than it is. The strategies shown are those chosen above.",
         ),

@@ -59,29 +59,24 @@ function imagesToChoose() {
 }
 
 function verdictFacts(c) {
+  const { verdict, p, why } = c.agreement;
   const flip = c.flip && (c.flip.hdr || c.flip.ldr);
-  return el(
-    "dl",
-    { class: "facts" },
+  return el("dl.facts",
     fact("Relative error", fmtPercent(Math.sqrt(c.relmse)), `relative MSE ${fmt(c.relmse)}`),
     flip && fact("FLIP", fmt(flip.mean), `largest ${fmt(flip.max)}`),
     fact("PSNR", known(c.psnr) ? `${fmt(c.psnr)} dB` : "no difference"),
-    fact("Beyond noise?", { agree: "no", differ: "yes" }[c.agreement.verdict] || "cannot tell",
-      known(c.agreement.p) ? `p ${c.agreement.p < 1e-12 ? "" : "= "}${pText(c.agreement.p)}` : c.agreement.why),
+    fact("Beyond noise?", { agree: "no", differ: "yes" }[verdict] || "cannot tell",
+      known(p) ? `p ${p < 1e-12 ? "" : "= "}${pText(p)}` : why),
   );
 }
 
 function verdictSection() {
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, `Against ${study.reference.name}`),
+  return el("section#summary", { "aria-labelledby": "summary-title" },
+    el("h1#summary-title", `Against ${study.reference.name}`),
     study.comparisons.map((c) => [
-      el("p", { class: "verdict" }, `${c.verdict}.`),
+      el("p.verdict", `${c.verdict}.`),
       c.invalid_test + c.invalid_reference > 0 &&
-        el(
-          "div",
-          { class: "warnings", role: "note" },
+        el("div.warnings", { role: "note" },
           `${fmtCount(c.invalid_test)} values of the image and ` +
             `${fmtCount(c.invalid_reference)} of the reference are no numbers; they are ` +
             "left out of all means, and shown in magenta.",
@@ -89,9 +84,7 @@ function verdictSection() {
       verdictFacts(c),
     ]),
     study.report_scale > 1 &&
-      el(
-        "p",
-        { class: "hint" },
+      el("p.hint",
         `The pictures of this page are smaller by ${study.report_scale}, so that a browser ` +
           "can hold them; the numbers are of all pixels.",
       ),
@@ -111,27 +104,17 @@ function histogramSection() {
     image: findImage(study.reference.image),
   };
   const key = ({ name, color }) =>
-    el("span", {}, el("i", { class: "swatch-line", style: { background: color } }), name);
-  return section(
-    "histograms",
-    "Histograms",
-    el("div", { class: "histogram-key" }, [reference, ...all].map(key)),
-    el(
-      "div",
-      { class: "histograms" },
-      el(
-        "figure",
-        { class: "paper" },
+    el("span", el("i.swatch-line", { style: { background: color } }), name);
+  return section("histograms", "Histograms",
+    el("div.histogram-key", [reference, ...all].map(key)),
+    el("div.histograms",
+      el("figure.paper",
         luminanceHistogram([reference, ...all]),
-        el("figcaption", {}, "Luminance of the pixels; black ones are in the first bin."),
+        el("figcaption", "Luminance of the pixels; black ones are in the first bin."),
       ),
-      el(
-        "figure",
-        { class: "paper" },
+      el("figure.paper",
         differenceHistogram(all.map((one) => ({ ...one, image: one.map }))),
-        el(
-          "figcaption",
-          {},
+        el("figcaption",
           "Signed relative difference of the pixels; beyond the ends in the last bins.",
         ),
       ),

@@ -31,16 +31,13 @@ const VISIBLE_NOISE = 0.01; // a relative MSE that an eye sees, for the start
 function levelControls(levels, draw) {
   const start = nearestLevel(levels, VISIBLE_NOISE, (level) => valueOf(level.relmse) || 1e-9);
   const state = { base: start, equal: "time" };
-  const text = el("output", { class: "exposure" });
+  const text = el("output.exposure");
   const show = () => {
     text.textContent = `${fmtCount(state.base.spp)} spp`;
     draw(state.base, state.equal);
   };
   const slider = el("input", {
-    type: "range",
-    min: 0,
-    max: levels.length - 1,
-    value: levels.indexOf(start),
+    type: "range", min: 0, max: levels.length - 1, value: levels.indexOf(start),
     "data-control": "figure-spp",
     oninput: () => {
       state.base = levels[Number(slider.value)];
@@ -52,9 +49,7 @@ function levelControls(levels, draw) {
     ["samples", "Equal samples"],
   ];
   show();
-  return el(
-    "div",
-    { class: "toolbar" },
+  return el("div.toolbar",
     labelled("Samples of the baseline", slider, text),
     choiceButtons("Compared at", choices, "time", (equal) => {
       state.equal = equal;

@@ -64,13 +64,9 @@ const TERMS = [
 ];
 
 function glossarySection() {
-  return section(
-    "reading",
-    "How to read this",
-    el(
-      "dl",
-      { class: "glossary" },
-      TERMS.map(([term, text]) => el("div", {}, el("dt", {}, term), el("dd", {}, text))),
+  return section("reading", "How to read this",
+    el("dl.glossary",
+      TERMS.map(([term, text]) => el("div", el("dt", term), el("dd", text))),
     ),
   );
 }

@@ -1,7 +1,8 @@
 "use strict";
 // Lines that help to read the curves: slopes and the target.
 
-// Short lines of constant order, named by their slope on these axes, where curves that fall leave room: at the upper right.
+// Short lines of constant order, named by their slope on these axes, where curves that fall
+// leave room: at the upper right.
 function drawSlopes(u, power) {
   const { x, y } = u.scales;
   const x0 = x.min ** 0.42 * x.max ** 0.58,

@@ -19,17 +19,19 @@ function plotScales(points) {
 function plotFrame(scales, pace) {
   const { width, height, left, right, top, bottom } = PLOT_SIZE;
   const label = (x, y, anchor, text) =>
-    svg("text", { x, y, "text-anchor": anchor, class: "plot-label" }, text);
+    svg("text.plot-label", { x, y, "text-anchor": anchor }, text);
   const tick = pace === "time" ? secondsTick : (x) => fmtShort(x);
   return [
     scales.xTicks.map((v) => [
-      svg("line", { x1: scales.x(v), x2: scales.x(v), y1: top, y2: height - bottom,
-                    class: "plot-grid" }),
+      svg("line.plot-grid", {
+        x1: scales.x(v), x2: scales.x(v), y1: top, y2: height - bottom,
+      }),
       label(scales.x(v), height - bottom + 16, "middle", tick(v)),
     ]),
     scales.yTicks.map((v) => [
-      svg("line", { x1: left, x2: width - right, y1: scales.y(v), y2: scales.y(v),
-                    class: "plot-grid" }),
+      svg("line.plot-grid", {
+        x1: left, x2: width - right, y1: scales.y(v), y2: scales.y(v),
+      }),
       label(left - 6, scales.y(v) + 4, "end", errorTick(v)),
     ]),
     label((left + width) / 2, height - 4, "middle",
@@ -42,17 +44,23 @@ function plotCurve(scales, points, style) {
   const whisker = (p) => {
     const low = known(p.low) && p.low > 0 ? p.low : p.y;
     const high = known(p.high) ? p.high : p.y;
-    return svg("line", { x1: scales.x(p.x), x2: scales.x(p.x), y1: scales.y(low),
-                         y2: scales.y(high), class: "plot-whisker", style: color });
+    return svg("line.plot-whisker", {
+      x1: scales.x(p.x), x2: scales.x(p.x), y1: scales.y(low), y2: scales.y(high),
+      style: color,
+    });
   };
   const path = points.map((p, i) => `${i ? "L" : "M"}${scales.x(p.x)} ${scales.y(p.y)}`);
   return [
-    svg("path", { d: path.join(""), fill: "none", "stroke-width": 2,
-                  "stroke-dasharray": style.dash.join(" ") || null, style: color }),
+    svg("path", {
+      d: path.join(""), fill: "none", "stroke-width": 2,
+      "stroke-dasharray": style.dash.join(" ") || null, style: color,
+    }),
     points.map(whisker),
     points.map((p) =>
-      svg("path", { d: markerPath(style.marker, scales.x(p.x), scales.y(p.y), 3),
-                    style: { ...color, fill: `var(${style.variable})` } })),
+      svg("path", {
+        d: markerPath(style.marker, scales.x(p.x), scales.y(p.y), 3),
+        style: { ...color, fill: `var(${style.variable})` },
+      })),
   ];
 }
 
@@ -71,11 +79,13 @@ function drawErrorPlot(node, state) {
   const scales = plotScales(points);
   const { width, height } = PLOT_SIZE;
   node.replaceChildren(
-    svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img",
-                 "aria-label": "Relative mean squared error against cost" },
+    svg("svg", {
+        viewBox: `0 0 ${width} ${height}`, role: "img",
+        "aria-label": "Relative mean squared error against cost",
+      },
       plotFrame(scales, state.pace),
       curves.map((curve, i) => plotCurve(scales, curve, STYLES[i]))),
-    el("p", { class: "note" },
+    el("p.note",
       "Relative MSE with 95 % intervals; a lower end alone where samples cannot tell the ",
       "upper one. In plain Monte Carlo it falls as 1 / cost."),
   );

@@ -22,8 +22,8 @@ async function copyText(text, shown) {
 }
 
 function saveBar(page) {
-  const said = el("p", { class: "note", id: "said", role: "status" });
-  const text = el("pre", { id: "copied", hidden: true });
+  const said = el("p#said.note", { role: "status" });
+  const text = el("pre#copied", { hidden: true });
   const show = async (what, content) => {
     text.hidden = false;
     const done = await copyText(content, text);
@@ -51,11 +51,9 @@ function saveBar(page) {
     show("The command", moved + slot.command);
   };
   const button = (id, label, onclick) =>
-    el("button", { type: "button", class: "button", id, onclick }, label);
+    el("button.button", { id, onclick }, label);
   return el(
-    "div", { class: "save" },
-    el("div", { class: "choices" },
-      button("save-png", "Save PNG as seen", png),
+    "div.save", el("div.choices", button("save-png", "Save PNG as seen", png),
       button("save-exr-a", "Save EXR of A", exr(0)),
       button("save-exr-b", "Save EXR of B", exr(1)),
       button("copy-command", "Copy the command", command),

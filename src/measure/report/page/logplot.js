@@ -78,9 +78,7 @@ function plotOptions(view, options, size) {
         points: { show: false },
         alpha: 1,
         stroke: () =>
-          theme.color(
-            view.shown.value.has(line.index) ? line.style.variable : "--ghost",
-          ),
+          theme.color(view.shown.value.has(line.index) ? line.style.variable : "--ghost"),
         show: options.ghosts || view.shown.value.has(line.index),
         ...lineLook(view, line),
       })),

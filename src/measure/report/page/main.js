@@ -37,13 +37,8 @@ function fillNavigation(scene) {
     ...(study.scenes.length < 2
       ? []
       : study.scenes.map((other) =>
-          el(
-            "a",
-            {
-              href: sceneHash(other),
-              class: "tab",
-              "aria-current": other === scene ? "page" : null,
-            },
+          el("a.tab",
+            { href: sceneHash(other), "aria-current": other === scene ? "page" : null },
             other.name,
           ),
         )),
@@ -53,17 +48,13 @@ function fillNavigation(scene) {
 
 function errorScene(scene) {
   return [
-    el(
-      "section",
-      { "aria-labelledby": "summary-title" },
-      el("h1", { id: "summary-title" }, scene.name),
-      el(
-        "div",
-        { class: "warnings", role: "note" },
-        el("h3", {}, "This scene could not be studied"),
-        el("p", {}, scene.error),
+    el("section", { "aria-labelledby": "summary-title" },
+      el("h1#summary-title", scene.name),
+      el("div.warnings", { role: "note" },
+        el("h3", "This scene could not be studied"),
+        el("p", scene.error),
       ),
-      scene.path && el("p", { class: "full-text" }, scene.path),
+      scene.path && el("p.full-text", scene.path),
     ),
   ];
 }
@@ -128,7 +119,7 @@ function start() {
   if (!study.scenes || study.scenes.length === 0) {
     document
       .getElementById("content")
-      .replaceChildren(el("p", { class: "wait" }, "This study has no scenes."));
+      .replaceChildren(el("p.wait", "This study has no scenes."));
     return;
   }
   addEventListener("hashchange", followHash);

@@ -36,13 +36,10 @@ function svgContext(parent) {
     fillText: (text, x, y) =>
       parent.append(
         svg("text", {
-          x: n(x),
-          y: n(y),
-          fill: ctx.fillStyle,
-          "font-size": 11,
-          "text-anchor": ctx.textAlign === "right" ? "end" : "start",
-          transform: transform || null,
-        }, text),
+            x: n(x), y: n(y), fill: ctx.fillStyle, "font-size": 11,
+            "text-anchor": ctx.textAlign === "right" ? "end" : "start",
+            transform: transform || null,
+          }, text),
       ),
   };
   return ctx;
@@ -105,20 +102,14 @@ function paperCurves(u, lines) {
     const stroke = theme.color(line.style.variable);
     clip.append(svg("path", {
       d: line.points.map((p, i) => `${i ? "L" : "M"}${at(p).join(" ")}`).join(""),
-      fill: "none",
-      stroke,
-      "stroke-width": 2,
+      fill: "none", stroke, "stroke-width": 2,
       "stroke-dasharray": line.style.dash.join(" ") || null,
     }));
     for (const p of line.points) {
-      clip.append(svg("path", {
-        class: "point",
+      clip.append(svg("path.point", {
         d: markerPath(line.style.marker, ...at(p), 4),
-        fill: p.hollow ? "#ffffff" : stroke,
-        stroke,
-        "data-series": line.name,
-        "data-x": p.x,
-        "data-y": p.y,
+        fill: p.hollow ? "#ffffff" : stroke, stroke, "data-series": line.name,
+        "data-x": p.x, "data-y": p.y,
       }));
     }
   }

@@ -41,11 +41,12 @@ function inLight(draw) {
 }
 
 function paperSvg({ width, height }, title, drawn) {
-  const root = svg(
-    "svg",
-    { width, height, "font-size": 12,
-      viewBox: `0 0 ${width} ${height}`, "font-family": "system-ui, 'DejaVu Sans', sans-serif" },
-    svg("title", {}, title),
+  const root = svg("svg",
+    {
+      width, height, "font-size": 12, viewBox: `0 0 ${width} ${height}`,
+      "font-family": "system-ui, 'DejaVu Sans', sans-serif",
+    },
+    svg("title", title),
     svg("rect", { width, height, fill: "#ffffff" }),
     paperText(20, 30, title, { "font-size": 17, "font-weight": 600 }),
     drawn,
@@ -86,11 +87,8 @@ function saveButtons(host, title, texts) {
     PNG: () => savePng(`${name()}.png`, texts.svg(of())),
     CSV: () => save(`${name()}.csv`, new Blob([texts.csv()], { type: "text/csv" })),
   };
-  return el(
-    "span",
-    { class: "export", role: "group", "aria-label": `Save: ${title}` },
+  return el("span.export", { role: "group", "aria-label": `Save: ${title}` },
     Object.entries(actions).map(([text, act]) =>
-      el("button", { type: "button", class: "link", "data-export": text.toLowerCase(),
-                     onclick: act }, text)),
+      el("button.link", { "data-export": text.toLowerCase(), onclick: act }, text)),
   );
 }

@@ -3,14 +3,10 @@
 
 function rankingSection(view) {
   const baseline = view.baseline ? view.baseline.name : null;
-  return section(
-    "ranking",
-    "Ranking",
-    el(
-      "p",
-      { class: "lead" },
+  return section("ranking", "Ranking",
+    el("p.lead",
       "Efficiency is 1 / (relative MSE × seconds of processor time)",
-      baseline ? [", relative to ", el("b", {}, baseline)] : null,
+      baseline ? [", relative to ", el("b", baseline)] : null,
       ": at twice the efficiency, the same image takes half the time. Small print: " +
         `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
         "A rank range such as 2–4 says that the order within it could be chance.",
@@ -21,7 +17,7 @@ function rankingSection(view) {
 
 // The columns that answer, or all of them across the whole window.
 function rankingTables(view) {
-  const host = el("div", { class: "ranking-host" });
+  const host = el("div.ranking-host");
   const show = (which) => {
     host.classList.toggle("wide", which === "all");
     host.replaceChildren(rankingTable(view, which === "all"));
@@ -31,10 +27,7 @@ function rankingTables(view) {
     ["main", "Main columns"],
     ["all", "All columns"],
   ];
-  return [
-    el("div", { class: "toolbar" }, choiceButtons("Columns", choices, "main", show)),
-    host,
-  ];
+  return [el("div.toolbar", choiceButtons("Columns", choices, "main", show)), host];
 }
 
 function rankingTable(view, all) {
@@ -66,17 +59,11 @@ function rankingTable(view, all) {
 function twinsRow(view, strategy, count) {
   const twins = twinsOf(view, strategy);
   if (twins.length === 0) return null;
-  return el(
-    "tr",
-    { class: "not-run" },
-    el("td", { class: "text" }, "="),
-    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
-    el(
-      "td",
-      { class: "text", colspan: count - 2 },
-      el(
-        "span",
-        { class: "why" },
+  return el("tr.not-run",
+    el("td.text", "="),
+    el("th.text", { scope: "row" }, strategyLabel(strategy)),
+    el("td.text", { colspan: count - 2 },
+      el("span.why",
         `The same on this scene, and rendered once: ${twins.map((s) => s.name).join(", ")}`,
       ),
     ),
@@ -84,16 +71,10 @@ function twinsRow(view, strategy, count) {
 }
 
 function notRunRow(strategy, count) {
-  return el(
-    "tr",
-    { class: "not-run" },
-    el("td", { class: "text" }, UNKNOWN),
-    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
-    el(
-      "td",
-      { class: "text", colspan: count - 2 },
-      el("span", { class: "why" }, whyMissing(strategy)),
-    ),
+  return el("tr.not-run",
+    el("td.text", UNKNOWN),
+    el("th.text", { scope: "row" }, strategyLabel(strategy)),
+    el("td.text", { colspan: count - 2 }, el("span.why", whyMissing(strategy))),
   );
 }
 
@@ -112,10 +93,8 @@ function rivals(view, s) {
 
 function rankCell(view, s) {
   const others = rivals(view, s);
-  return el(
-    "span",
+  return el("span.rank",
     {
-      class: "rank",
       title: others.length
         ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
         : null,

@@ -120,11 +120,9 @@ const MAIN_COLUMNS = new Set([
 // The full text on demand: it may be five lines long.
 function nameCell(s) {
   if (!s.text || s.text === s.name) return strategyLabel(s);
-  return el(
-    "details",
-    { class: "name" },
-    el("summary", {}, strategyLabel(s)),
-    el("span", { class: "full-text" }, breakable(s.text)),
+  return el("details.name",
+    el("summary", strategyLabel(s)),
+    el("span.full-text", breakable(s.text)),
   );
 }
 

@@ -26,9 +26,9 @@ function pointRows(aCase, point) {
 
 function describePoint(aCase) {
   return (line, point) => [
-    el("b", {}, line.name === "all" ? aCase.name : line.name),
-    el("div", {}, `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
-    pointRows(aCase, point).map(([name, text]) => el("div", {}, `${name}: ${text}`)),
+    el("b", line.name === "all" ? aCase.name : line.name),
+    el("div", `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
+    pointRows(aCase, point).map(([name, text]) => el("div", `${name}: ${text}`)),
   ];
 }
 
@@ -94,7 +94,7 @@ function detailPlot(aCase, target, lines, plot) {
   const choices = choicesOf(aCase, lines, plot);
   if (choices.length === 0) return null;
   let choice = choices[0];
-  const host = el("div", { class: "map-host", "data-plot": plot.key });
+  const host = el("div.map-host", { "data-plot": plot.key });
   const title = plot.title(aCase);
   const draw = () =>
     host.isConnected &&
@@ -113,24 +113,22 @@ function detailPlot(aCase, target, lines, plot) {
   new ResizeObserver(() => requestAnimationFrame(draw)).observe(host);
   const buttons =
     choices.length > 1 &&
-    choiceButtons(
-      title,
-      choices.map((key) => [key, plot.choices[key][0]]),
+    choiceButtons(title, choices.map((key) => [key, plot.choices[key][0]]),
       choice,
       (key) => {
         choice = key;
         draw();
       },
     );
-  const caption = el("figcaption", {}, title, buttons);
+  const caption = el("figcaption", title, buttons);
   const saving = mapSaveButtons(host, `${title}, ${aCase.name}`);
-  return el("figure", { class: "plot-figure" }, caption, host, saving);
+  return el("figure.plot-figure", caption, host, saving);
 }
 
 function detailSection(aCase, target, onChoose) {
   const lines = seriesOf(aCase, target);
   const shown = new Set(lines.map((line) => line.index));
-  const plots = el("div", { class: "map-plots" });
+  const plots = el("div.map-plots");
   const draw = () => {
     tip.hide();
     const some = lines.filter((line) => shown.has(line.index));
@@ -139,16 +137,12 @@ function detailSection(aCase, target, onChoose) {
     plots.style.setProperty("--plots", Math.max(1, plots.childElementCount));
   };
   draw();
-  return section(
-    "map",
-    el("span", {}, aCase.name, el("span", { class: "on-target" }, ` on ${target}`)),
+  return section("map", el("span", aCase.name, el("span.on-target", ` on ${target}`)),
     mapMenu(aCase, onChoose),
     factList(aCase, target),
     seriesLegend(lines, shown, draw),
     plots,
-    el(
-      "p",
-      { class: "hint" },
+    el("p.hint",
       "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
         "lines: where a point would fail. Red rings: points that are not good; " +
         "crosses: refused, with the message. A hollow marker has no error at all.",

@@ -7,12 +7,9 @@ function fillTargets(onTarget) {
   if (targets.length < 2) return;
   document.getElementById("scenes").replaceChildren(
     ...targets.map((target) =>
-      el(
-        "a",
+      el("a.tab",
         {
-          href: "#summary",
-          class: "tab",
-          "data-target": target,
+          href: "#summary", "data-target": target,
           "aria-current": target === state.target ? "true" : null,
           onclick: (event) => {
             event.preventDefault();
@@ -55,9 +52,9 @@ function start() {
   document.title = "Lanelight stress";
   document.getElementById("bottom").textContent =
     `Written by ${study.version}. This page holds all its numbers and needs no network.`;
-  const top = el("div", {}),
-    detail = el("div", {}),
-    strategies = el("div", {});
+  const top = el("div"),
+    detail = el("div"),
+    strategies = el("div");
   const showMap = () => {
     tip.hide();
     const parts = state.map ? [detailSection(state.map, state.target, choose)] : [];

@@ -20,7 +20,7 @@ function gridLines(frame, scale, yTick) {
   return scaleTicks(scale, 6).map((tick) => {
     const y = frame.y(scale.at(tick));
     return [
-      svg("line", { class: "grid", x1: frame.x(0), x2: frame.x(1), y1: y, y2: y }),
+      svg("line.grid", { x1: frame.x(0), x2: frame.x(1), y1: y, y2: y }),
       svg("text", { x: BOX.left - 6, y: y + 4, "text-anchor": "end" }, yTick(tick)),
     ];
   });
@@ -35,17 +35,13 @@ function xTicks(frame, aCase, scale) {
     [...zero, ...scaleTicks(scale, most)].map((tick) => {
       const x = frame.x(scale.at(tick));
       return [
-        svg("line", { class: "grid", x1: x, x2: x, y1: bottom, y2: bottom + 4 }),
-        svg(
-          "text",
-          { x, y: bottom + 16, "text-anchor": "middle" },
+        svg("line.grid", { x1: x, x2: x, y1: bottom, y2: bottom + 4 }),
+        svg("text", { x, y: bottom + 16, "text-anchor": "middle" },
           parameterTick(tick),
         ),
       ];
     }),
-    svg(
-      "text",
-      { class: "axis-name", x: frame.x(0.5), y: bottom + 33, "text-anchor": "middle" },
+    svg("text.axis-name", { x: frame.x(0.5), y: bottom + 33, "text-anchor": "middle" },
       unit ? `${name} (${unit})` : name,
     ),
   ];
@@ -53,11 +49,8 @@ function xTicks(frame, aCase, scale) {
 
 function promiseShade(frame, aCase, scale) {
   const [from, to] = promisedShare(aCase, scale);
-  return svg("rect", {
-    class: "promise",
-    x: frame.x(from),
-    width: Math.max(1, frame.x(to) - frame.x(from)),
-    y: frame.y(1),
+  return svg("rect.promise", {
+    x: frame.x(from), width: Math.max(1, frame.x(to) - frame.x(from)), y: frame.y(1),
     height: frame.y(0) - frame.y(1),
   });
 }
@@ -66,8 +59,8 @@ function breakLines(frame, aCase, target, scale) {
   return nearestBreaks(aCase, target).map((place) => {
     const x = frame.x(scale.at(place.parameter));
     return withTip(
-      svg("line", { class: "break", x1: x, x2: x, y1: frame.y(0), y2: frame.y(1) }),
-      () => [el("b", {}, "First breaks here"), el("div", {}, breakText(aCase, place))],
+      svg("line.break", { x1: x, x2: x, y1: frame.y(0), y2: frame.y(1) }),
+      () => [el("b", "First breaks here"), el("div", breakText(aCase, place))],
     );
   });
 }
@@ -81,27 +74,18 @@ function curve(line, points, describe, limit) {
     ...banded.map((p) => `${p.x},${p.high}`),
     ...banded.reverse().map((p) => `${p.x},${p.low}`),
   ];
-  return svg(
-    "g",
-    { "data-series": line.index },
+  return svg("g", { "data-series": line.index },
     limit,
     corners.length > 3 &&
-      svg("polygon", {
-        class: "band",
-        points: corners.join(" "),
-        style: { fill: color },
-      }),
-    svg("path", {
-      class: "curve",
-      d: path,
-      "stroke-dasharray": line.style.dash.join(" ") || null,
+      svg("polygon.band", { points: corners.join(" "), style: { fill: color } }),
+    svg("path.curve", {
+      d: path, "stroke-dasharray": line.style.dash.join(" ") || null,
       style: { stroke: color },
     }),
     points.map((p) => [
-      p.bad && svg("circle", { class: "bad", cx: p.x, cy: p.y, r: 8 }),
+      p.bad && svg("circle.bad", { cx: p.x, cy: p.y, r: 8 }),
       withTip(
-        svg("path", {
-          class: "marker",
+        svg("path.marker", {
           d: markerPath(line.style.marker, p.x, p.y, 3.6),
           style: { stroke: color, fill: p.hollow ? "var(--panel)" : color },
         }),
@@ -150,13 +134,10 @@ function mapPlot(host, options) {
   const yAt = (v) => frame.y(Math.max(0, yScale.at(v)));
   host.drawn = { lines, drawn, aCase, label: options.quantity }; // for mapSaveButtons()
   host.replaceChildren(
-    svg(
-      "svg",
+    svg("svg",
       {
         class: lines.length > MOST_BANDS ? "map-plot many" : "map-plot",
-        width: frame.width,
-        height: frame.height,
-        role: "img",
+        width: frame.width, height: frame.height, role: "img",
         "aria-label": options.label,
       },
       promiseShade(frame, aCase, xScale),
@@ -192,9 +173,5 @@ function limitLine(frame, line, points, xScale, yAt) {
     .map((p, i) => `${i === 0 ? "M" : "L"}${frame.x(xScale.at(p.point.parameter))} ` +
       `${yAt(p.limit)}`)
     .join("");
-  return svg("path", {
-    class: "limit",
-    d,
-    style: { stroke: `var(${line.style.variable})` },
-  });
+  return svg("path.limit", { d, style: { stroke: `var(${line.style.variable})` } });
 }

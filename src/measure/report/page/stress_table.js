@@ -9,25 +9,17 @@ function worstOf(aCase) {
 
 function nameCell(aCase, onChoose) {
   const name = maps.includes(aCase)
-    ? el(
-        "button",
-        { type: "button", class: "link", onclick: () => onChoose(aCase.name) },
-        aCase.name,
-      )
+    ? el("button.link", { onclick: () => onChoose(aCase.name) }, aCase.name)
     : aCase.name;
-  return [name, el("span", { class: "full-text" }, aCase.extreme)];
+  return [name, el("span.full-text", aCase.extreme)];
 }
 
 function outcomeCell(aCase) {
   return [
-    el(
-      "span",
-      { class: "verdict-word", "data-outcome": aCase.outcome },
-      WORDS[aCase.outcome],
-    ),
-    aCase.why && el("span", { class: "bounds why" }, aCase.why),
+    el("span.verdict-word", { "data-outcome": aCase.outcome }, WORDS[aCase.outcome]),
+    aCase.why && el("span.bounds.why", aCase.why),
     aCase.outcome === "weak" &&
-      el("span", { class: "bounds" }, `${aCase.weak} of ${aCase.promised} points`),
+      el("span.bounds", `${aCase.weak} of ${aCase.promised} points`),
   ];
 }
 
@@ -50,7 +42,7 @@ function zCell(aCase) {
 
 function breakCell(aCase) {
   const places = firstBreaks(aCase);
-  return places.map((b) => el("span", { class: "value" }, breakText(aCase, b)));
+  return places.map((b) => el("span.value", breakText(aCase, b)));
 }
 
 function raysOf(aCase) {
@@ -98,7 +90,7 @@ function caseColumns(onChoose) {
       key: "must",
       title: "Must be true",
       text: true,
-      cell: (c) => el("span", { class: "must" }, c.must),
+      cell: (c) => el("span.must", c.must),
     },
     number("expected", "Expected", worst("expected"), (x) => fmtShort(x, 5)),
     {
@@ -113,8 +105,13 @@ function caseColumns(onChoose) {
       hint: "Standard errors beyond the tolerance",
       cell: zCell,
     },
-    number("detectable", "Finds", (c) => c.detectable, fmtFound,
-      "The error that every promised point would find with a probability of 90 %"),
+    number(
+      "detectable",
+      "Finds",
+      (c) => c.detectable,
+      fmtFound,
+      "The error that every promised point would find with a probability of 90 %",
+    ),
     number("invalid", "Invalid", invalidOf, fmtCount),
     number("seconds", "Time", (c) => sumPoints(c, "total_seconds"), fmtSeconds),
     number("rays", "Rays", raysOf, (x) => fmt(x, 3), "Per sample"),
@@ -128,7 +125,7 @@ function filterMenu(label, key, options, onChange) {
 
 function tableSection(onChoose) {
   const chosen = { group: "", outcome: "" };
-  const host = el("div", {});
+  const host = el("div");
   const fill = () => {
     const rows = study.cases.filter(
       (c) =>
@@ -153,12 +150,8 @@ function tableSection(onChoose) {
   const outcomes = Object.keys(ORDER)
     .filter((outcome) => study.outcomes[outcome] > 0)
     .map((outcome) => [outcome, WORDS[outcome]]);
-  return section(
-    "cases",
-    "All cases",
-    el(
-      "div",
-      { class: "menus" },
+  return section("cases", "All cases",
+    el("div.menus",
       filterMenu("Group", "group", groups, set("group")),
       filterMenu("Verdict", "outcome", outcomes, set("outcome")),
     ),

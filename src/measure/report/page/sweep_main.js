@@ -13,13 +13,11 @@ function plotArea(choice, onChange) {
   view.shown.set(new Set(lines.map((line) => line.index)));
   current = view;
   return [
-    section(
-      "plots",
-      "Efficiency, error, throughput",
+    section("plots", "Efficiency, error, throughput",
       varyingAxes.length > 0 && choiceMenus(choice, onChange),
       lines.length > 0
         ? plotsSection(view, choice, panels, lines)
-        : el("p", {}, "No finished cell has these values."),
+        : el("p", "No finished cell has these values."),
     ),
     imagesSection(view, choice),
     costSection(view, choice, panels),
@@ -43,7 +41,7 @@ function start() {
     ["stages", "Stage costs"],
     ["cells", "Cells"],
   ]);
-  const area = el("div", { id: "area" });
+  const area = el("div#area");
   const show = (choice) => {
     const focused = document.activeElement && document.activeElement.dataset.menu;
     tip.hide();

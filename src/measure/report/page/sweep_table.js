@@ -41,11 +41,7 @@ function errorColumn(key, title) {
 
 function statusCell(cell) {
   if (cell.status === "done") return "done";
-  return el(
-    "span",
-    { class: "why" },
-    [cell.status, cell.message].filter(Boolean).join(": "),
-  );
+  return el("span.why", [cell.status, cell.message].filter(Boolean).join(": "));
 }
 
 function cellColumns() {
@@ -77,13 +73,12 @@ function cellColumns() {
 
 function tableSection() {
   const cut = study.cells.length > MOST_CELLS;
-  return section(
-    "cells",
-    "All cells",
-    el(
-      "p",
-      { class: "lead" },
-      `The same and more is in sweep.csv.${cut ? ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones in the order chosen.` : ""}`,
+  return section("cells", "All cells",
+    el("p.lead",
+      "The same and more is in sweep.csv.",
+      cut &&
+        ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones ` +
+          "in the order chosen.",
     ),
     sortableTable({
       columns: cellColumns(),

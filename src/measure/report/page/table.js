@@ -36,32 +36,22 @@ function sortableTable({
     state.key = column.key;
     fill();
   };
-  const head = el(
-    "tr",
-    {},
+  const head = el("tr",
     columns.map((c) => headerCell(c, headers, choose)),
   );
   fill();
-  return scrollingTable(caption, el("thead", {}, head), body);
+  return scrollingTable(caption, el("thead", head), body);
 }
 
 // A table in a box of its own, which scrolls sideways.
 function scrollingTable(caption, head, body, kind = "data") {
-  return el(
-    "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
-    el(
-      "table",
-      { class: kind },
-      el("caption", { class: "hidden" }, caption),
-      head,
-      body,
-    ),
+  return el("div.scroll", { tabindex: 0, role: "region", "aria-label": caption },
+    el("table", { class: kind }, el("caption.hidden", caption), head, body),
   );
 }
 
 function headerCell(column, headers, choose) {
-  const title = [column.title, column.unit && el("span", { class: "unit" }, column.unit)];
+  const title = [column.title, column.unit && el("span.unit", column.unit)];
   const kind = [column.text && "text", column.rowHead && "row-head"].filter(Boolean);
   const header = el("th", {
     scope: "col",
@@ -71,11 +61,7 @@ function headerCell(column, headers, choose) {
   if (column.sort) {
     header.append(
       appendAll(
-        el("button", {
-          type: "button",
-          "data-key": column.key,
-          onclick: () => choose(column),
-        }),
+        el("button", { "data-key": column.key, onclick: () => choose(column) }),
         title,
       ),
     );
@@ -88,12 +74,10 @@ function headerCell(column, headers, choose) {
 }
 
 function tableRow(row, columns, rowClass) {
-  return el(
-    "tr",
-    { class: rowClass ? rowClass(row) : null },
+  return el("tr", { class: rowClass ? rowClass(row) : null },
     columns.map((column) =>
       column.rowHead
-        ? el("th", { scope: "row", class: "text" }, column.cell(row))
+        ? el("th.text", { scope: "row" }, column.cell(row))
         : el("td", { class: column.text ? "text" : null }, column.cell(row)),
     ),
   );
@@ -120,9 +104,8 @@ function sortRows(rows, key, descending) {
 // The value with its bounds below in small print.
 function twoLines({ value, bounds }, note) {
   return [
-    el("span", { class: "value" }, value),
-    (bounds || note) &&
-      el("span", { class: "bounds" }, [bounds, note].filter(Boolean).join(" ")),
+    el("span.value", value),
+    (bounds || note) && el("span.bounds", [bounds, note].filter(Boolean).join(" ")),
   ];
 }
 
@@ -131,16 +114,12 @@ function plainTable(caption, head, rows) {
   const title = (text, i) =>
     el("th", { scope: "col", class: i === 0 ? "text" : null }, text);
   const cell = (content, i) =>
-    i === 0
-      ? el("th", { scope: "row", class: "text" }, content)
-      : el("td", {}, content);
+    i === 0 ? el("th.text", { scope: "row" }, content) : el("td", content);
   return scrollingTable(
     caption,
-    el("thead", {}, el("tr", {}, head.map(title))),
-    el(
-      "tbody",
-      {},
-      rows.map((cells) => el("tr", {}, cells.map(cell))),
+    el("thead", el("tr", head.map(title))),
+    el("tbody",
+      rows.map((cells) => el("tr", cells.map(cell))),
     ),
   );
 }

@@ -60,48 +60,34 @@ function whisker(
   { style, width = 150, height = 26, marks = [], label },
 ) {
   const x = valueOf(interval);
-  if (x === null || !scale || (scale.log && x <= 0)) return el("span", {}, UNKNOWN);
+  if (x === null || !scale || (scale.log && x <= 0)) return el("span", UNKNOWN);
   const color = style ? `var(${style.variable})` : "var(--text)";
   const y = height / 2,
     pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
   const low = scale.log && interval.low <= 0 ? scale.from : interval.low;
-  return svg(
-    "svg",
+  return svg("svg.whisker",
     {
-      class: "whisker",
-      width,
-      height,
-      viewBox: `0 0 ${width} ${height}`,
-      role: "img",
+      width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
       "aria-label": label || joined(intervalTexts(interval)),
     },
     marks.map((mark) =>
-      svg("line", { class: "mark", x1: at(mark), x2: at(mark), y1: 0, y2: height }),
+      svg("line.mark", { x1: at(mark), x2: at(mark), y1: 0, y2: height }),
     ),
     hasBounds(interval) && [
       svg("line", {
-        x1: at(low),
-        x2: at(interval.high),
-        y1: y,
-        y2: y,
-        "stroke-width": 2,
+        x1: at(low), x2: at(interval.high), y1: y, y2: y, "stroke-width": 2,
         style: { stroke: color },
       }),
       [low, interval.high].map((v) =>
         svg("line", {
-          x1: at(v),
-          x2: at(v),
-          y1: y - 4,
-          y2: y + 4,
-          "stroke-width": 2,
+          x1: at(v), x2: at(v), y1: y - 4, y2: y + 4, "stroke-width": 2,
           style: { stroke: color },
         }),
       ),
     ],
     svg("path", {
-      d: markerPath(style ? style.marker : "circle", at(x), y, 4.2),
-      "stroke-width": 2,
+      d: markerPath(style ? style.marker : "circle", at(x), y, 4.2), "stroke-width": 2,
       style: { stroke: color, fill: color },
     }),
   );
@@ -111,24 +97,14 @@ function whisker(
 function whiskerAxis(scale, { width = 150, format = fmtShort, most = 5 }) {
   const pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
-  return svg(
-    "svg",
-    {
-      class: "whisker-axis",
-      width,
-      height: 22,
-      viewBox: `0 0 ${width} 22`,
-      "aria-hidden": "true",
-    },
+  return svg("svg.whisker-axis",
+    { width, height: 22, viewBox: `0 0 ${width} 22`, "aria-hidden": "true" },
     svg("line", { x1: pad, x2: width - pad, y1: 20.5, y2: 20.5 }),
     whiskerTicks(scale, most).map((tick) => [
       svg("line", { x1: at(tick), x2: at(tick), y1: 16, y2: 21 }),
-      svg(
-        "text",
+      svg("text",
         {
-          x: Math.max(10, Math.min(width - 10, at(tick))),
-          y: 12,
-          "text-anchor": "middle",
+          x: Math.max(10, Math.min(width - 10, at(tick))), y: 12, "text-anchor": "middle",
         },
         format(tick),
       ),
