@@ -14,7 +14,7 @@ import sys
 
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts, in this order.
-PLOTS = "logaxis logplot_draw logplot guides plot_save plot_export curves"
+PLOTS = "scale plot_draw plot guides plot_save plot_legend curves"
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
@@ -38,12 +38,12 @@ PAGES = {
                   "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
                   bench_rows bench_main"""),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
-                   """dom format data strategies whisker table logaxis stress_data
-                   stress_scale stress_plot plot_save stress_export stress_tiles stress_about stress_detail
-                   stress_strategies stress_table stress_summary stress_main"""),
+                   """dom format data view strategies whisker table scale plot_draw plot plot_save
+                   plot_legend stress_data stress_scale stress_plot stress_tiles stress_about
+                   stress_detail stress_strategies stress_table stress_summary stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
-                 """dom format strategies whisker logaxis tone live_socket live_camera
+                 """dom format strategies whisker scale plot_draw tone live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save
                  live_main"""),
@@ -86,22 +86,15 @@ def refuse_twins(page_dir, scripts):
 
 
 def assemble(page_dir, words, style, scripts):
-    has_plots = PLOTS in scripts  # those of uPlot
     styles = ["base.css", "table.css", "plots.css", *(f"{name}.css" for name in style.split()),
               "print.css"]
     scripts = [f"{name}.js" for name in scripts.split()]
     refuse_twins(page_dir, scripts)
-    licence = ""
-    if has_plots:
-        styles.insert(0, "vendor/uPlot.min.css")
-        scripts.insert(0, "vendor/uPlot.iife.min.js")
-        text = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
-        licence = f"<!--\nuPlot 1.6.32\n{text}\n-->\n"
     style_text, style_hashes = inline(page_dir, "style", styles)
     script_text, script_hashes = inline(page_dir, "script", scripts)
     theme_text, theme_hash = inline(page_dir, "script", ["theme.js"])
     html = (page_dir / "page.html").read_text(encoding="utf-8")
-    for marker, text in {"CONNECT": "", **words, STYLES: licence + style_text, SCRIPTS: script_text,
+    for marker, text in {"CONNECT": "", **words, STYLES: style_text, SCRIPTS: script_text,
                          "<!-- theme -->": theme_text, "STYLE_HASHES": style_hashes,
                          "SCRIPT_HASHES": f"{theme_hash} {script_hashes}"}.items():
         if marker not in html:

@@ -64,9 +64,7 @@ function benchWarnings() {
 }
 
 function benchSections(lines) {
-  const view = makeView({ strategies: lines });
-  view.ran = view.ranked = lines;
-  view.shown.set(new Set(lines.map((line) => line.index)));
+  const view = linesView(lines);
   const parallel =
     threadCounts.length > 1 && study.rows.some((row) => row.parallel_efficiency)
       ? [strategyLegend(view, "Lines shown"), efficiencyFigure(view, lines)]
@@ -89,7 +87,7 @@ function startBench() {
   document.title = "Lanelight bench";
   document.getElementById("bottom").textContent =
     "Written by lanelight bench. This page holds all its numbers and needs no network. " +
-    "Plots: uPlot, MIT licence.";
+    "";
   const content = document.getElementById("content");
   const lines = benchLines();
   const head = el("section#summary", { "aria-labelledby": "summary-title" },

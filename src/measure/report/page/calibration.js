@@ -33,15 +33,10 @@ function calibrationPoint(level, ratio) {
 }
 
 // Where the estimate is right.
-function drawTruth(u, ratio) {
-  const { min, max } = u.scales.x;
-  const yAt = (x) => (ratio ? 1 : x);
-  u.ctx.strokeStyle = theme.color("--muted");
-  u.ctx.lineWidth = 1.5 * devicePixelRatio;
-  u.ctx.beginPath();
-  u.ctx.moveTo(u.valToPos(min, "x", true), u.valToPos(yAt(min), "y", true));
-  u.ctx.lineTo(u.valToPos(max, "x", true), u.valToPos(yAt(max), "y", true));
-  u.ctx.stroke();
+function truthGuide(frame, ratio) {
+  const { from, to } = frame.scales.x;
+  const [first, last] = [from, to].map((x) => frame.y(ratio ? 1 : x));
+  return svg("path.truth", { d: `M${frame.left} ${first}L${frame.right} ${last}` });
 }
 
 function describeCalibration(line, { level }) {
@@ -111,7 +106,7 @@ function calibrationPlot(view, host, ratio) {
     square: !ratio,
     include: ratio ? [1] : [],
     describe: describeCalibration,
-    guides: (u) => drawTruth(u, ratio),
+    guides: (frame) => truthGuide(frame, ratio),
     xAxis: x,
     yAxis: y,
     label: "Relative MSE that renders estimate of themselves against the true one",

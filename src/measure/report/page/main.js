@@ -105,7 +105,7 @@ function footerText() {
   const versions = study.machine ? versionsText(study.machine.versions) : null;
   return (
     `Written by lanelight study${versions ? ` (${versions})` : ""}. This page holds all ` +
-    "its numbers and images and needs no network. Plots: uPlot, MIT licence."
+    "its numbers and images and needs no network."
   );
 }
 

@@ -78,7 +78,7 @@ function start() {
   document.title = `${scene.name} – Lanelight paper`;
   document.getElementById("bottom").textContent =
     "Written by lanelight study --paper. This page holds all its numbers and images and needs " +
-    "no network; report.html beside it has more. Plots: uPlot, MIT licence.";
+    "no network; report.html beside it has more.";
   linkSections(Object.keys(PAPER_EQUATIONS).map((key) => [`part-${key}`, `Figure ${key}`]));
   const view = makeView(scene);
   document

@@ -1,7 +1,7 @@
 "use strict";
 // Shows the run; what depends on the SIMD target or the chosen map is drawn anew.
 
-const state = { target: targets[0], map: null };
+const state = { target: targets[0], map: null, view: null };
 
 function fillTargets(onTarget) {
   if (targets.length < 2) return;
@@ -57,8 +57,12 @@ function start() {
     strategies = el("div");
   const showMap = () => {
     tip.hide();
-    const parts = state.map ? [detailSection(state.map, state.target, choose)] : [];
-    detail.replaceChildren(...parts);
+    if (state.view) state.view.close();
+    const { map, target } = state;
+    if (map) {
+      state.view = linesView(seriesOf(map, target));
+      detail.replaceChildren(detailSection(state.view, map, target, choose));
+    }
     markTile();
   };
   const choose = (name) => {

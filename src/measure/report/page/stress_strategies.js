@@ -47,7 +47,7 @@ function heatCell(aCase, line, point, first) {
     heatText(point),
   );
   return withTip(cell, () => [
-    describePoint(aCase)(line, point),
+    describePoint(aCase)(line, { point }),
     ratio !== null &&
       el("div", `efficiency ${joined(intervalTexts(point.efficiency))}`),
   ]);

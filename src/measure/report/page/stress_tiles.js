@@ -14,7 +14,7 @@ function tilePoints(aCase, line, xScale) {
   return line.points.filter(hasNumber).map((point) => {
     const { value, limit } = errorOf(aCase, point);
     return {
-      x: TILE.width * xScale.at(point.parameter),
+      x: TILE.width * shareOn(xScale, point.parameter),
       y: tileY(value),
       limit: known(limit) ? tileY(limit) : TILE.height,
       bad: !point.verdict.good,
@@ -69,7 +69,7 @@ function tileDrawing(aCase, target) {
     ),
     tileAllowance(curves),
     nearestBreaks(aCase, target).map((place) => {
-      const x = TILE.width * xScale.at(place.parameter);
+      const x = TILE.width * shareOn(xScale, place.parameter);
       return svg("line.break", { x1: x, x2: x, y1: 0, y2: TILE.height });
     }),
     lines.map((line, i) => tileCurve(line, curves[i])),

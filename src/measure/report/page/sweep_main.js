@@ -7,10 +7,7 @@ function plotArea(choice, onChange) {
   if (current) current.close();
   const panels = choicePanels(choice);
   const lines = allLines(panels);
-  const view = makeView({ strategies: lines });
-  // The legend's names and styles are those of the lines.
-  view.ran = view.ranked = lines;
-  view.shown.set(new Set(lines.map((line) => line.index)));
+  const view = linesView(lines);
   current = view;
   return [
     section("plots", "Efficiency, error, throughput",
@@ -29,7 +26,7 @@ function start() {
   document.title = `${study.file} – Lanelight sweep`;
   document.getElementById("bottom").textContent =
     "Written by lanelight sweep. This page holds all its numbers and needs no network. " +
-    "Plots: uPlot, MIT licence.";
+    "";
   const content = document.getElementById("content");
   if (doneCells.length === 0) {
     content.replaceChildren(sweepSummary(), tableSection());

@@ -69,7 +69,7 @@ function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
     xAxis,
     yAxis: { label: axis || label, ticks: decadeTicks, format: tick },
     include,
-    guides: (u) => byTime && power && drawSlopes(u, power),
+    guides: (frame) => byTime && power && slopeGuides(frame, power),
     describe: (line, point) => describeGroup(choice, measure, line, point),
   });
 }

@@ -12,8 +12,10 @@ function makeSignal(value) {
       value = next;
       for (const listener of listeners) listener(value);
     },
+    // Returns what ends the listening.
     listen(listener) {
       listeners.add(listener);
+      return () => listeners.delete(listener);
     },
   };
 }
@@ -48,6 +50,14 @@ function makeView(scene) {
     signal: abort.signal, // aborted when another scene is shown
     close: () => abort.abort(),
   };
+}
+
+// A view of lines that are not the strategies of a scene: all are shown.
+function linesView(lines) {
+  const view = makeView({ strategies: lines });
+  view.ran = view.ranked = lines;
+  view.shown.set(new Set(lines.map((line) => line.index)));
+  return view;
 }
 
 const MOST_CURVES = 8; // that an eye can tell apart

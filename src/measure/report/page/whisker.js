@@ -1,11 +1,9 @@
 "use strict";
 // Dots with whiskers: an estimate and its interval on an axis.
 
-// scale: {from, to, log}. Position of x in [0, width], held inside.
+// Position of x in [0, width], held inside.
 function whiskerX(scale, x, width) {
-  const f = scale.log ? Math.log10 : (v) => v;
-  const share = (f(x) - f(scale.from)) / (f(scale.to) - f(scale.from));
-  return Math.max(0, Math.min(1, share)) * width;
+  return Math.max(0, Math.min(1, shareOn(scale, x))) * width;
 }
 
 // A scale that holds all intervals and `include`, with some room.
@@ -26,31 +24,6 @@ function whiskerScale(intervals, log, include = []) {
   if (log) return { from: low / 1.25, to: high * 1.25, log };
   const room = 0.06 * (high - low || 1);
   return { from: low - room, to: high + room, log };
-}
-
-// Round values inside a scale: 1, 2, 5 times powers of ten, at most `most`.
-function whiskerTicks(scale, most = 5) {
-  const inside = (x) => x >= scale.from && x <= scale.to;
-  if (!scale.log) {
-    const step = niceStep((scale.to - scale.from) / most);
-    const first = Math.ceil(scale.from / step);
-    const count = Math.floor(scale.to / step) - first + 1;
-    return Array.from({ length: Math.max(0, count) }, (_, i) => (first + i) * step);
-  }
-  for (const factors of [[1, 2, 5], [1, 3], [1]]) {
-    const ticks = [];
-    for (let e = exponentOf(scale.from); e <= exponentOf(scale.to); ++e) {
-      ticks.push(...factors.map((f) => f * 10 ** e).filter(inside));
-    }
-    if (ticks.length <= most) return ticks;
-  }
-  const low = Math.ceil(Math.log10(scale.from)),
-    high = Math.floor(Math.log10(scale.to));
-  const step = Math.ceil((high - low + 1) / most);
-  return Array.from(
-    { length: Math.floor((high - low) / step) + 1 },
-    (_, i) => 10 ** (low + i * step),
-  );
 }
 
 // The drawing of one interval. marks: values with a vertical line.
@@ -100,7 +73,7 @@ function whiskerAxis(scale, { width = 150, format = fmtShort, most = 5 }) {
   return svg("svg.whisker-axis",
     { width, height: 22, viewBox: `0 0 ${width} 22`, "aria-hidden": "true" },
     svg("line", { x1: pad, x2: width - pad, y1: 20.5, y2: 20.5 }),
-    whiskerTicks(scale, most).map((tick) => [
+    roundTicks(scale, most).map((tick) => [
       svg("line", { x1: at(tick), x2: at(tick), y1: 16, y2: 21 }),
       svg("text",
         {
