@@ -12,38 +12,40 @@ import pathlib
 import re
 import sys
 
+# Scripts that several pages have, in their order.
+COMMON = "dom page inputs format"
+REPORT = f"{COMMON} data view strategies table"
+PLOTS = "whisker scale plot_draw plot plot_save plot_legend"
+CURVES = f"{REPORT} {PLOTS} guides curves"
+IMAGES = "tone picture pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
-# and plots.css, and before print.css; scripts, in this order.
-PLOTS = "scale plot_draw plot guides plot_save plot_legend curves"
+# and plots.css, and before print.css; scripts.
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
-             f"""dom format data view strategies whisker table hero warnings summary ranking
-             ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
-             controls readout figures figures_level insets maps stages levels glossary main"""),
+             f"""{CURVES} {IMAGES} hero warnings summary ranking ranking_columns calibration
+             figures figures_level insets maps stages levels glossary main"""),
     "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
                   "images",
-                  f"""dom format data view strategies whisker table hero summary
-                  ranking_columns {PLOTS} tone picture difference controls figures
+                  f"""{CURVES} tone picture difference hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
-                    """dom format data view tone picture pan pane difference comparator controls
-                    readout maps histogram compare_tiles compare_numbers compare_main"""),
+                    f"""{REPORT} {IMAGES} maps histogram compare_tiles compare_numbers
+                    compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
-                  f"""dom format data view strategies whisker table {PLOTS} stages tone picture
-                  rates sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
-                  sweep_table sweep_headline sweep_summary sweep_main"""),
+                  f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
+                  sweep_plots sweep_images sweep_stages sweep_table sweep_headline
+                  sweep_summary sweep_main"""),
     "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
-                  "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
-                  bench_rows bench_main"""),
+                  "sweep", f"{CURVES} stages rates bench_rows bench_main"),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
-                   """dom format data view strategies whisker table scale plot_draw plot plot_save
-                   plot_legend stress_data stress_scale stress_plot stress_tiles stress_about
-                   stress_detail stress_strategies stress_table stress_summary stress_main"""),
+                   f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles
+                   stress_about stress_detail stress_strategies stress_table stress_summary
+                   stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
-                 """dom format strategies whisker scale plot_draw tone live_socket live_camera
+                 f"""{COMMON} strategies whisker scale plot_draw tone live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save
                  live_main"""),

@@ -55,14 +55,6 @@ function benchTable() {
   );
 }
 
-// The sentences that the terminal prints.
-function benchWarnings() {
-  if (study.warnings.length === 0) return [];
-  return el("div.warnings", { role: "note" },
-    el("ul", study.warnings.map((text) => el("li", text))),
-  );
-}
-
 function benchSections(lines) {
   const view = linesView(lines);
   const parallel =
@@ -83,25 +75,26 @@ function benchSections(lines) {
 }
 
 function startBench() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = "Lanelight bench";
-  document.getElementById("bottom").textContent =
-    "Written by lanelight bench. This page holds all its numbers and needs no network. " +
-    "";
-  const content = document.getElementById("content");
   const lines = benchLines();
-  const head = el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", "How fast this machine renders"),
-    el("p.lead.headline", lines.length > 0 ? benchHeadline() : "Nothing was measured."),
-    el("dl.facts", fact("Machine", study.machine.text, null, { class: "wide" }),
-      fact("Program", study.program, null, { class: "wide" })),
-    benchWarnings(),
+  startPage({
+    title: "Lanelight bench",
+    footer:
+      "Written by lanelight bench. This page holds all its numbers and needs no network.",
+    sections: lines.length > 0 && [
+      ["rates", "Rates"], ["threads", "Threads"], ["groups", "Stages"], ["rows", "Rows"],
+    ],
+  });
+  const wide = { class: "wide" };
+  showContent(
+    firstSection("How fast this machine renders",
+      el("p.lead.headline", lines.length > 0 ? benchHeadline() : "Nothing was measured."),
+      el("dl.facts",
+        fact("Machine", study.machine.text, null, wide),
+        fact("Program", study.program, null, wide)),
+      warningBox(null, study.warnings), // the sentences that the terminal prints
+    ),
+    lines.length > 0 && benchSections(lines),
   );
-  content.replaceChildren(head, ...(lines.length > 0 ? benchSections(lines) : []));
-  if (lines.length === 0) return;
-  linkSections([["rates", "Rates"], ["threads", "Threads"], ["groups", "Stages"],
-    ["rows", "Rows"]]);
-  addEventListener("scroll", tip.hide, { passive: true });
 }
 
 startBench();

@@ -126,14 +126,7 @@ function calibrationSection(view) {
   };
   whenVisible(view, figure, () => draw("values"));
   figure.firstChild.append(
-    choiceButtons("Scale",
-      [
-        ["values", "Values"],
-        ["ratio", "Ratio"],
-      ],
-      "values",
-      draw,
-    ),
+    choiceButtons("Scale", [["values", "Values"], ["ratio", "Ratio"]], "values", draw),
   );
   return section("calibration", title,
     el("div.calibration",

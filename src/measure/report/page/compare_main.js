@@ -1,12 +1,6 @@
 "use strict";
 // The page of images beside a reference.
 
-const COLORS = ["--c0", "--c1", "--c2", "--c3", "--c4", "--c5", "--c6", "--c7"];
-
-function colorOf(index) {
-  return `var(${COLORS[index % COLORS.length]})`;
-}
-
 // A map that the program made of an image and the reference, in full precision.
 function programMap(key, a, b) {
   if (!a || !b || b.name !== study.reference.image) return null;
@@ -71,16 +65,15 @@ function verdictFacts(c) {
 }
 
 function verdictSection() {
-  return el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", `Against ${study.reference.name}`),
+  return firstSection(`Against ${study.reference.name}`,
     study.comparisons.map((c) => [
       el("p.verdict", `${c.verdict}.`),
       c.invalid_test + c.invalid_reference > 0 &&
-        el("div.warnings", { role: "note" },
+        warningBox(null, [
           `${fmtCount(c.invalid_test)} values of the image and ` +
             `${fmtCount(c.invalid_reference)} of the reference are no numbers; they are ` +
             "left out of all means, and shown in magenta.",
-        ),
+        ]),
       verdictFacts(c),
     ]),
     study.report_scale > 1 &&
@@ -94,7 +87,7 @@ function verdictSection() {
 function histogramSection() {
   const all = study.comparisons.map((c, i) => ({
     name: c.test,
-    color: colorOf(i),
+    color: `var(${strategyStyle(i).variable})`,
     image: findImage(c.image),
     map: findImage(c.maps.difference),
   }));
@@ -105,52 +98,50 @@ function histogramSection() {
   };
   const key = ({ name, color }) =>
     el("span", el("i.swatch-line", { style: { background: color } }), name);
+  const figure = (drawing, caption) =>
+    el("figure.paper", drawing, el("figcaption", caption));
   return section("histograms", "Histograms",
     el("div.histogram-key", [reference, ...all].map(key)),
     el("div.histograms",
-      el("figure.paper",
+      figure(
         luminanceHistogram([reference, ...all]),
-        el("figcaption", "Luminance of the pixels; black ones are in the first bin."),
+        "Luminance of the pixels; black ones are in the first bin.",
       ),
-      el("figure.paper",
+      figure(
         differenceHistogram(all.map((one) => ({ ...one, image: one.map }))),
-        el("figcaption",
-          "Signed relative difference of the pixels; beyond the ends in the last bins.",
-        ),
+        "Signed relative difference of the pixels; beyond the ends in the last bins.",
       ),
     ),
   );
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = `${study.reference.name} – Lanelight compare`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight compare. This page holds all its numbers and images and needs " +
-    "no network.";
-  linkSections([
-    ["summary", "Verdict"],
-    ["compare", "Images"],
-    ["tiles", "Tiles"],
-    ["histograms", "Histograms"],
-    ["numbers", "Numbers"],
-  ]);
+  startPage({
+    title: `${study.reference.name} – Lanelight compare`,
+    footer:
+      "Written by lanelight compare. This page holds all its numbers and images and needs " +
+      "no network.",
+    sections: [
+      ["summary", "Verdict"],
+      ["compare", "Images"],
+      ["tiles", "Tiles"],
+      ["histograms", "Histograms"],
+      ["numbers", "Numbers"],
+    ],
+  });
   const view = makeView({ report_scale: study.report_scale });
   const comparator = comparatorSection(view, imagesToChoose(), differenceKinds());
   const show = (a, b, place) => {
     view.compare.set({ a, b, place });
     comparator.scrollIntoView();
   };
-  document
-    .getElementById("content")
-    .replaceChildren(
-      verdictSection(),
-      comparator,
-      tilesSection(view, show),
-      histogramSection(),
-      numbersSection(),
-    );
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(
+    verdictSection(),
+    comparator,
+    tilesSection(view, show),
+    histogramSection(),
+    numbersSection(),
+  );
 }
 
 start();

@@ -44,26 +44,14 @@ function pText(p) {
 }
 
 function numbersSection() {
+  const { comparisons } = study;
+  const rows = COMPARISON_ROWS.filter(([, text]) =>
+    comparisons.some((c) => text(c) !== UNKNOWN),
+  );
   return section("numbers", "Numbers",
-    el("div.scroll", { tabindex: 0, role: "region", "aria-label": "Numbers" },
-      el("table.data",
-        el("thead",
-          el("tr",
-            el("th.text", "measure"),
-            study.comparisons.map((c) => el("th", c.test)),
-          ),
-        ),
-        el("tbody",
-          COMPARISON_ROWS.filter(([, text]) =>
-            study.comparisons.some((c) => text(c) !== UNKNOWN),
-          ).map(([name, text]) =>
-            el("tr",
-              el("th.text", name),
-              study.comparisons.map((c) => el("td", text(c))),
-            ),
-          ),
-        ),
-      ),
+    plainTable("Numbers",
+      ["measure", ...comparisons.map((c) => c.test)],
+      rows.map(([name, text]) => [name, ...comparisons.map(text)]),
     ),
     el("p.hint",
       "Relative MSE: mean of (a − b)² / (b² + 0.01). FLIP: 0 looks alike, 1 as different as " +

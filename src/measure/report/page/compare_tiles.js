@@ -15,25 +15,9 @@ function cropAround(tile, image) {
   return { x, y, width, height };
 }
 
-function tileFrame(tile) {
-  const scale = study.report_scale || 1;
-  return {
-    x: tile.x / scale,
-    y: tile.y / scale,
-    width: tile.width / scale,
-    height: tile.height / scale,
-  };
-}
-
 function cropPicture(view, label, image, crop, makePixels) {
-  return picture(view, {
-    label,
-    width: image.width,
-    height: image.height,
-    crop,
-    makePixels,
-    redrawOn: view.tone,
-  });
+  const { width, height } = image;
+  return picture(view, { label, width, height, crop, makePixels, redrawOn: view.tone });
 }
 
 function worstTile(view, comparison, tile, show) {

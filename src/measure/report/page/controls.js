@@ -26,10 +26,6 @@ function imageSelect(comparison, slot, onChange) {
   return select;
 }
 
-function labelled(text, control, extra) {
-  return el("label.labelled", el("span", text), control, extra);
-}
-
 function comparatorControls(comparison, rebuild) {
   const retitle = () => {
     comparison.panes.forEach((pane) => pane.retitle());
@@ -138,30 +134,21 @@ function showZoom(comparison) {
   comparison.zoomText.textContent = `${Math.round(percent)} %`;
 }
 
-function toneControls(view) {
-  const { tone } = view;
-  const slider = el("input", {
-    type: "range", min: -8, max: 8, step: 0.1, value: 0, "data-control": "exposure",
+function toneControls({ tone }) {
+  const set = (change) => tone.set({ ...tone.value, ...change });
+  const exposure = slider("Exposure", {
+    min: -8, max: 8, step: 0.1, value: 0, "data-control": "exposure", text: fmtExposure,
+    onInput: (x) => set({ exposure: x }),
   });
-  const text = el("output.exposure", "0.0");
-  const set = (change) => {
-    tone.set({ ...tone.value, ...change });
-    slider.value = tone.value.exposure;
-    text.textContent = fmtExposure(tone.value.exposure);
+  const reset = () => {
+    exposure.set(0);
+    set({ exposure: 0 });
   };
-  slider.addEventListener("input", () => set({ exposure: Number(slider.value) }));
-  const select = el("select", { "data-control": "tone" },
-    Object.entries(TONE_CURVES).map(([key, { label }]) =>
-      el("option", { value: key }, label),
-    ),
-  );
-  select.addEventListener("change", () => set({ curve: select.value }));
   return el("div.control-row",
-    labelled("Exposure", slider, text),
-    el("button.button", { onclick: () => set({ exposure: 0 }) },
-      "Reset",
-    ),
-    labelled("Tone", select),
+    exposure.node,
+    el("button.button", { onclick: reset }, "Reset"),
+    menu("Tone", { "data-control": "tone" }, TONE_OPTIONS, tone.value.curve,
+      (curve) => set({ curve })),
   );
 }
 

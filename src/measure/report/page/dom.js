@@ -49,62 +49,6 @@ function svg(selector, attributes, ...children) {
   return made((tag) => document.createElementNS(space, tag), selector, attributes, children);
 }
 
-// A part of the page with a heading that the navigation can point to.
-function section(id, title, ...children) {
-  return el("section", { id, "aria-labelledby": `${id}-title` },
-    el("h2", { id: `${id}-title` }, title),
-    children,
-  );
-}
-
-// Fills the navigation: [[id, title], ...] of sections.
-function linkSections(sections, hash = (id) => `#${id}`) {
-  document
-    .getElementById("sections")
-    .replaceChildren(
-      ...sections.map(([id, title]) => el("a", { href: hash(id) }, title)),
-    );
-}
-
-// A choice of many. options: [[value, text], ...]; data: attributes of the selection.
-function menu(label, data, options, value, onChoose) {
-  const select = el("select", { ...data, onchange: () => onChoose(select.value) },
-    options.map(([key, text]) =>
-      el("option", { value: key, selected: key === value }, text),
-    ),
-  );
-  return el("label.menu", el("span", label), select);
-}
-
-// A pair of a list of facts; none if the value is not known.
-function fact(term, value, note, attributes = {}) {
-  if (!value) return null;
-  return el("div",
-    attributes,
-    el("dt", term),
-    el("dd", value, note && el("span.note", note)),
-  );
-}
-
-// Buttons of which exactly one is pressed. options: [[value, label], ...].
-function choiceButtons(label, options, value, onChoose) {
-  const buttons = options.map(([key, text]) =>
-    el("button.button", { "data-value": key, "aria-pressed": String(key === value) },
-      text,
-    ),
-  );
-  const group = el("div.choices", { role: "group", "aria-label": label }, buttons);
-  group.addEventListener("click", (event) => {
-    const chosen = event.target.closest("button");
-    if (!chosen) return;
-    for (const button of buttons) {
-      button.setAttribute("aria-pressed", String(button === chosen));
-    }
-    onChoose(chosen.dataset.value);
-  });
-  return group;
-}
-
 // Calls draw once the element comes near the screen, or when the page is printed.
 function whenVisible(view, node, draw) {
   let drawn = false;

@@ -153,11 +153,7 @@ function convergenceFigure(view, strategies) {
 }
 
 function orderRows(strategies) {
-  const scale = whiskerScale(
-    strategies.map((s) => s.order),
-    false,
-    [-0.5],
-  );
+  const scale = whiskerScale(strategies.map((s) => s.order), false, [-0.5]);
   const size = { width: 200 };
   return el("div.orders",
     el("div"),

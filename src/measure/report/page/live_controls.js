@@ -2,26 +2,6 @@
 // The bars above and below the picture: which one, how bright, what lies over it, the
 // camera's numbers.
 
-const CURVE_OPTIONS = ["srgb", "reinhard", "filmic", "false"].map((name) => [
-  name,
-  TONE_CURVES[name].label,
-]);
-
-// A slider with its value beside it. text(x): of the value.
-function slider(label, { id, min, max, step, value, text, onInput }) {
-  const shown = el("output.slider-value", text(value));
-  const input = el("input", { type: "range", id, min, max, step, value, oninput: () => {
-      shown.textContent = text(Number(input.value));
-      onInput(Number(input.value));
-    } });
-  const set = (x) => {
-    input.value = x;
-    shown.textContent = text(x);
-  };
-  const node = el("label.slider", el("span", label), input, shown);
-  return { node, set };
-}
-
 function viewBar(page) {
   const { look } = page;
   const split = slider("Slider", {
@@ -137,7 +117,7 @@ function toneBar(page) {
       page.viewer.redraw();
     },
   });
-  const curve = menu("Tone", { id: "curve" }, CURVE_OPTIONS, page.look.curve, (name) => {
+  const curve = menu("Tone", { id: "curve" }, TONE_OPTIONS, page.look.curve, (name) => {
     page.look.curve = name;
     page.viewer.redraw();
   });
@@ -162,9 +142,7 @@ function cameraBar(page) {
     id: "focus", min: -4, max: 4, step: 0.02, value: stops(eye.focus),
     text: (x) => fmt(size * 2 ** x), onInput: (x) => change({ focus: size * 2 ** x }),
   });
-  const home = el(
-    "button#home.button", "Camera of the scene",
-  );
+  const home = el("button#home.button", "Camera of the scene");
   home.addEventListener("click", () => page.onHome());
   page.showEye = (now) => {
     fov.set(now.fov);

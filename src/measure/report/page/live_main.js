@@ -62,8 +62,7 @@ function build(hello) {
     section("figures", "The paper, figure by figure", presetButtons(page, page.cards)),
     section("take", "Take it away", saveBar(page)),
     section("stages", "Where the time goes", page.stages.node));
-  document.getElementById("content").replaceChildren(
-    el("div.live", viewer, side));
+  document.getElementById("content").replaceChildren(el("div.live", viewer, side));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
   linkSections([["viewer", "Picture"], ["compare", "Compare"],
     ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);

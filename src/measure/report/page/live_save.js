@@ -1,15 +1,6 @@
 "use strict";
 // Taking things away: files, the command line, the camera.
 
-function saveBlob(blob, name) {
-  const address = URL.createObjectURL(blob);
-  const link = el("a", { href: address, download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
-}
-
 async function copyText(text, shown) {
   shown.textContent = text;
   try {
@@ -31,7 +22,7 @@ function saveBar(page) {
   };
   page.takeCameraText = ({ text: content }) => show("The camera", content);
   page.takeFile = (head, buffer, at) => {
-    saveBlob(new Blob([new Uint8Array(buffer, at)]), head.name);
+    saveFile(head.name, new Blob([new Uint8Array(buffer, at)]));
     said.textContent = `${head.name} is saved.`;
   };
   page.say = (message) => {
@@ -40,7 +31,7 @@ function saveBar(page) {
   const exr = (slot) => () => page.socket.send({ do: "exr", slot });
   const png = () => {
     page.viewer.draw();
-    page.viewer.canvas.toBlob((blob) => saveBlob(blob, `${page.stem}.png`), "image/png");
+    page.viewer.canvas.toBlob((blob) => saveFile(`${page.stem}.png`, blob), "image/png");
     said.textContent = `${page.stem}.png is saved: the picture as it is seen.`;
   };
   const command = () => {

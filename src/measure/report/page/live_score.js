@@ -21,8 +21,7 @@ function drawScore(node, state) {
   const bounds = `[${known(ratio.low) ? fmt(ratio.low) : "0"}, ${
     known(ratio.high) ? fmt(ratio.high) : "∞"}]`;
   node.replaceChildren(
-    el("div.number", fmt(ratio.value),
-      el("span.bounds", ` ${bounds}`)),
+    el("div.number", fmt(ratio.value), el("span.bounds", ` ${bounds}`)),
     el("p", el("b", `${verdictText(ratio, state.pace)}. `),
       `Efficiency of B over A, 1 / (relative MSE × ${cost}), with a 95 % interval that `,
       "holds at all looks together, from what both estimate of their own errors."),

@@ -25,11 +25,7 @@ function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
     context.fillStyle = theme.color("--muted");
     context.font = `${14 * devicePixelRatio}px system-ui, sans-serif`;
     context.textAlign = "center";
-    context.fillText(
-      MISSING_IMAGE,
-      canvas.width / 2,
-      canvas.height / 2,
-    );
+    context.fillText(MISSING_IMAGE, canvas.width / 2, canvas.height / 2);
   }
   context.restore();
 }

@@ -33,8 +33,7 @@ function paperPart(number, title, big, found, figure) {
 
 function paperIntroduction(view) {
   const { bias } = view.scene;
-  return el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", "A paper on path tracing, on one page"),
+  return firstSection("A paper on path tracing, on one page",
     el("p.verdict",
       "S. Maughan's Path Tracing Renderer Using Monte Carlo Methods, each figure rendered anew ",
        "and measured, on the scene ", el("b", view.scene.name), "."),
@@ -73,19 +72,17 @@ function paperSections(view) {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
   const scene = study.scenes[0];
-  document.title = `${scene.name} – Lanelight paper`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight study --paper. This page holds all its numbers and images and needs " +
-    "no network; report.html beside it has more.";
-  linkSections(Object.keys(PAPER_EQUATIONS).map((key) => [`part-${key}`, `Figure ${key}`]));
+  const numbers = Object.keys(PAPER_EQUATIONS);
+  startPage({
+    title: `${scene.name} – Lanelight paper`,
+    footer:
+      "Written by lanelight study --paper. This page holds all its numbers and images and " +
+      "needs no network; report.html beside it has more.",
+    sections: numbers.map((key) => [`part-${key}`, `Figure ${key}`]),
+  });
   const view = makeView(scene);
-  document
-    .getElementById("content")
-    .replaceChildren(...appendAll(el("div"), [paperIntroduction(view), paperSections(view)])
-      .childNodes);
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(paperIntroduction(view), paperSections(view));
 }
 
 start();

@@ -62,10 +62,7 @@ function picture(
 // White within black, so that it shows on anything.
 function strokeFrame(context, { x, y, width, height }, ratio) {
   const unit = Math.min(devicePixelRatio, (width * ratio) / 14);
-  for (const [color, line] of [
-    ["#000", 4 * unit],
-    ["#fff", 2 * unit],
-  ]) {
+  for (const [color, line] of [["#000", 4 * unit], ["#fff", 2 * unit]]) {
     context.strokeStyle = color;
     context.lineWidth = line;
     context.strokeRect(x * ratio, y * ratio, width * ratio, height * ratio);
@@ -97,8 +94,6 @@ function rampLegend(table, [low, middle, high]) {
   canvas.getContext("2d").putImageData(pixels, 0, 0);
   return el("div.ramp-legend",
     canvas,
-    el("div.ramp-texts",
-      [low, middle, high].map((t) => el("span", t)),
-    ),
+    el("div.ramp-texts", [low, middle, high].map((t) => el("span", t))),
   );
 }

@@ -27,9 +27,7 @@ function strategyLegend(view, label = "Strategies shown") {
     );
   view.shown.listen(show);
   show(view.shown.value);
-  const legend = el("div.legend", { role: "group", "aria-label": label },
-    buttons,
-  );
+  const legend = el("div.legend", { role: "group", "aria-label": label }, buttons);
   if (listed.length > MOST_CURVES) legend.prepend(filterBox(view, listed, buttons));
   return legend;
 }

@@ -81,12 +81,6 @@ ${[...rows, ...besides].map(text).join("\n")}
 `;
 }
 
-function saveFile(name, blob) {
-  const link = el("a", { href: URL.createObjectURL(blob), download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
 function savePng(name, text) {
   const image = new Image();
   image.onload = () => {

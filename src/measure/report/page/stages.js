@@ -39,10 +39,7 @@ function stageBar(strategy, names, length = 1) {
     return el("div.bar.empty", "No stages recorded.");
   const rank = new Map(names.map((name, i) => [name, i]));
   stages.sort((a, b) => rank.get(a.name) - rank.get(b.name));
-  const total = Math.max(
-    1,
-    stages.reduce((sum, stage) => sum + stage.share, 0),
-  );
+  const total = Math.max(1, stages.reduce((sum, stage) => sum + stage.share, 0));
   return el("div.bar", { role: "list" },
     stages.map((stage) => {
       const share = stage.share / total;
@@ -110,10 +107,7 @@ function stagesTable(view, names) {
 // A bar with its name, and a few words on the whole.
 function stageRow(strategy, text, bar, attributes = {}) {
   return el("div.stage-row", { ...attributes },
-    el("div.stage-name",
-      strategyLabel(strategy),
-      el("span.bounds", text),
-    ),
+    el("div.stage-name", strategyLabel(strategy), el("span.bounds", text)),
     bar,
   );
 }

@@ -22,18 +22,6 @@ function fillTargets(onTarget) {
   );
 }
 
-function fillSections() {
-  linkSections(
-    [
-      ["summary", "Verdict"],
-      maps.length > 0 && ["map", "Map"],
-      compared.length > 0 && ["strategies", "Strategies"],
-      ["cases", "Cases"],
-      ["reading", "How to read this"],
-    ].filter(Boolean),
-  );
-}
-
 // The map to begin with: one that fails, or breaks, or the first.
 function firstMap() {
   const fails = maps.find((m) => m.outcome === "failed");
@@ -48,10 +36,17 @@ function markTile() {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = "Lanelight stress";
-  document.getElementById("bottom").textContent =
-    `Written by ${study.version}. This page holds all its numbers and needs no network.`;
+  startPage({
+    title: "Lanelight stress",
+    footer: `Written by ${study.version}. This page holds all its numbers and needs no network.`,
+    sections: [
+      ["summary", "Verdict"],
+      maps.length > 0 && ["map", "Map"],
+      compared.length > 0 && ["strategies", "Strategies"],
+      ["cases", "Cases"],
+      ["reading", "How to read this"],
+    ],
+  });
   const top = el("div"),
     detail = el("div"),
     strategies = el("div");
@@ -74,16 +69,12 @@ function start() {
     state.target = target;
     fillTargets(showTarget);
     top.replaceChildren(stressSummary(target, choose));
-    strategies.replaceChildren(...[strategiesSection(target)].filter(Boolean));
+    strategies.replaceChildren(strategiesSection(target) || "");
     showMap();
   };
   state.map = firstMap();
-  fillSections();
-  document
-    .getElementById("content")
-    .replaceChildren(top, detail, strategies, tableSection(choose), readingSection());
+  showContent(top, detail, strategies, tableSection(choose), readingSection(STRESS_TERMS));
   showTarget(state.target);
-  addEventListener("scroll", tip.hide, { passive: true });
 }
 
 start();

@@ -113,9 +113,7 @@ function heatMap(target) {
   return scrollingTable(
     "Efficiencies",
     heatHead(blocks),
-    el("tbody",
-      names.map((name) => heatRow(name, blocks)),
-    ),
+    el("tbody", names.map((name) => heatRow(name, blocks))),
     "data heat-map",
   );
 }

@@ -49,13 +49,14 @@ function chips() {
 }
 
 function stressSummary(target, onChoose) {
-  return el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", { "data-outcome": verdictKind() }, study.sentence),
+  const first = firstSection(study.sentence,
     summaryFacts(),
     maps.length > 0 && tileLegend(),
     tileGrid(target, onChoose),
     chips(),
   );
+  first.querySelector("h1").dataset.outcome = verdictKind();
+  return first;
 }
 
 const STRESS_TERMS = [
@@ -90,11 +91,3 @@ const STRESS_TERMS = [
       "camera sample. Lanes: how full the vectors of all stages were.",
   ],
 ];
-
-function readingSection() {
-  return section("reading", "How to read this",
-    el("dl.glossary",
-      STRESS_TERMS.map(([term, text]) => el("div", el("dt", term), el("dd", text))),
-    ),
-  );
-}

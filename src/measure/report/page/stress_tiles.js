@@ -116,7 +116,5 @@ function tileGrid(target, onChoose) {
   const order = [...maps].sort(
     (a, b) => Number(failsOn(b, target)) - Number(failsOn(a, target)),
   );
-  return el("div.tiles",
-    order.map((aCase) => tile(aCase, target, onChoose)),
-  );
+  return el("div.tiles", order.map((aCase) => tile(aCase, target, onChoose)));
 }

@@ -3,8 +3,7 @@
 
 function summarySection(view) {
   const { scene } = view;
-  return el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", scene.name),
+  return firstSection(scene.name,
     hero(view),
     warningsList(view),
     factsList(view),
@@ -95,8 +94,6 @@ function notesList(scene) {
   if (!scene.notes || scene.notes.length === 0) return null;
   return el("details.notes",
     el("summary", `Notes on the scene file (${scene.notes.length})`),
-    el("ul",
-      scene.notes.map((note) => el("li", note)),
-    ),
+    el("ul", scene.notes.map((note) => el("li", note))),
   );
 }

@@ -48,22 +48,18 @@ function imagesSection(view, choice) {
   if (imageBlocks.size === 0) return null;
   const amount = varyingAxes.find((axis) => AMOUNTS.includes(axis.name)) || null;
   const values = amount ? amount.values : [null];
-  const output = el("output");
   const host = el("div");
   const show = (i) => {
-    if (amount) output.textContent = valueLabel(amount, values[i]);
     host.replaceChildren();
-    appendAll(host, [chosenPictures(view, choice, amount, values[i])]);
+    appendAll(host, chosenPictures(view, choice, amount, values[i]));
   };
-  const slider = el("input", {
-    type: "range", min: 0, max: values.length - 1, value: values.length - 1,
-    "data-control": "amount", "aria-label": amount && amount.title,
-    oninput: () => show(Number(slider.value)),
-  });
-  show(values.length - 1);
-  return section("images", "Pictures",
+  const last = values.length - 1;
+  show(last);
+  const amounts =
     amount &&
-      el("label.labelled", el("span", amount.title), slider, output),
-    host,
-  );
+    slider(amount.title, {
+      min: 0, max: last, value: last, "data-control": "amount",
+      text: (i) => valueLabel(amount, values[i]), onInput: show,
+    }).node;
+  return section("images", "Pictures", amounts, host);
 }

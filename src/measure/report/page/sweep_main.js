@@ -7,8 +7,7 @@ function plotArea(choice, onChange) {
   if (current) current.close();
   const panels = choicePanels(choice);
   const lines = allLines(panels);
-  const view = linesView(lines);
-  current = view;
+  const view = (current = linesView(lines));
   return [
     section("plots", "Efficiency, error, throughput",
       varyingAxes.length > 0 && choiceMenus(choice, onChange),
@@ -22,22 +21,17 @@ function plotArea(choice, onChange) {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = `${study.file} – Lanelight sweep`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight sweep. This page holds all its numbers and needs no network. " +
-    "";
-  const content = document.getElementById("content");
-  if (doneCells.length === 0) {
-    content.replaceChildren(sweepSummary(), tableSection());
-    return;
-  }
-  linkSections([
-    ["plots", "Plots"],
-    ...(imageBlocks.size > 0 ? [["images", "Pictures"]] : []),
-    ["stages", "Stage costs"],
-    ["cells", "Cells"],
-  ]);
+  startPage({
+    title: `${study.file} – Lanelight sweep`,
+    footer:
+      "Written by lanelight sweep. This page holds all its numbers and needs no network.",
+    sections: doneCells.length > 0 && [
+      ["plots", "Plots"],
+      imageBlocks.size > 0 && ["images", "Pictures"],
+      ["stages", "Stage costs"],
+      ["cells", "Cells"],
+    ],
+  });
   const area = el("div#area");
   const show = (choice) => {
     const focused = document.activeElement && document.activeElement.dataset.menu;
@@ -46,9 +40,8 @@ function start() {
     const again = focused && area.querySelector(`[data-menu="${focused}"]`);
     if (again) again.focus();
   };
-  content.replaceChildren(sweepSummary(), area, tableSection());
-  show(firstChoice());
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(sweepSummary(), area, tableSection());
+  if (doneCells.length > 0) show(firstChoice());
 }
 
 start();

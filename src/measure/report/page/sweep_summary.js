@@ -55,16 +55,9 @@ function warnings() {
 }
 
 function sweepSummary() {
-  const texts = warnings();
-  return el("section#summary", { "aria-labelledby": "summary-title" },
-    el("h1#summary-title", study.file),
+  return firstSection(study.file,
     el("p.lead.headline", headlineText()),
-    texts.length > 0 &&
-      el("div.warnings", { role: "note" },
-        el("ul",
-          texts.map((text) => el("li", text)),
-        ),
-      ),
+    warningBox(null, warnings()),
     el("dl.facts",
       fact("Cells",
         `${fmtCount(doneCells.length)} of ${fmtCount(study.cells.length)} done`,

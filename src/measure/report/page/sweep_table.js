@@ -4,39 +4,21 @@
 const MOST_CELLS = 500;
 
 function axisColumn(axis) {
-  const number = (cell) => {
-    const x = Number(cell.values[axis.name]);
+  const number = ({ values }) => {
+    const x = Number(values[axis.name]);
     return known(x) ? x : null;
   };
-  return {
-    key: axis.name,
-    title: axis.title,
-    text: !axis.numeric,
-    cell: (cell) => valueOn(cell, axis),
-    sort: axis.numeric ? number : (cell) => valueOn(cell, axis),
-  };
+  const text = (cell) => valueOn(cell, axis);
+  const sort = axis.numeric ? number : text;
+  return textColumn(axis.name, axis.title, text, { text: !axis.numeric, sort });
 }
 
 function measuredColumn(key, title, unit, format) {
-  return {
-    key,
-    title,
-    unit,
-    cell: (cell) => format(cell.measured[key]),
-    sort: (cell) => (known(cell.measured[key]) ? cell.measured[key] : null),
-  };
+  return numberColumn(key, title, (cell) => cell.measured[key], format, { unit });
 }
 
 function errorColumn(key, title) {
-  const interval = ({ measured }) => ({
-    value: measured[key],
-    low: measured[`${key}_low`],
-    high: measured[`${key}_high`],
-  });
-  return {
-    ...measuredColumn(key, title, null, fmt),
-    cell: (cell) => twoLines(intervalTexts(interval(cell))),
-  };
+  return intervalColumn(key, title, ({ measured }) => statedInterval(measured, key));
 }
 
 function statusCell(cell) {
@@ -54,13 +36,7 @@ function cellColumns() {
   const seed = { name: "seed", title: "Seed", numeric: true };
   return [
     ...[...shown, ...(study.seeds > 1 ? [seed] : [])].map(axisColumn),
-    {
-      key: "status",
-      title: "Status",
-      text: true,
-      cell: statusCell,
-      sort: (c) => c.status,
-    },
+    textColumn("status", "Status", statusCell, { sort: (c) => c.status }),
     errorColumn("relmse", "Relative MSE"),
     errorColumn("rmse", "RMSE"),
     measuredColumn("cpu_seconds", "Processor time", null, fmtSeconds),

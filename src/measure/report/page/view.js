@@ -102,12 +102,6 @@ function rankOrder(scene, ran) {
   return [...ran].sort((a, b) => order(a) - order(b));
 }
 
-// Calls draw now and whenever the colours change.
-function drawThemed(view, draw) {
-  document.addEventListener("themechange", draw, { signal: view.signal });
-  draw();
-}
-
 function confidenceText() {
   const confidence = study.settings ? study.settings.confidence : null;
   return known(confidence) ? fmtShortPercent(confidence) : null;

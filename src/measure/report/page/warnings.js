@@ -133,8 +133,6 @@ function warningsList(view) {
         "failed, and the reference is good enough.",
     );
   }
-  return el("div.warnings", { role: "note" },
-    el("h3", items.length === 1 ? "One thing to know" : `${items.length} things to know`),
-    el("ul", items.map(warningItem)),
-  );
+  const title = items.length === 1 ? "One thing to know" : `${items.length} things to know`;
+  return warningBox(title, items.map(warningItem));
 }
