@@ -7,7 +7,7 @@ As report_test.py.
 import math
 
 import run_checks
-from checks import check, plot, require
+from checks import check, markers, plot, require
 
 
 def data(page):
@@ -38,10 +38,9 @@ def warnings_of_the_terminal_are_on_the_page(page):
 def efficiency_is_drawn(page):
     page.scroll_through()
     rows = data(page)["rows"]
-    drawn = page.js("return document.querySelector('[data-plot=efficiency]')"
-                    ".plot.data.map((c) => [...c])")
-    require(drawn[0] == [1, 2], "threads:", drawn)
-    for y, row in zip(drawn[1], rows):
+    (curve,) = markers(page, "efficiency")
+    require([x for x, _ in curve] == [1, 2], "threads:", curve)
+    for (_, y), row in zip(curve, rows):
         require(math.isclose(y, row["parallel_efficiency"]["value"]), y, row)
     require(page.ink(plot(page, "efficiency"))["coloured"] > 100, "a blank plot")
 

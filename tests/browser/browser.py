@@ -15,20 +15,39 @@ FLAGS = [
     "--hide-scrollbars", "--disable-dev-shm-usage", "--force-device-scale-factor=1",
 ]
 
+# What is drawn on a canvas, or as SVG with the styles that the page gives it.
 PLOT_INK = """
-  const c = arguments[0], copy = document.createElement('canvas');
-  copy.width = c.width, copy.height = c.height;
-  const context = copy.getContext('2d', {willReadFrequently: true});
-  context.drawImage(c, 0, 0);
-  const d = context.getImageData(0, 0, c.width, c.height).data;
-  let ink = 0, coloured = 0, hash = 0;
-  for (let i = 0; i < d.length; i += 4) {
-    if (d[i + 3] > 40) ++ink;
-    if (d[i + 3] > 120 && Math.max(d[i], d[i + 1], d[i + 2]) -
-        Math.min(d[i], d[i + 1], d[i + 2]) > 60) ++coloured;
-    hash = (Math.imul(hash, 31) + d[i] * 7 + d[i + 1] * 3 + d[i + 2] + d[i + 3]) | 0;
-  }
-  return {ink, coloured, hash, pixels: d.length / 4};
+  const drawn = async (shown) => {
+    const copy = shown.cloneNode(true), nodes = copy.querySelectorAll('*');
+    shown.querySelectorAll('*').forEach((node, i) => {
+      for (const name of ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'opacity',
+                          'display', 'font-size'])
+        nodes[i].style.setProperty(name, getComputedStyle(node).getPropertyValue(name));
+    });
+    const picture = new Image();
+    picture.src = 'data:image/svg+xml;charset=utf-8,' +
+      encodeURIComponent(new XMLSerializer().serializeToString(copy));
+    await picture.decode();
+    return picture;
+  };
+  return (async (shown) => {
+    const picture = shown.tagName === 'svg' ? await drawn(shown) : shown;
+    const copy = document.createElement('canvas');
+    copy.width = picture.width, copy.height = picture.height;
+    const context = copy.getContext('2d', {willReadFrequently: true});
+    context.drawImage(picture, 0, 0);
+    const d = context.getImageData(0, 0, copy.width, copy.height).data;
+    let ink = 0, coloured = 0, hash = 0;
+    const shades = new Set();
+    for (let i = 0; i < d.length; i += 4) {
+      if (d[i + 3] > 40) ++ink;
+      if (d[i + 3] > 120 && Math.max(d[i], d[i + 1], d[i + 2]) -
+          Math.min(d[i], d[i + 1], d[i + 2]) > 60) ++coloured;
+      shades.add(d[i]);
+      hash = (Math.imul(hash, 31) + d[i] * 7 + d[i + 1] * 3 + d[i + 2] + d[i + 3]) | 0;
+    }
+    return {ink, coloured, hash, shades: shades.size, pixels: d.length / 4};
+  })(arguments[0]);
 """
 
 

@@ -21,7 +21,28 @@ def require(condition, *what):
 
 
 def plot(page, name):
-    return page.find(f'[data-plot="{name}"] canvas')
+    return page.find(f'[data-plot="{name}"] svg')
+
+
+def markers(page, name):
+    """Of every curve that a plot shows, in their order: [[(x, y), ...], ...]."""
+    return [[tuple(pair) for pair in curve] for curve in page.js("""
+        const host = document.querySelector(`[data-plot="${arguments[0]}"]`);
+        return [...host.querySelectorAll('g[data-series]')].map((g) =>
+          [...g.querySelectorAll('.marker')].map((m) => [+m.dataset.x, +m.dataset.y]))""",
+                                                                 name)]
+
+
+def note_of(page, selector):
+    """What the floating note says when the pointer is on the middle of an element."""
+    page.js("""const node = document.querySelector(arguments[0]);
+      const box = node.getBoundingClientRect();
+      node.dispatchEvent(new PointerEvent('pointermove', {
+        bubbles: true, clientX: box.x + box.width / 2, clientY: box.y + box.height / 2}))""",
+            selector)
+    text = page.text("#tip")
+    page.js("tip.hide()")
+    return text
 
 
 def theme(page):

@@ -17,7 +17,7 @@ def plots_are_saved_as_what_they_show(page):
         require(file["name"].endswith(f"{name}.svg"), file["name"])
         root = xml.fromstring(file["text"])
         ns = "{http://www.w3.org/2000/svg}"
-        points = [p for p in root.iter(f"{ns}path") if p.get("class") == "point"]
+        points = [p for p in root.iter(f"{ns}path") if p.get("class") == "marker"]
         texts = [t.text for t in root.iter(f"{ns}text")]
         require(any("Lanelight study" in (t or "") for t in texts), "no source:", texts)
         require("var(" not in file["text"], "colours of the page in", name)

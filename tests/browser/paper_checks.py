@@ -20,7 +20,7 @@ def every_figure_has_picture_number_and_sentences(page):
         require(len(sentences) == 3, number, "says", sentences)
         require("Nothing was found" not in sentences[2], number, sentences[2])
         require(re.search(r"\d", sentences[2]), "no number in", sentences[2])
-        canvas = page.find(f"#part-{number} canvas")
+        canvas = page.find(f"#part-{number} :is(canvas, .curves)")
         ink = page.ink(canvas)
         require(ink["ink"] > 0.01 * ink["pixels"], number, "is blank", ink)
         if number > 1:

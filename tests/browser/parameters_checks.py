@@ -1,7 +1,7 @@
 """Checks of the page of a sweep over a number of strategies, with ten seeds."""
 
-from checks import check, plot, require
-from sweep_checks import close, data, show, values
+from checks import check, markers, plot, require
+from sweep_checks import close, data, show
 
 
 def group(page, **wanted):
@@ -18,10 +18,10 @@ def the_number_is_the_axis(page):
     require(scenes == ["kitchen", "attic", "cellar"], "folders name scenes:", scenes)
     require(page.find('[data-menu="seed"]') is None, "a seed can be chosen")
     for panel, scene in enumerate(scenes):
-        xs, level, curve = values(page, f"panel-{panel}")
-        require(xs == [0.05, 0.2, 0.8], "positions:", xs)
-        require(level == [1, None, 1], "the baseline is not level:", level)
-        for x, y in zip(("0.05", "0.2", "0.8"), curve):
+        level, curve = markers(page, f"panel-{panel}")
+        require(level == [(0.05, 1), (0.8, 1)], "the baseline is not level:", level)
+        require([x for x, _ in curve] == [0.05, 0.2, 0.8], "positions:", curve)
+        for x, (_, y) in zip(("0.05", "0.2", "0.8"), curve):
             own = group(page, scene=scene, strategy="roulette=throughput:*", roulette=x,
                         spp="16")
             require(close(y, own["efficiency"]["value"]), x, y, own)
@@ -32,19 +32,13 @@ def bars_are_the_intervals(page):
     page.show("#plots")
     own = group(page, scene="kitchen", strategy="roulette=throughput:*", roulette="0.2",
                 spp="16")
-    # A column of pixels through the marker: as long as the interval.
-    length = page.js("""
-      const host = document.querySelector('[data-plot="panel-0"]'), u = host.plot;
-      const canvas = host.querySelector('canvas'), at = Math.round(u.valToPos(0.2, 'x', true));
-      const d = canvas.getContext('2d').getImageData(at, 0, 1, canvas.height).data;
-      const y = (v) => u.valToPos(v, 'y', true);
-      let inked = 0;
-      for (let i = Math.ceil(y(arguments[1])); i < y(arguments[0]); ++i)
-        if (d[4 * i + 3] > 90 && Math.max(d[4 * i], d[4 * i + 1], d[4 * i + 2]) -
-            Math.min(d[4 * i], d[4 * i + 1], d[4 * i + 2]) > 60) ++inked;
-      return inked / (y(arguments[0]) - y(arguments[1]));""",
-                     own["efficiency"]["low"], own["efficiency"]["high"])
-    require(length > 0.85, "the bar covers", length, "of the interval")
+    drawn, wanted = page.js("""
+      const host = document.querySelector('[data-plot="panel-0"]'), {frame} = host.plot;
+      const bars = host.querySelectorAll('.bars')[1].getAttribute('d').match(/[\\d.]+/g);
+      const at = bars.findIndex((x) => Math.abs(x - frame.x(0.2)) < 0.1);
+      return [[+bars[at + 1], +bars[at + 3]], arguments[0].map((v) => frame.y(v))]""",
+                           [own["efficiency"]["low"], own["efficiency"]["high"]])
+    require(all(abs(a - b) < 0.1 for a, b in zip(drawn, wanted)), "bars:", drawn, wanted)
 
 
 @check

@@ -2,7 +2,7 @@
 
 import re
 
-from checks import check, plot, require
+from checks import check, note_of, plot, require
 
 
 @check
@@ -55,27 +55,17 @@ def measure_changes_curves(page):
 @check
 def hovering_a_marker_tells_its_values(page):
     page.show("#curves")
-    page.js("""
-      const host = document.querySelector('[data-plot="spp"]'), u = host.plot;
-      const at = u.data[0].length - 1, box = u.over.getBoundingClientRect();
-      const init = {bubbles: true, clientX: box.left + u.valToPos(u.data[0][at], 'x'),
-                    clientY: box.top + u.valToPos(u.data[1][at], 'y')};
-      u.over.dispatchEvent(new MouseEvent('mouseenter', init));
-      u.over.dispatchEvent(new MouseEvent('mousemove', init));
-      u.over.dispatchEvent(new MouseEvent('mousemove', init));""")
-    page.settle()
-    text = page.find("#tip").text
+    text = note_of(page, '[data-plot="spp"] g[data-series] .marker:last-child')
     require("64 spp" in text and "Relative MSE" in text, "the tip says:", repr(text))
-    page.js("document.getElementById('tip').hidden = true")
 
 
 @check
 def dragging_zooms_a_plot(page):
     from selenium.webdriver.common.action_chains import ActionChains
     page.show("#curves")
-    over = page.find('[data-plot="spp"] .u-over')
-    scale = "const s = document.querySelector('[data-plot=\"spp\"]').plot.scales.x;" \
-            "return s.max / s.min"
+    over = page.find('[data-plot="spp"]')
+    scale = ("const s = document.querySelector('[data-plot=\"spp\"]').plot.frame.scales"
+            ".x; return s.to / s.from")
     before = page.js(scale)
     drag = ActionChains(page.driver).move_to_element_with_offset(over, -60, -60)
     drag.click_and_hold().move_by_offset(110, 110).release().perform()

@@ -3,7 +3,7 @@
 import json
 import math
 
-from checks import check, plot, require
+from checks import check, markers, note_of, plot, require
 
 
 def data(page):
@@ -14,11 +14,6 @@ def choose(page, name, value):
     page.js("const s = document.querySelector(`[data-menu=\"${arguments[0]}\"]`);"
             "s.value = arguments[1]; s.dispatchEvent(new Event('change'))", name, value)
     page.settle()
-
-
-def values(page, name):
-    return page.js("return document.querySelector(`[data-plot=\"${arguments[0]}\"]`)"
-                   ".plot.data.map((c) => [...c])", name)
 
 
 def mean(cells, name):
@@ -54,14 +49,11 @@ def close(a, b):
 
 
 def require_lines(drawn, lines, what):
-    """drawn: x column and a column for each line, null where a line has no point."""
-    xs, columns = drawn[0], drawn[1:]
-    require(len(columns) == len(lines), what, "has", len(columns), "lines")
-    for column, line in zip(columns, lines):
-        points = [(x, y) for x, y in zip(xs, column) if y is not None]
-        require(len(points) == len(line) and len(line) > 0 and
-                all(close(a[0], b[0]) and close(a[1], b[1])
-                    for a, b in zip(points, line)),
+    """Both: the points of every line."""
+    require(len(drawn) == len(lines), what, "has", len(drawn), "lines")
+    for points, line in zip(drawn, lines):
+        require(len(points) == len(line) > 0 and
+                all(close(a, b) for p, q in zip(points, line) for a, b in zip(p, q)),
                 what, "draws", points, "instead of", line)
 
 
@@ -98,7 +90,7 @@ def errors_are_means_over_the_seeds(page):
                              lambda cells: mean(cells, measure))
             require([len(line) for line in lines] == [3, 3], "one sample has no error",
                     lines)
-            require_lines(values(page, f"panel-{panel}"), lines, measure)
+            require_lines(markers(page, f"panel-{panel}"), lines, measure)
 
 
 @check
@@ -108,7 +100,7 @@ def rates_stand_at_their_samples(page):
         lines = expected(page, SPP, STRATEGIES, {"scene": "box", "threads": "4"},
                          lambda cells: float(cells[0]["values"]["spp"]),
                          lambda cells: mean(cells, measure))
-        require_lines(values(page, "panel-0"), lines, measure)
+        require_lines(markers(page, "panel-0"), lines, measure)
 
 
 @check
@@ -121,7 +113,7 @@ def any_two_axes_can_be_chosen(page):
     lines = expected(page, THREADS, SPP, fixed,
                      lambda cells: float(cells[0]["measured"]["used_threads"]),
                      lambda cells: mean(cells, "samples_per_second"))
-    require_lines(values(page, "panel-0"), lines, "threads")
+    require_lines(markers(page, "panel-0"), lines, "threads")
     names = [item.text for item in page.all(".legend-item")]
     require(names == ["1 spp", "4 spp", "16 spp", "64 spp"], "legend:", names)
     # Choosing the other one's axis makes them change places.
@@ -205,16 +197,6 @@ def the_legend_hides_lines_everywhere(page):
 def hovering_a_marker_tells_its_values(page):
     show(page, "relmse", "time")
     page.show("#plots")
-    page.js("""
-      const host = document.querySelector('[data-plot="panel-0"]'), u = host.plot;
-      const at = u.data[1].findIndex((y) => y !== null);
-      const box = u.over.getBoundingClientRect();
-      const init = {bubbles: true, clientX: box.left + u.valToPos(u.data[0][at], 'x'),
-                    clientY: box.top + u.valToPos(u.data[1][at], 'y')};
-      for (const type of ['mouseenter', 'mousemove', 'mousemove'])
-        u.over.dispatchEvent(new MouseEvent(type, init));""")
-    page.settle()
-    text = page.find("#tip").text
+    text = note_of(page, '[data-plot="panel-0"] .marker')
     for part in ("default", "4 spp", "Relative MSE", "[", "2 seeds"):
         require(part in text, "the tip says:", repr(text))
-    page.js("document.getElementById('tip').hidden = true")

@@ -12,38 +12,40 @@ import pathlib
 import re
 import sys
 
+# Scripts that several pages have, in their order.
+COMMON = "dom page inputs format"
+REPORT = f"{COMMON} data view strategies table"
+PLOTS = "whisker scale plot_draw plot plot_save plot_legend"
+CURVES = f"{REPORT} {PLOTS} guides curves"
+IMAGES = "tone picture pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
-# and plots.css, and before print.css; scripts, in this order.
-PLOTS = "logaxis logplot_draw logplot guides plot_save plot_export curves"
+# and plots.css, and before print.css; scripts.
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
-             f"""dom format data view strategies whisker table hero warnings summary ranking
-             ranking_columns {PLOTS} calibration tone picture pan pane difference comparator
-             controls readout figures figures_level insets maps stages levels glossary main"""),
+             f"""{CURVES} {IMAGES} hero warnings summary ranking ranking_columns calibration
+             figures figures_level insets maps stages levels glossary main"""),
     "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
                   "images",
-                  f"""dom format data view strategies whisker table hero summary
-                  ranking_columns {PLOTS} tone picture difference controls figures
+                  f"""{CURVES} tone picture difference hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
-                    """dom format data view tone picture pan pane difference comparator controls
-                    readout maps histogram compare_tiles compare_numbers compare_main"""),
+                    f"""{REPORT} {IMAGES} maps histogram compare_tiles compare_numbers
+                    compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
-                  f"""dom format data view strategies whisker table {PLOTS} stages tone picture
-                  rates sweep_cells sweep_choice sweep_lines sweep_plots sweep_images sweep_stages
-                  sweep_table sweep_headline sweep_summary sweep_main"""),
+                  f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
+                  sweep_plots sweep_images sweep_stages sweep_table sweep_headline
+                  sweep_summary sweep_main"""),
     "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
-                  "sweep", f"""dom format data view strategies whisker table {PLOTS} stages rates
-                  bench_rows bench_main"""),
+                  "sweep", f"{CURVES} stages rates bench_rows bench_main"),
     "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
-                   """dom format data strategies whisker table logaxis stress_data
-                   stress_scale stress_plot plot_save stress_export stress_tiles stress_about stress_detail
-                   stress_strategies stress_table stress_summary stress_main"""),
+                   f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles
+                   stress_about stress_detail stress_strategies stress_table stress_summary
+                   stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
-                 """dom format strategies whisker logaxis tone live_socket live_camera
+                 f"""{COMMON} strategies whisker scale plot_draw tone live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save
                  live_main"""),
@@ -86,22 +88,15 @@ def refuse_twins(page_dir, scripts):
 
 
 def assemble(page_dir, words, style, scripts):
-    has_plots = PLOTS in scripts  # those of uPlot
     styles = ["base.css", "table.css", "plots.css", *(f"{name}.css" for name in style.split()),
               "print.css"]
     scripts = [f"{name}.js" for name in scripts.split()]
     refuse_twins(page_dir, scripts)
-    licence = ""
-    if has_plots:
-        styles.insert(0, "vendor/uPlot.min.css")
-        scripts.insert(0, "vendor/uPlot.iife.min.js")
-        text = (page_dir / "vendor/LICENSE").read_text(encoding="utf-8").strip()
-        licence = f"<!--\nuPlot 1.6.32\n{text}\n-->\n"
     style_text, style_hashes = inline(page_dir, "style", styles)
     script_text, script_hashes = inline(page_dir, "script", scripts)
     theme_text, theme_hash = inline(page_dir, "script", ["theme.js"])
     html = (page_dir / "page.html").read_text(encoding="utf-8")
-    for marker, text in {"CONNECT": "", **words, STYLES: licence + style_text, SCRIPTS: script_text,
+    for marker, text in {"CONNECT": "", **words, STYLES: style_text, SCRIPTS: script_text,
                          "<!-- theme -->": theme_text, "STYLE_HASHES": style_hashes,
                          "SCRIPT_HASHES": f"{theme_hash} {script_hashes}"}.items():
         if marker not in html:

@@ -37,10 +37,9 @@ function benchTable() {
   const texts = (row) => rateTexts(row.samples_per_second);
   const efficiency = ({ parallel_efficiency: interval }) =>
     twoLines(intervalTexts(interval || { value: null }));
-  return plainTable(
-    "All rows",
-    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s", "Efficiency", "Rays / s", "Bytes / path",
-      "Samples per pixel", "Repeats"],
+  return plainTable("All rows",
+    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s", "Efficiency",
+      "Rays / s", "Bytes / path", "Samples per pixel", "Repeats"],
     study.rows.map((row) => [
       row.scene,
       row.target,
@@ -56,31 +55,19 @@ function benchTable() {
   );
 }
 
-// The sentences that the terminal prints.
-function benchWarnings() {
-  if (study.warnings.length === 0) return [];
-  return el(
-    "div",
-    { class: "warnings", role: "note" },
-    el("ul", {}, study.warnings.map((text) => el("li", {}, text))),
-  );
-}
-
 function benchSections(lines) {
-  const view = makeView({ strategies: lines });
-  view.ran = view.ranked = lines;
-  view.shown.set(new Set(lines.map((line) => line.index)));
+  const view = linesView(lines);
   const parallel =
     threadCounts.length > 1 && study.rows.some((row) => row.parallel_efficiency)
       ? [strategyLegend(view, "Lines shown"), efficiencyFigure(view, lines)]
-      : el("p", {}, "Needs rows of one thread and of more: --threads 1,2,4,8");
+      : el("p", "Needs rows of one thread and of more: --threads 1,2,4,8");
   return [
     section("rates", "Samples per second", rateRows(lines),
-      el("p", { class: "hint" }, "Medians of the repeats with their " +
+      el("p.hint", "Medians of the repeats with their " +
         `${fmtShortPercent(study.confidence)} intervals, by order statistics.`)),
     section("threads", "Efficiency against threads", parallel),
     section("groups", "Where the time of a sample goes",
-      el("p", { class: "lead" }, "All threads together, of the last repeat: one " +
+      el("p.lead", "All threads together, of the last repeat: one " +
         "measurement, without an interval."),
       groupBars(lines)),
     section("rows", "All rows", benchTable()),
@@ -88,29 +75,26 @@ function benchSections(lines) {
 }
 
 function startBench() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = "Lanelight bench";
-  document.getElementById("bottom").textContent =
-    "Written by lanelight bench. This page holds all its numbers and needs no network. " +
-    "Plots: uPlot, MIT licence.";
-  const content = document.getElementById("content");
   const lines = benchLines();
-  const head = el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, "How fast this machine renders"),
-    el("p", { class: "lead headline" },
-      lines.length > 0 ? benchHeadline() : "Nothing was measured."),
-    el("dl", { class: "facts" },
-      fact("Machine", study.machine.text, null, { class: "wide" }),
-      fact("Program", study.program, null, { class: "wide" })),
-    benchWarnings(),
+  startPage({
+    title: "Lanelight bench",
+    footer:
+      "Written by lanelight bench. This page holds all its numbers and needs no network.",
+    sections: lines.length > 0 && [
+      ["rates", "Rates"], ["threads", "Threads"], ["groups", "Stages"], ["rows", "Rows"],
+    ],
+  });
+  const wide = { class: "wide" };
+  showContent(
+    firstSection("How fast this machine renders",
+      el("p.lead.headline", lines.length > 0 ? benchHeadline() : "Nothing was measured."),
+      el("dl.facts",
+        fact("Machine", study.machine.text, null, wide),
+        fact("Program", study.program, null, wide)),
+      warningBox(null, study.warnings), // the sentences that the terminal prints
+    ),
+    lines.length > 0 && benchSections(lines),
   );
-  content.replaceChildren(head, ...(lines.length > 0 ? benchSections(lines) : []));
-  if (lines.length === 0) return;
-  linkSections([["rates", "Rates"], ["threads", "Threads"], ["groups", "Stages"],
-    ["rows", "Rows"]]);
-  addEventListener("scroll", tip.hide, { passive: true });
 }
 
 startBench();

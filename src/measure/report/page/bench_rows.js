@@ -30,25 +30,14 @@ function rateRows(lines) {
   const rates = study.rows.map((row) => row.samples_per_second);
   const scale = whiskerScale(rates, true);
   const row = (line, { threads, samples_per_second: rate }) =>
-    el(
-      "div",
-      { class: "rate-row" },
-      el(
-        "span",
-        { class: "rate-name" },
-        swatch(line.style),
-        `${line.name}, ${threadsText(threads)}`,
-      ),
+    el("div.rate-row",
+      el("span.rate-name", swatch(line.style), `${line.name}, ${threadsText(threads)}`),
       whisker(rate, scale, { style: line.style, width: 180 }),
-      el("span", { class: "rate-value" }, twoLines(rateTexts(rate))),
+      el("span.rate-value", twoLines(rateTexts(rate))),
     );
-  return el(
-    "div",
-    { class: "plot-figure" },
-    el(
-      "div",
-      { class: "rate-row" },
-      el("span", {}, "Samples per second"),
+  return el("div.plot-figure",
+    el("div.rate-row",
+      el("span", "Samples per second"),
       whiskerAxis(scale, { width: 180, format: rateTick, most: 4 }),
     ),
     lines.flatMap((line) => line.rows.map((r) => row(line, r))),
@@ -78,9 +67,9 @@ function efficiencyFigure(view, lines) {
       },
       include: [0.5, 1],
       describe: (line, point) => [
-        el("b", {}, line.name),
-        el("div", {}, threadsText(point.x)),
-        el("div", {}, `efficiency ${joined(intervalTexts(point.interval))}`),
+        el("b", line.name),
+        el("div", threadsText(point.x)),
+        el("div", `efficiency ${joined(intervalTexts(point.interval))}`),
       ],
     }),
   );

@@ -33,25 +33,20 @@ function calibrationPoint(level, ratio) {
 }
 
 // Where the estimate is right.
-function drawTruth(u, ratio) {
-  const { min, max } = u.scales.x;
-  const yAt = (x) => (ratio ? 1 : x);
-  u.ctx.strokeStyle = theme.color("--muted");
-  u.ctx.lineWidth = 1.5 * devicePixelRatio;
-  u.ctx.beginPath();
-  u.ctx.moveTo(u.valToPos(min, "x", true), u.valToPos(yAt(min), "y", true));
-  u.ctx.lineTo(u.valToPos(max, "x", true), u.valToPos(yAt(max), "y", true));
-  u.ctx.stroke();
+function truthGuide(frame, ratio) {
+  const { from, to } = frame.scales.x;
+  const [first, last] = [from, to].map((x) => frame.y(ratio ? 1 : x));
+  return svg("path.truth", { d: `M${frame.left} ${first}L${frame.right} ${last}` });
 }
 
 function describeCalibration(line, { level }) {
   return [
-    el("b", {}, line.name),
-    el("div", {}, `${fmtCount(level.spp)} spp`),
-    el("div", {}, `true ${joined(intervalTexts(level.relmse))}`),
-    el("div", {}, `estimated ${joined(intervalTexts(level.self.relmse))}`),
-    el("div", {}, `interval held in ${level.self.inside} of ${level.self.total} renders`),
-    level.self.refused > 0 && el("div", {}, `${level.self.refused} renders stated none`),
+    el("b", line.name),
+    el("div", `${fmtCount(level.spp)} spp`),
+    el("div", `true ${joined(intervalTexts(level.relmse))}`),
+    el("div", `estimated ${joined(intervalTexts(level.self.relmse))}`),
+    el("div", `interval held in ${level.self.inside} of ${level.self.total} renders`),
+    level.self.refused > 0 && el("div", `${level.self.refused} renders stated none`),
   ];
 }
 
@@ -66,26 +61,22 @@ function refusedText({ refused, total }) {
 
 function calibrationNumber(calibration) {
   if (!calibration) {
-    return el("p", {}, "No render had an estimate of its own error.");
+    return el("p", "No render had an estimate of its own error.");
   }
-  if (!known(valueOf(calibration.share))) return el("p", {}, refusedText(calibration));
+  if (!known(valueOf(calibration.share))) return el("p", refusedText(calibration));
   const stated = known(calibration.stated)
     ? fmtShortPercent(calibration.stated)
     : UNKNOWN;
   const { value, bounds } = percentTexts(calibration.share);
-  return el(
-    "div",
-    { class: "big-number" },
-    el("div", { class: "number" }, value),
-    bounds && el("div", { class: "bounds" }, bounds),
-    el(
-      "p",
-      {},
+  return el("div.big-number",
+    el("div.number", value),
+    bounds && el("div.bounds", bounds),
+    el("p",
       `of the ${fmtCount(calibration.total)} renders that stated an interval have their ` +
         `true relative MSE in it (${fmtCount(calibration.inside)} renders). ` +
         `Stated confidence: ${stated}.`,
     ),
-    calibration.refused > 0 && el("p", {}, refusedText(calibration)),
+    calibration.refused > 0 && el("p", refusedText(calibration)),
     whiskerRow(calibration),
   );
 }
@@ -98,9 +89,7 @@ function whiskerRow(calibration) {
   );
   const options = { width: 220, format: fmtShortPercent, most: 4 };
   const marks = known(calibration.stated) ? [calibration.stated] : [];
-  return el(
-    "div",
-    { class: "axis-block" },
+  return el("div.axis-block",
     whiskerAxis(scale, options),
     whisker(calibration.share, scale, { width: 220, marks, label: "Coverage" }),
   );
@@ -117,7 +106,7 @@ function calibrationPlot(view, host, ratio) {
     square: !ratio,
     include: ratio ? [1] : [],
     describe: describeCalibration,
-    guides: (u) => drawTruth(u, ratio),
+    guides: (frame) => truthGuide(frame, ratio),
     xAxis: x,
     yAxis: y,
     label: "Relative MSE that renders estimate of themselves against the true one",
@@ -137,30 +126,14 @@ function calibrationSection(view) {
   };
   whenVisible(view, figure, () => draw("values"));
   figure.firstChild.append(
-    choiceButtons(
-      "Scale",
-      [
-        ["values", "Values"],
-        ["ratio", "Ratio"],
-      ],
-      "values",
-      draw,
-    ),
+    choiceButtons("Scale", [["values", "Values"], ["ratio", "Ratio"]], "values", draw),
   );
-  return section(
-    "calibration",
-    title,
-    el(
-      "div",
-      { class: "calibration" },
+  return section("calibration", title,
+    el("div.calibration",
       figure,
-      el(
-        "div",
-        { class: "calibration-text" },
+      el("div.calibration-text",
         number,
-        el(
-          "p",
-          { class: "hint" },
+        el("p.hint",
           "On the line the estimate is right; below it, the render " +
             "thinks itself better than it is. The strategies shown are those chosen above.",
         ),

@@ -67,15 +67,13 @@ function comparisonSource(comparison, slot) {
 function comparatorSection(view, choices, kinds) {
   const title = "Compare images";
   if (!choices.some((choice) => choice.there)) {
-    return section(
-      "compare",
-      title,
+    return section("compare", title,
       missingPicture("This report holds no images of the scene."),
     );
   }
   const comparison = makeComparison(view, choices, kinds);
-  const stage = el("div", { class: "stage", "data-mode": comparison.mode });
-  const readout = el("div", { class: "readout", "aria-live": "off" });
+  const stage = el("div.stage", { "data-mode": comparison.mode });
+  const readout = el("div.readout", { "aria-live": "off" });
   const repaint = debounced(() => {
     paintAll(comparison);
     showZoom(comparison);
@@ -90,9 +88,7 @@ function comparatorSection(view, choices, kinds) {
     stage.replaceChildren(...comparison.panes.map((pane) => pane.node));
     repaint();
   };
-  comparison.box = el(
-    "div",
-    { class: "comparator" },
+  comparison.box = el("div.comparator",
     comparatorControls(comparison, rebuild),
     stage,
     readout,
@@ -100,13 +96,9 @@ function comparatorSection(view, choices, kinds) {
   hover(null);
   rebuild();
   keepPainted(comparison, stage, repaint);
-  return section(
-    "compare",
-    title,
+  return section("compare", title,
     comparison.box,
-    el(
-      "p",
-      { class: "hint" },
+    el("p.hint",
       "Scroll or pinch to zoom, drag to move; with the keyboard, " +
         "arrows, + and −, 0 for all of it. Both images always show the same part.",
     ),

@@ -1,12 +1,6 @@
 "use strict";
 // The page of images beside a reference.
 
-const COLORS = ["--c0", "--c1", "--c2", "--c3", "--c4", "--c5", "--c6", "--c7"];
-
-function colorOf(index) {
-  return `var(${COLORS[index % COLORS.length]})`;
-}
-
 // A map that the program made of an image and the reference, in full precision.
 function programMap(key, a, b) {
   if (!a || !b || b.name !== study.reference.image) return null;
@@ -59,39 +53,31 @@ function imagesToChoose() {
 }
 
 function verdictFacts(c) {
+  const { verdict, p, why } = c.agreement;
   const flip = c.flip && (c.flip.hdr || c.flip.ldr);
-  return el(
-    "dl",
-    { class: "facts" },
+  return el("dl.facts",
     fact("Relative error", fmtPercent(Math.sqrt(c.relmse)), `relative MSE ${fmt(c.relmse)}`),
     flip && fact("FLIP", fmt(flip.mean), `largest ${fmt(flip.max)}`),
     fact("PSNR", known(c.psnr) ? `${fmt(c.psnr)} dB` : "no difference"),
-    fact("Beyond noise?", { agree: "no", differ: "yes" }[c.agreement.verdict] || "cannot tell",
-      known(c.agreement.p) ? `p ${c.agreement.p < 1e-12 ? "" : "= "}${pText(c.agreement.p)}` : c.agreement.why),
+    fact("Beyond noise?", { agree: "no", differ: "yes" }[verdict] || "cannot tell",
+      known(p) ? `p ${p < 1e-12 ? "" : "= "}${pText(p)}` : why),
   );
 }
 
 function verdictSection() {
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, `Against ${study.reference.name}`),
+  return firstSection(`Against ${study.reference.name}`,
     study.comparisons.map((c) => [
-      el("p", { class: "verdict" }, `${c.verdict}.`),
+      el("p.verdict", `${c.verdict}.`),
       c.invalid_test + c.invalid_reference > 0 &&
-        el(
-          "div",
-          { class: "warnings", role: "note" },
+        warningBox(null, [
           `${fmtCount(c.invalid_test)} values of the image and ` +
             `${fmtCount(c.invalid_reference)} of the reference are no numbers; they are ` +
             "left out of all means, and shown in magenta.",
-        ),
+        ]),
       verdictFacts(c),
     ]),
     study.report_scale > 1 &&
-      el(
-        "p",
-        { class: "hint" },
+      el("p.hint",
         `The pictures of this page are smaller by ${study.report_scale}, so that a browser ` +
           "can hold them; the numbers are of all pixels.",
       ),
@@ -101,7 +87,7 @@ function verdictSection() {
 function histogramSection() {
   const all = study.comparisons.map((c, i) => ({
     name: c.test,
-    color: colorOf(i),
+    color: `var(${strategyStyle(i).variable})`,
     image: findImage(c.image),
     map: findImage(c.maps.difference),
   }));
@@ -111,63 +97,51 @@ function histogramSection() {
     image: findImage(study.reference.image),
   };
   const key = ({ name, color }) =>
-    el("span", {}, el("i", { class: "swatch-line", style: { background: color } }), name);
-  return section(
-    "histograms",
-    "Histograms",
-    el("div", { class: "histogram-key" }, [reference, ...all].map(key)),
-    el(
-      "div",
-      { class: "histograms" },
-      el(
-        "figure",
-        { class: "paper" },
+    el("span", el("i.swatch-line", { style: { background: color } }), name);
+  const figure = (drawing, caption) =>
+    el("figure.paper", drawing, el("figcaption", caption));
+  return section("histograms", "Histograms",
+    el("div.histogram-key", [reference, ...all].map(key)),
+    el("div.histograms",
+      figure(
         luminanceHistogram([reference, ...all]),
-        el("figcaption", {}, "Luminance of the pixels; black ones are in the first bin."),
+        "Luminance of the pixels; black ones are in the first bin.",
       ),
-      el(
-        "figure",
-        { class: "paper" },
+      figure(
         differenceHistogram(all.map((one) => ({ ...one, image: one.map }))),
-        el(
-          "figcaption",
-          {},
-          "Signed relative difference of the pixels; beyond the ends in the last bins.",
-        ),
+        "Signed relative difference of the pixels; beyond the ends in the last bins.",
       ),
     ),
   );
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = `${study.reference.name} – Lanelight compare`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight compare. This page holds all its numbers and images and needs " +
-    "no network.";
-  linkSections([
-    ["summary", "Verdict"],
-    ["compare", "Images"],
-    ["tiles", "Tiles"],
-    ["histograms", "Histograms"],
-    ["numbers", "Numbers"],
-  ]);
+  startPage({
+    title: `${study.reference.name} – Lanelight compare`,
+    footer:
+      "Written by lanelight compare. This page holds all its numbers and images and needs " +
+      "no network.",
+    sections: [
+      ["summary", "Verdict"],
+      ["compare", "Images"],
+      ["tiles", "Tiles"],
+      ["histograms", "Histograms"],
+      ["numbers", "Numbers"],
+    ],
+  });
   const view = makeView({ report_scale: study.report_scale });
   const comparator = comparatorSection(view, imagesToChoose(), differenceKinds());
   const show = (a, b, place) => {
     view.compare.set({ a, b, place });
     comparator.scrollIntoView();
   };
-  document
-    .getElementById("content")
-    .replaceChildren(
-      verdictSection(),
-      comparator,
-      tilesSection(view, show),
-      histogramSection(),
-      numbersSection(),
-    );
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(
+    verdictSection(),
+    comparator,
+    tilesSection(view, show),
+    histogramSection(),
+    numbersSection(),
+  );
 }
 
 start();

@@ -44,44 +44,16 @@ function pText(p) {
 }
 
 function numbersSection() {
-  return section(
-    "numbers",
-    "Numbers",
-    el(
-      "div",
-      { class: "scroll", tabindex: 0, role: "region", "aria-label": "Numbers" },
-      el(
-        "table",
-        { class: "data" },
-        el(
-          "thead",
-          {},
-          el(
-            "tr",
-            {},
-            el("th", { class: "text" }, "measure"),
-            study.comparisons.map((c) => el("th", {}, c.test)),
-          ),
-        ),
-        el(
-          "tbody",
-          {},
-          COMPARISON_ROWS.filter(([, text]) =>
-            study.comparisons.some((c) => text(c) !== UNKNOWN),
-          ).map(([name, text]) =>
-            el(
-              "tr",
-              {},
-              el("th", { class: "text" }, name),
-              study.comparisons.map((c) => el("td", {}, text(c))),
-            ),
-          ),
-        ),
-      ),
+  const { comparisons } = study;
+  const rows = COMPARISON_ROWS.filter(([, text]) =>
+    comparisons.some((c) => text(c) !== UNKNOWN),
+  );
+  return section("numbers", "Numbers",
+    plainTable("Numbers",
+      ["measure", ...comparisons.map((c) => c.test)],
+      rows.map(([name, text]) => [name, ...comparisons.map(text)]),
     ),
-    el(
-      "p",
-      { class: "hint" },
+    el("p.hint",
       "Relative MSE: mean of (a − b)² / (b² + 0.01). FLIP: 0 looks alike, 1 as different as " +
         "can be, to somebody who flips between the images; quartiles are weighted by the " +
         "error itself. All are of these very pixels and no estimates, so they have no " +

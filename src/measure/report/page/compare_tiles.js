@@ -15,25 +15,9 @@ function cropAround(tile, image) {
   return { x, y, width, height };
 }
 
-function tileFrame(tile) {
-  const scale = study.report_scale || 1;
-  return {
-    x: tile.x / scale,
-    y: tile.y / scale,
-    width: tile.width / scale,
-    height: tile.height / scale,
-  };
-}
-
 function cropPicture(view, label, image, crop, makePixels) {
-  return picture(view, {
-    label,
-    width: image.width,
-    height: image.height,
-    crop,
-    makePixels,
-    redrawOn: view.tone,
-  });
+  const { width, height } = image;
+  return picture(view, { label, width, height, crop, makePixels, redrawOn: view.tone });
 }
 
 function worstTile(view, comparison, tile, show) {
@@ -56,28 +40,17 @@ function worstTile(view, comparison, tile, show) {
       (i) => 0.5 + (0.5 * channelAt(map, i, 0) * 2 ** view.tone.value.exposure) / top,
     );
   const toned = (one) => () => tonedPixels(one, view.tone.value);
-  return el(
-    "figure",
-    { class: "worst-tile" },
-    el(
-      "div",
-      { class: "worst-crops" },
+  return el("figure.worst-tile",
+    el("div.worst-crops",
       cropPicture(view, `${comparison.test} at ${at}`, image, crop, toned(image)),
       cropPicture(view, `Reference at ${at}`, reference, crop, toned(reference)),
       cropPicture(view, `Difference at ${at}`, map, crop, difference),
     ),
-    el(
-      "figcaption",
-      {},
-      el("b", {}, fmtPercent(tile.share)),
+    el("figcaption",
+      el("b", fmtPercent(tile.share)),
       ` of the error, at ${at} (${tile.width} × ${tile.height}). `,
-      el(
-        "button",
-        {
-          type: "button",
-          class: "link",
-          onclick: () => show(comparison.image, study.reference.image, place),
-        },
+      el("button.link",
+        { onclick: () => show(comparison.image, study.reference.image, place) },
         "Show it above",
       ),
     ),
@@ -87,45 +60,33 @@ function worstTile(view, comparison, tile, show) {
 // One comparison's worst tiles, and the map of its test.
 function tilesOf(view, comparison, show) {
   const { agreement } = comparison;
-  return el(
-    "div",
-    { class: "tiles-of", role: "group", "aria-label": comparison.test },
-    study.comparisons.length > 1 && el("h3", {}, comparison.test),
-    el(
-      "div",
-      { class: "tiles-columns" },
-      el(
-        "div",
-        { class: "worst-tiles" },
+  return el("div.tiles-of", { role: "group", "aria-label": comparison.test },
+    study.comparisons.length > 1 && el("h3", comparison.test),
+    el("div.tiles-columns",
+      el("div.worst-tiles",
         comparison.worst_tiles.length === 0
-          ? el("p", {}, "No pixel differs.")
+          ? el("p", "No pixel differs.")
           : comparison.worst_tiles.map((tile) => worstTile(view, comparison, tile, show)),
       ),
       agreement.verdict === "cannot tell"
         ? missingPicture(`Whether noise explains it: ${agreement.text}.`)
-        : el(
-            "div",
-            { class: "tile-test" },
+        : el("div.tile-test",
             tilePicture(
               view,
               { name: comparison.test, tiles: agreement.tiles },
               findImage(study.reference.image),
             ),
             rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
-            el("p", { class: "hint" }, `${agreement.text}.`),
-            agreement.doubt && el("p", { class: "hint" }, `${agreement.doubt}.`),
+            el("p.hint", `${agreement.text}.`),
+            agreement.doubt && el("p.hint", `${agreement.doubt}.`),
           ),
     ),
   );
 }
 
 function tilesSection(view, show) {
-  return section(
-    "tiles",
-    "Where they differ",
-    el(
-      "p",
-      { class: "lead" },
+  return section("tiles", "Where they differ",
+    el("p.lead",
       "The tiles that add most to the relative MSE: the image, the reference, and their " +
         "signed relative difference; and the test whether a tile's mean equals the " +
         "reference's, with those outlined that differ by more than noise.",

@@ -5,9 +5,7 @@ function imageSelect(comparison, slot, onChange) {
   const select = el("select", { "data-slot": slot });
   const groups = new Map();
   for (const { group, label, name, there } of comparison.choices) {
-    const option = el(
-      "option",
-      { value: name, disabled: !there },
+    const option = el("option", { value: name, disabled: !there },
       there ? label : `${label} (missing)`,
     );
     if (group === "") {
@@ -26,10 +24,6 @@ function imageSelect(comparison, slot, onChange) {
     onChange();
   });
   return select;
-}
-
-function labelled(text, control, extra) {
-  return el("label", { class: "labelled" }, el("span", {}, text), control, extra);
 }
 
 function comparatorControls(comparison, rebuild) {
@@ -57,29 +51,16 @@ function comparatorControls(comparison, rebuild) {
     ["flip", "Flip"],
     ["difference", "Difference"],
   ];
-  return el(
-    "div",
-    { class: "controls" },
-    el(
-      "div",
-      { class: "control-row" },
+  return el("div.controls",
+    el("div.control-row",
       labelled("A", a),
-      el(
-        "button",
-        {
-          type: "button",
-          class: "button",
-          onclick: swap,
-          title: "Swap A and B",
-          "aria-label": "Swap A and B",
-        },
+      el("button.button",
+        { onclick: swap, title: "Swap A and B", "aria-label": "Swap A and B" },
         "⇄",
       ),
       labelled("B", b),
     ),
-    el(
-      "div",
-      { class: "control-row" },
+    el("div.control-row",
       choiceButtons("Mode", modes, comparison.mode, (mode) => {
         comparison.mode = mode;
         rebuild();
@@ -111,15 +92,8 @@ function differenceMenu(comparison, retitle) {
 }
 
 function flipButton(comparison) {
-  const button = el(
-    "button",
-    {
-      type: "button",
-      class: "button",
-      "data-flip": "",
-      hidden: true,
-      onclick: () => comparison.panes[0].flip(),
-    },
+  const button = el("button.button",
+    { "data-flip": "", hidden: true, onclick: () => comparison.panes[0].flip() },
     "Show the other",
   );
   comparison.changed.listen(() => {
@@ -138,21 +112,12 @@ function zoomButtons(comparison) {
     comparison.repaint();
   };
   const button = (text, label, change) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "button",
-        "aria-label": label,
-        title: label,
-        onclick: () => move(change),
-      },
+    el("button.button",
+      { "aria-label": label, title: label, onclick: () => move(change) },
       text,
     );
-  comparison.zoomText = el("output", { class: "zoom", "aria-label": "Magnification" });
-  return el(
-    "div",
-    { class: "choices zooms", role: "group", "aria-label": "Zoom" },
+  comparison.zoomText = el("output.zoom", { "aria-label": "Magnification" });
+  return el("div.choices.zooms", { role: "group", "aria-label": "Zoom" },
     button("−", "Zoom out", (_, p) => ({ zoom: p.zoom / 1.5 })),
     button("+", "Zoom in", (_, p) => ({ zoom: p.zoom * 1.5 })),
     button("Fit", "Show all of it", () => ({ zoom: 1 })),
@@ -169,41 +134,21 @@ function showZoom(comparison) {
   comparison.zoomText.textContent = `${Math.round(percent)} %`;
 }
 
-function toneControls(view) {
-  const { tone } = view;
-  const slider = el("input", {
-    type: "range",
-    min: -8,
-    max: 8,
-    step: 0.1,
-    value: 0,
-    "data-control": "exposure",
+function toneControls({ tone }) {
+  const set = (change) => tone.set({ ...tone.value, ...change });
+  const exposure = slider("Exposure", {
+    min: -8, max: 8, step: 0.1, value: 0, "data-control": "exposure", text: fmtExposure,
+    onInput: (x) => set({ exposure: x }),
   });
-  const text = el("output", { class: "exposure" }, "0.0");
-  const set = (change) => {
-    tone.set({ ...tone.value, ...change });
-    slider.value = tone.value.exposure;
-    text.textContent = fmtExposure(tone.value.exposure);
+  const reset = () => {
+    exposure.set(0);
+    set({ exposure: 0 });
   };
-  slider.addEventListener("input", () => set({ exposure: Number(slider.value) }));
-  const select = el(
-    "select",
-    { "data-control": "tone" },
-    Object.entries(TONE_CURVES).map(([key, { label }]) =>
-      el("option", { value: key }, label),
-    ),
-  );
-  select.addEventListener("change", () => set({ curve: select.value }));
-  return el(
-    "div",
-    { class: "control-row" },
-    labelled("Exposure", slider, text),
-    el(
-      "button",
-      { type: "button", class: "button", onclick: () => set({ exposure: 0 }) },
-      "Reset",
-    ),
-    labelled("Tone", select),
+  return el("div.control-row",
+    exposure.node,
+    el("button.button", { onclick: reset }, "Reset"),
+    menu("Tone", { "data-control": "tone" }, TONE_OPTIONS, tone.value.curve,
+      (curve) => set({ curve })),
   );
 }
 

@@ -31,14 +31,12 @@ function curvePoint(level, measure, xOf) {
 
 function describePoint(measure, line, { level }) {
   return [
-    el("b", {}, line.name),
-    el(
-      "div",
-      {},
+    el("b", line.name),
+    el("div",
       `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
     ),
-    el("div", {}, `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
-    level.reference_limited && el("div", {}, "limited by the reference's own error"),
+    el("div", `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
+    level.reference_limited && el("div", "limited by the reference's own error"),
   ];
 }
 
@@ -50,116 +48,19 @@ function curvePlot(view, host, measure, xAxis, xOf, more = {}) {
     xAxis,
     yAxis: { label, ticks: decadeTicks, format: errorTick },
     ghosts: true,
-    guides: (u) => {
-      drawSlopes(u, power);
-      if (measure === "relmse") drawTarget(u, view.scene.target_relmse);
-    },
+    guides: (frame) => [
+      slopeGuides(frame, power),
+      measure === "relmse" && targetGuide(frame, view.scene.target_relmse),
+    ],
     describe: (line, point) => describePoint(measure, line, point),
     ...more,
   });
 }
 
-function strategyLegend(view, label = "Strategies shown") {
-  const listed = view.ranked;
-  const buttons = listed.map((s) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "button legend-item",
-        "data-strategy": s.index,
-        onclick: () => {
-          const shown = new Set(view.shown.value);
-          if (!shown.delete(s.index)) shown.add(s.index);
-          view.shown.set(shown);
-        },
-        ondblclick: () => view.shown.set(new Set([s.index])),
-        onpointerenter: () => view.focus.set(s.index),
-        onpointerleave: () => view.focus.set(null),
-      },
-      strategyLabel(s),
-    ),
-  );
-  const show = (shown) =>
-    buttons.forEach((button, i) =>
-      button.setAttribute("aria-pressed", String(shown.has(listed[i].index))),
-    );
-  view.shown.listen(show);
-  show(view.shown.value);
-  const legend = el(
-    "div",
-    { class: "legend", role: "group", "aria-label": label },
-    buttons,
-  );
-  if (listed.length > MOST_CURVES) legend.prepend(filterBox(view, listed, buttons));
-  return legend;
-}
-
-// Shows the strategies whose name or text has what is typed.
-function filterBox(view, listed, buttons) {
-  const box = el("input", {
-    type: "search",
-    class: "filter",
-    "data-control": "filter",
-    placeholder: "Filter, e.g. points=",
-    "aria-label": "Show the strategies that contain",
-  });
-  box.addEventListener("input", () => {
-    const wanted = box.value.trim().toLowerCase();
-    const has = (s) => `${s.name} ${s.text || ""}`.toLowerCase().includes(wanted);
-    const found = listed.filter((s) => has(s));
-    buttons.forEach((button, i) => {
-      button.hidden = wanted !== "" && !has(listed[i]);
-    });
-    view.shown.set(
-      wanted === ""
-        ? leading(view.ranked, view.baseline)
-        : new Set(found.map((s) => s.index)),
-    );
-  });
-  return box;
-}
-
-function showAllButtons(view) {
-  const button = (name, shown) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "button",
-        "data-show": name,
-        onclick: () => view.shown.set(shown),
-      },
-      `Show ${name}`,
-    );
-  return el(
-    "div",
-    { class: "choices", role: "group", "aria-label": "Strategies" },
-    view.ran.length > MOST_CURVES &&
-      button("leading", leading(view.ranked, view.baseline)),
-    button("all", new Set(view.ran.map((s) => s.index))),
-    button("none", new Set()),
-  );
-}
-
-function plotFigure(name, title) {
-  const host = el("div", { class: "plot", "data-plot": name });
-  return {
-    host,
-    figure: el(
-      "figure",
-      { class: "plot-figure" },
-      el("figcaption", {}, title),
-      host,
-      exportButtons(host, title),
-    ),
-  };
-}
-
 function curvesSection(view) {
   const title = "Error against time and samples";
   if (curveLines(view, "relmse", (level) => level.spp).length === 0) {
-    return section("curves", title, el("p", {}, "No strategy has an error to draw."));
+    return section("curves", title, el("p", "No strategy has an error to draw."));
   }
   const time = plotFigure("seconds", "Error against time");
   const samples = plotFigure("spp", "Error against samples");
@@ -179,20 +80,14 @@ function curvesSection(view) {
   };
   whenVisible(view, time.figure, () => draw("relmse"));
   const choices = Object.entries(MEASURES).map(([key, { label }]) => [key, label]);
-  return section(
-    "curves",
-    title,
-    el(
-      "div",
-      { class: "toolbar" },
+  return section("curves", title,
+    el("div.toolbar",
       choiceButtons("Measure", choices, "relmse", draw),
       showAllButtons(view),
     ),
     strategyLegend(view),
-    el("div", { class: "plots" }, time.figure, samples.figure),
-    el(
-      "p",
-      { class: "hint" },
+    el("div.plots", time.figure, samples.figure),
+    el("p.hint",
       "Lower and further left is better. Bands are confidence " +
         "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
         "for its values, drag to zoom, double-click to see all again; double-click a strategy " +

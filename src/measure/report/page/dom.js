@@ -7,12 +7,15 @@ function setAttributes(node, attributes) {
     if (value === null || value === undefined || value === false) continue;
     if (name.startsWith("on")) {
       node.addEventListener(name.slice(2), value);
+    } else if (name === "class") {
+      node.classList.add(...value.split(" ").filter(Boolean));
     } else if (name === "style") {
       for (const [key, text] of Object.entries(value)) node.style.setProperty(key, text);
     } else {
       node.setAttribute(name, value === true ? "" : String(value));
     }
   }
+  return node;
 }
 
 function appendAll(node, children) {
@@ -23,86 +26,27 @@ function appendAll(node, children) {
   return node;
 }
 
-function el(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  setAttributes(node, attributes);
-  return appendAll(node, children);
+function made(create, selector, attributes, children) {
+  const [tag, ...marks] = selector.split(/(?=[.#])/);
+  const node = create(tag);
+  if (tag === "button") node.type = "button";
+  for (const mark of marks) {
+    if (mark[0] === "#") node.id = mark.slice(1);
+    else node.classList.add(mark.slice(1));
+  }
+  const given = attributes && Object.getPrototypeOf(attributes) === Object.prototype;
+  if (!given) return appendAll(node, [attributes, children]);
+  return appendAll(setAttributes(node, attributes), children);
 }
 
-function svg(tag, attributes = {}, ...children) {
-  const node = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  setAttributes(node, attributes);
-  return appendAll(node, children);
+// el("p#id.class", { attributes, which may be left out }, children, ...)
+function el(selector, attributes, ...children) {
+  return made((tag) => document.createElement(tag), selector, attributes, children);
 }
 
-// A part of the page with a heading that the navigation can point to.
-function section(id, title, ...children) {
-  return el(
-    "section",
-    { id, "aria-labelledby": `${id}-title` },
-    el("h2", { id: `${id}-title` }, title),
-    children,
-  );
-}
-
-// Fills the navigation: [[id, title], ...] of sections.
-function linkSections(sections, hash = (id) => `#${id}`) {
-  document
-    .getElementById("sections")
-    .replaceChildren(...sections.map(([id, title]) => el("a", { href: hash(id) }, title)));
-}
-
-// A choice of many. options: [[value, text], ...]; data: attributes of the selection.
-function menu(label, data, options, value, onChoose) {
-  const select = el(
-    "select",
-    { ...data, onchange: () => onChoose(select.value) },
-    options.map(([key, text]) =>
-      el("option", { value: key, selected: key === value }, text),
-    ),
-  );
-  return el("label", { class: "menu" }, el("span", {}, label), select);
-}
-
-// A pair of a list of facts; none if the value is not known.
-function fact(term, value, note, attributes = {}) {
-  if (!value) return null;
-  return el(
-    "div",
-    attributes,
-    el("dt", {}, term),
-    el("dd", {}, value, note && el("span", { class: "note" }, note)),
-  );
-}
-
-// Buttons of which exactly one is pressed. options: [[value, label], ...].
-function choiceButtons(label, options, value, onChoose) {
-  const buttons = options.map(([key, text]) =>
-    el(
-      "button",
-      {
-        type: "button",
-        class: "button",
-        "data-value": key,
-        "aria-pressed": String(key === value),
-      },
-      text,
-    ),
-  );
-  const group = el(
-    "div",
-    { class: "choices", role: "group", "aria-label": label },
-    buttons,
-  );
-  group.addEventListener("click", (event) => {
-    const chosen = event.target.closest("button");
-    if (!chosen) return;
-    for (const button of buttons) {
-      button.setAttribute("aria-pressed", String(button === chosen));
-    }
-    onChoose(chosen.dataset.value);
-  });
-  return group;
+function svg(selector, attributes, ...children) {
+  const space = "http://www.w3.org/2000/svg";
+  return made((tag) => document.createElementNS(space, tag), selector, attributes, children);
 }
 
 // Calls draw once the element comes near the screen, or when the page is printed.

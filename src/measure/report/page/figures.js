@@ -11,11 +11,9 @@ const FIGURE_TITLES = {
 };
 
 function figureBox(number, title, body, caption) {
-  return el(
-    "figure",
-    { class: "paper", id: `figure-${number}`, "data-figure": number },
+  return el("figure.paper", { id: `figure-${number}`, "data-figure": number },
     body,
-    el("figcaption", {}, el("b", {}, `Figure ${number}. ${title}. `), caption),
+    el("figcaption", el("b", `Figure ${number}. ${title}. `), caption),
   );
 }
 
@@ -43,25 +41,21 @@ function diffuseFigure(view) {
   const cells = models.map((model) => {
     const image = findImage(model.image);
     const mean = (model.mean || []).map((x) => fmt(x, 3)).join(", ");
-    return el(
-      "div",
-      {},
+    return el("div",
       image
         ? tonedPicture(view, image, `The scene with the diffuse model ${model.model}`)
         : missingPicture("This image is not in the report."),
-      el(
-        "div",
-        { class: "under" },
-        el("b", {}, model.model),
+      el("div.under",
+        el("b", model.model),
         ` ${model.meaning || ""}`,
-        mean && el("span", { class: "bounds" }, `mean ${mean}`),
+        mean && el("span.bounds", `mean ${mean}`),
       ),
     );
   });
   return figureBox(
     1,
     "Diffuse models",
-    el("div", { class: "models" }, cells),
+    el("div.models", cells),
     "The same scene with each model of diffuse scattering.",
   );
 }
@@ -83,7 +77,7 @@ function strategyFigure(view, number, { strategy, level, image }, shown, inset, 
   // Widths that make the square insets together as high as the image.
   const parts = insets ? insets.childElementCount : 1;
   main.style.flexGrow = (parts * image.width) / image.height;
-  const body = el("div", { class: "with-insets" }, main, insets);
+  const body = el("div.with-insets", main, insets);
   const caption = figureCaption(view, strategy, level, meaning, compare);
   return figureBox(number, title, body, caption);
 }
@@ -93,17 +87,13 @@ function insetColumn(view, image, shown, inset) {
   const sources = [["this", image]];
   if (shown !== image) sources.push(["baseline", shown]);
   sources.push(["reference", findImage(scene.reference && scene.reference.image)]);
-  return el(
-    "div",
-    { class: "insets" },
+  return el("div.insets",
     sources
       .filter(([, source]) => sizesEqual(source, image))
       .map(([name, source]) =>
-        el(
-          "div",
-          {},
+        el("div",
           tonedPicture(view, source, `Magnified part: ${name}`, { crop: inset }),
-          el("div", { class: "inset-name" }, name),
+          el("div.inset-name", name),
         ),
       ),
   );
@@ -126,13 +116,7 @@ function figureCaption(view, strategy, level, meaning, compare) {
     meaning,
     ` ${strategy.name}: ${numbers || "no numbers"}. `,
     compare && hasImage(reference) &&
-      el(
-        "button",
-        {
-          type: "button",
-          class: "link",
-          onclick: () => compare(strategy.images.one, reference),
-        },
+      el("button.link", { onclick: () => compare(strategy.images.one, reference) },
         "Compare",
       ),
   ];
@@ -162,30 +146,22 @@ function convergenceFigure(view, strategies) {
   return figureBox(
     8,
     title,
-    el("div", { class: "convergence" }, figure, orderRows(measured)),
+    el("div.convergence", figure, orderRows(measured)),
     "Beside the curves the fitted slope of log RMSE over log samples. The line at −½ is " +
       "where independent samples fall; further left converges faster.",
   );
 }
 
 function orderRows(strategies) {
-  const scale = whiskerScale(
-    strategies.map((s) => s.order),
-    false,
-    [-0.5],
-  );
+  const scale = whiskerScale(strategies.map((s) => s.order), false, [-0.5]);
   const size = { width: 200 };
-  return el(
-    "div",
-    { class: "orders" },
-    el("div", {}),
-    el("div", {}, whiskerAxis(scale, { ...size, format: fmtShort, most: 4 })),
-    el("div", {}),
+  return el("div.orders",
+    el("div"),
+    el("div", whiskerAxis(scale, { ...size, format: fmtShort, most: 4 })),
+    el("div"),
     strategies.map((s) => [
-      el("div", { class: "order-name" }, strategyLabel(s)),
-      el(
-        "div",
-        {},
+      el("div.order-name", strategyLabel(s)),
+      el("div",
         whisker(s.order, scale, {
           ...size,
           style: s.style,
@@ -193,7 +169,7 @@ function orderRows(strategies) {
           label: `Order of ${s.name}`,
         }),
       ),
-      el("div", { class: "order-value" }, joined(intervalTexts(s.order))),
+      el("div.order-value", joined(intervalTexts(s.order))),
     ]),
   );
 }
@@ -242,17 +218,13 @@ function paperStrategies(view) {
 function figuresSection(view, compare) {
   const { hosts, controls } = sampledFigures(view, compare);
   const absent = Object.keys(FIGURE_TITLES).filter((key) => !hosts.has(Number(key)));
-  return section(
-    "figures",
-    "The paper's figures on this scene",
+  return section("figures", "The paper's figures on this scene",
     (view.scene.diffuse || []).length > 0 && diffuseFigure(view),
     controls,
-    el("div", { class: "paper-grid" }, [...hosts.values()]),
+    el("div.paper-grid", [...hosts.values()]),
     convergenceFigure(view, paperStrategies(view)),
     absent.length > 0 &&
-      el(
-        "p",
-        { class: "hint" },
+      el("p.hint",
         "Not among the strategies of this study: ",
         absent
           .map((number) => `figure ${number} (${FIGURE_TITLES[number][0].toLowerCase()})`)

@@ -31,31 +31,19 @@ const VISIBLE_NOISE = 0.01; // a relative MSE that an eye sees, for the start
 function levelControls(levels, draw) {
   const start = nearestLevel(levels, VISIBLE_NOISE, (level) => valueOf(level.relmse) || 1e-9);
   const state = { base: start, equal: "time" };
-  const text = el("output", { class: "exposure" });
-  const show = () => {
-    text.textContent = `${fmtCount(state.base.spp)} spp`;
-    draw(state.base, state.equal);
-  };
-  const slider = el("input", {
-    type: "range",
-    min: 0,
-    max: levels.length - 1,
-    value: levels.indexOf(start),
-    "data-control": "figure-spp",
-    oninput: () => {
-      state.base = levels[Number(slider.value)];
+  const show = () => draw(state.base, state.equal);
+  const counts = slider("Samples of the baseline", {
+    min: 0, max: levels.length - 1, value: levels.indexOf(start),
+    "data-control": "figure-spp", text: (i) => `${fmtCount(levels[i].spp)} spp`,
+    onInput: (i) => {
+      state.base = levels[i];
       show();
     },
   });
-  const choices = [
-    ["time", "Equal time"],
-    ["samples", "Equal samples"],
-  ];
+  const choices = [["time", "Equal time"], ["samples", "Equal samples"]];
   show();
-  return el(
-    "div",
-    { class: "toolbar" },
-    labelled("Samples of the baseline", slider, text),
+  return el("div.toolbar",
+    counts.node,
     choiceButtons("Compared at", choices, "time", (equal) => {
       state.equal = equal;
       show();

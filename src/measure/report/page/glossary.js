@@ -62,15 +62,3 @@ const TERMS = [
       "building. Runs were interleaved, so that a slow phase of the machine hits all alike.",
   ],
 ];
-
-function glossarySection() {
-  return section(
-    "reading",
-    "How to read this",
-    el(
-      "dl",
-      { class: "glossary" },
-      TERMS.map(([term, text]) => el("div", {}, el("dt", {}, term), el("dd", {}, text))),
-    ),
-  );
-}

@@ -49,12 +49,10 @@ function heroSentence(view, { winner }) {
 }
 
 function heroNumber(value, bounds, caption) {
-  return el(
-    "div",
-    { class: "hero-number" },
-    el("div", { class: "number" }, value),
-    bounds && el("div", { class: "bounds" }, bounds),
-    el("div", { class: "hero-caption" }, caption),
+  return el("div.hero-number",
+    el("div.number", value),
+    bounds && el("div.bounds", bounds),
+    el("div.hero-caption", caption),
   );
 }
 
@@ -64,7 +62,7 @@ function gainNumber(view, pair) {
   const { value, bounds } = intervalTexts(gain);
   return heroNumber(`${value}×`, bounds, [
     "as efficient as ",
-    el("b", {}, shortName(pair.other.name)),
+    el("b", shortName(pair.other.name)),
     pair.other === view.baseline ? ", the baseline" : ", the next",
   ]);
 }
@@ -96,8 +94,8 @@ function heroPlot(view, { winner, other }) {
   };
   const { host, figure } = plotFigure("hero", "Relative MSE against processor time");
   figure.firstChild.append(
-    el("span", { class: "hero-legend" }, strong.map((s) => strategyLabel(s)),
-      view.ran.length > strong.length && el("span", { class: "bounds" }, "grey: the others"),
+    el("span.hero-legend", strong.map((s) => strategyLabel(s)),
+      view.ran.length > strong.length && el("span.bounds", "grey: the others"),
     ),
   );
   const axis = {
@@ -115,22 +113,18 @@ function hero(view) {
   const { scene } = view;
   const pair = contest(view);
   if (!pair) {
-    return el("p", { class: "verdict" }, scene.verdict || "No strategy has been measured.");
+    return el("p.verdict", scene.verdict || "No strategy has been measured.");
   }
   return [
-    el("p", { class: "verdict" }, heroSentence(view, pair)),
-    el(
-      "div",
-      { class: "hero" },
-      el("div", { class: "hero-numbers" }, gainNumber(view, pair), targetNumber(view, pair)),
+    el("p.verdict", heroSentence(view, pair)),
+    el("div.hero",
+      el("div.hero-numbers", gainNumber(view, pair), targetNumber(view, pair)),
       heroPlot(view, pair),
     ),
     scene.verdict &&
-      el(
-        "details",
-        { class: "notes" },
-        el("summary", {}, "In words, with all intervals"),
-        el("p", { class: "lead" }, scene.verdict),
+      el("details.notes",
+        el("summary", "In words, with all intervals"),
+        el("p.lead", scene.verdict),
       ),
   ];
 }

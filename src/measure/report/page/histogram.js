@@ -31,23 +31,18 @@ function histogramLine(shares, top) {
 function histogram(label, series, marks) {
   const top = Math.max(...series.flatMap((s) => [...s.shares]), 1e-9);
   const line = (at) =>
-    svg("line", { x1: at, x2: at, y1: 0, y2: HISTOGRAM_HEIGHT + 4, class: "tick" });
+    svg("line.tick", { x1: at, x2: at, y1: 0, y2: HISTOGRAM_HEIGHT + 4 });
   const anchor = (at) => (at < 0.05 ? "start" : at > 0.95 ? "end" : "middle");
-  return svg(
-    "svg",
+  return svg("svg.histogram",
     {
-      class: "histogram",
-      role: "img",
-      "aria-label": label,
+      role: "img", "aria-label": label,
       viewBox: `0 0 ${HISTOGRAM_WIDTH} ${HISTOGRAM_HEIGHT + HISTOGRAM_FOOT}`,
     },
     marks.map(([at]) => line(at * HISTOGRAM_WIDTH)),
     marks.map(([at, text]) =>
-      svg(
-        "text",
+      svg("text",
         {
-          x: at * HISTOGRAM_WIDTH,
-          y: HISTOGRAM_HEIGHT + HISTOGRAM_FOOT - 4,
+          x: at * HISTOGRAM_WIDTH, y: HISTOGRAM_HEIGHT + HISTOGRAM_FOOT - 4,
           "text-anchor": anchor(at),
         },
         text,

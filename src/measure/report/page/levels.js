@@ -20,11 +20,7 @@ const LEVEL_COLUMNS = [
   ["Mean", (l) => (l.mean || []).map((x) => fmt(x, 4)).join("  ") || UNKNOWN],
   ["Worst 0.1 %", (l) => fmtPercent(l.worst_share)],
   ["Self-estimate", (l) => (l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN)],
-  [
-    "Held",
-    (l) =>
-      l.self && known(l.self.total) ? joined(heldTexts(l.self)) : UNKNOWN,
-  ],
+  ["Held", (l) => (l.self && known(l.self.total) ? joined(heldTexts(l.self)) : UNKNOWN)],
   ["Rays / sample", (l) => fmt(l.rays_per_sample)],
   ["Path length", (l) => fmt(l.path_length)],
   ["Reference's share", (l) => fmtPercent(l.reference_share)],
@@ -40,41 +36,27 @@ function heldTexts({ inside, total, refused }) {
 
 function levelsDetails(strategy) {
   const levels = strategy.levels || [];
-  return el(
-    "details",
-    { class: "levels" },
-    el(
-      "summary",
-      {},
+  return el("details.levels",
+    el("summary",
       strategyLabel(strategy),
-      el(
-        "span",
-        { class: "bounds" },
+      el("span.bounds",
         levels.length === 0
           ? whyMissing(strategy)
           : `${levels.length} sample ${levels.length === 1 ? "count" : "counts"}`,
       ),
     ),
-    strategy.text && el("p", { class: "full-text" }, strategy.text),
-    strategy.message && el("p", {}, strategy.message),
+    strategy.text && el("p.full-text", strategy.text),
+    strategy.message && el("p", strategy.message),
     levels.length > 0 &&
-      plainTable(
-        `All numbers of ${strategy.name}`,
-        LEVEL_COLUMNS.map(([title]) => title),
+      plainTable(`All numbers of ${strategy.name}`, LEVEL_COLUMNS.map(([title]) => title),
         levels.map((level) => LEVEL_COLUMNS.map(([, cell]) => cell(level))),
       ),
   );
 }
 
 function levelsSection(view) {
-  return section(
-    "data",
-    "All numbers",
-    el(
-      "p",
-      { class: "lead" },
-      "The same as in study.json; single repetitions are in study.csv.",
-    ),
+  return section("data", "All numbers",
+    el("p.lead", "The same as in study.json; single repetitions are in study.csv."),
     leadingRows(view, view.strategies, levelsDetails),
   );
 }

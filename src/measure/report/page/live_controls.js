@@ -2,29 +2,6 @@
 // The bars above and below the picture: which one, how bright, what lies over it, the
 // camera's numbers.
 
-const CURVE_OPTIONS = ["srgb", "reinhard", "filmic", "false"].map((name) => [
-  name,
-  TONE_CURVES[name].label,
-]);
-
-// A slider with its value beside it. text(x): of the value.
-function slider(label, { id, min, max, step, value, text, onInput }) {
-  const shown = el("output", { class: "slider-value" }, text(value));
-  const input = el("input", {
-    type: "range", id, min, max, step, value,
-    oninput: () => {
-      shown.textContent = text(Number(input.value));
-      onInput(Number(input.value));
-    },
-  });
-  const set = (x) => {
-    input.value = x;
-    shown.textContent = text(x);
-  };
-  const node = el("label", { class: "slider" }, el("span", {}, label), input, shown);
-  return { node, set };
-}
-
 function viewBar(page) {
   const { look } = page;
   const split = slider("Slider", {
@@ -56,8 +33,7 @@ function viewBar(page) {
     }
     follow();
   };
-  const tools = choiceButtons(
-    "What the mouse moves",
+  const tools = choiceButtons("What the mouse moves",
     [["camera", "Move camera"], ["pan", "Move picture"]],
     page.tool,
     (tool) => {
@@ -67,19 +43,19 @@ function viewBar(page) {
   );
   tools.id = "tools";
   views.id = "views";
-  const pause = el("button", { type: "button", class: "button", id: "pause" }, "Pause");
+  const pause = el("button#pause.button", "Pause");
   pause.addEventListener("click", () => {
     page.paused = !page.paused;
     pause.textContent = page.paused ? "Go on" : "Pause";
     page.socket.send({ do: "pause", on: page.paused });
   });
-  return el("div", { class: "live-bar" }, views, tools, pause, split.node);
+  return el("div.live-bar", views, tools, pause, split.node);
 }
 
 // The canvas with a line between two pictures, and what they are called.
 function pictureBox(page, canvas) {
-  const line = el("div", { class: "split-line", hidden: true });
-  const labels = [0, 1].map((slot) => el("span", { class: "pane-label" }, "AB"[slot]));
+  const line = el("div.split-line", { hidden: true });
+  const labels = [0, 1].map((slot) => el("span.pane-label", "AB"[slot]));
   page.drawPanes = (panes, width) => {
     line.hidden = page.look.view !== "slider";
     line.style.left = `${100 * page.look.split}%`;
@@ -92,7 +68,7 @@ function pictureBox(page, canvas) {
       label.style.right = right ? `${width - pane.to + 8}px` : "auto";
     });
   };
-  return el("div", { class: "picture-box" }, canvas, line, labels);
+  return el("div.picture-box", canvas, line, labels);
 }
 
 function layerMenu(page) {
@@ -102,7 +78,7 @@ function layerMenu(page) {
     colour: "Picture", error: "Standard error", relative: "Relative error",
     samples: "Samples", rays: "Cost: rays per sample", depth: "Depth of paths",
   };
-  const legend = el("div", { id: "legend", hidden: true });
+  const legend = el("div#legend", { hidden: true });
   page.drawLegend = () => drawLegend(page, legend, layers);
   const choose = menu(
     "Show", { id: "layer" }, layers.map(([name]) => [name, names[name]]), COLOUR,
@@ -120,14 +96,14 @@ function drawLegend(page, legend, layers) {
   legend.hidden = layer === COLOUR;
   if (legend.hidden) return;
   const meaning = layers.find(([name]) => name === layer)[1];
-  const note = (text) => el("span", { class: "note" }, `${meaning}${text}`);
+  const note = (text) => el("span.note", `${meaning}${text}`);
   const range = page.range();
   if (!range) return legend.replaceChildren(note(": not known yet"));
   const [low, high] = range;
   legend.replaceChildren(
-    el("span", {}, fmt(low, 2)),
-    el("span", { class: "ramp", "aria-hidden": "true" }),
-    el("span", {}, fmt(high, 2)),
+    el("span", fmt(low, 2)),
+    el("span.ramp", { "aria-hidden": "true" }),
+    el("span", fmt(high, 2)),
     note(", logarithmic; grey: not known yet"),
   );
 }
@@ -141,11 +117,11 @@ function toneBar(page) {
       page.viewer.redraw();
     },
   });
-  const curve = menu("Tone", { id: "curve" }, CURVE_OPTIONS, page.look.curve, (name) => {
+  const curve = menu("Tone", { id: "curve" }, TONE_OPTIONS, page.look.curve, (name) => {
     page.look.curve = name;
     page.viewer.redraw();
   });
-  return el("div", { class: "live-bar" }, exposure.node, curve, layerMenu(page));
+  return el("div.live-bar", exposure.node, curve, layerMenu(page));
 }
 
 // Sliders of the lens; the mouse does the rest.
@@ -166,9 +142,7 @@ function cameraBar(page) {
     id: "focus", min: -4, max: 4, step: 0.02, value: stops(eye.focus),
     text: (x) => fmt(size * 2 ** x), onInput: (x) => change({ focus: size * 2 ** x }),
   });
-  const home = el(
-    "button", { type: "button", class: "button", id: "home" }, "Camera of the scene",
-  );
+  const home = el("button#home.button", "Camera of the scene");
   home.addEventListener("click", () => page.onHome());
   page.showEye = (now) => {
     fov.set(now.fov);
@@ -178,7 +152,6 @@ function cameraBar(page) {
   const has = { fov: page.hello.camera === "perspective" };
   const thin = has.fov || page.hello.camera === "orthographic";
   return el(
-    "div", { class: "live-bar" },
-    has.fov && fov.node, thin && lens.node, thin && focus.node, home,
+    "div.live-bar", has.fov && fov.node, thin && lens.node, thin && focus.node, home,
   );
 }

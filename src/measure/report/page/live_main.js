@@ -42,36 +42,32 @@ const page = {
 };
 
 function build(hello) {
-  const canvas = el("canvas", {
-    id: "picture", tabindex: 0, "data-tool": "camera",
-    "aria-label":
+  const canvas = el("canvas#picture", { tabindex: 0, "data-tool": "camera", "aria-label":
       "The picture. Arrows turn the camera, with shift they move it, plus and minus go " +
-      "nearer and away, 0 goes back",
-  });
-  const readout = el("div", { id: "readout" });
+      "nearer and away, 0 goes back" });
+  const readout = el("div#readout");
   page.screen = new Screen(canvas);
   page.screen.reset(page.size);
   page.viewer = new Viewer(page, canvas);
   page.readout = new Readout(page, readout);
   page.cards = [new StrategyCard(page, 0, "default"), new StrategyCard(page, 1, "")];
   page.stages = new Stages();
-  page.score = el("div", { id: "score", hidden: true });
-  page.plot = el("div", { id: "error-plot", hidden: true });
-  const viewer = el("section", { id: "viewer", "aria-label": "Picture" },
+  page.score = el("div#score", { hidden: true });
+  page.plot = el("div#error-plot", { hidden: true });
+  const viewer = el("section#viewer", { "aria-label": "Picture" },
     viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page));
-  const side = el("div", { class: "live-side" },
+  const side = el("div.live-side",
     section("compare", "Compare", page.cards.map((card) => card.node), paceButtons(page),
       page.score, page.plot),
     section("figures", "The paper, figure by figure", presetButtons(page, page.cards)),
     section("take", "Take it away", saveBar(page)),
     section("stages", "Where the time goes", page.stages.node));
-  document.getElementById("content").replaceChildren(
-    el("div", { class: "live" }, viewer, side));
+  document.getElementById("content").replaceChildren(el("div.live", viewer, side));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
   linkSections([["viewer", "Picture"], ["compare", "Compare"],
     ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);
   const name = hello.scene.split("/").slice(-2).join("/");
-  document.getElementById("scenes").append(el("span", { class: "tab" }, name));
+  document.getElementById("scenes").append(el("span.tab", name));
   document.title = `${name} – Lanelight live`;
   document.getElementById("bottom").textContent =
     `${hello.version}, ${hello.threads} threads, ${hello.target}; the scene was read in ` +
@@ -79,7 +75,7 @@ function build(hello) {
 }
 
 function explain(message) {
-  document.getElementById("content").replaceChildren(el("p", { class: "wait" }, message));
+  document.getElementById("content").replaceChildren(el("p.wait", message));
 }
 
 const handlers = {
@@ -127,7 +123,7 @@ const handlers = {
     const text = said
       ? "Goodbye: the program has ended. What is seen here stays until the page is closed."
       : "The connection has ended. Is the program still running? Reload the page to try again.";
-    document.body.append(el("div", { id: "closed", role: "alert" }, text));
+    document.body.append(el("div#closed", { role: "alert" }, text));
   },
 };
 

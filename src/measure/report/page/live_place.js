@@ -1,12 +1,7 @@
 "use strict";
 // What of the image is seen, and where: panes, zoom, the slider between two pictures.
 
-const VIEWS = [
-  ["a", "A"],
-  ["b", "B"],
-  ["slider", "Slider"],
-  ["side", "Side by side"],
-];
+const VIEWS = [["a", "A"], ["b", "B"], ["slider", "Slider"], ["side", "Side by side"]];
 const MOST_ZOOM = 64;
 
 // Panes in pixels of style from the upper left corner: [{slot, x, width, from, to}], of

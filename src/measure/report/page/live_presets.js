@@ -18,20 +18,19 @@ function presetButtons(page, cards) {
     if (page.look.view === "a" || page.look.view === "b") page.showView("slider");
   };
   const button = (label, title, a, b) =>
-    el("button", { type: "button", class: "button", title, "data-preset": `${a} ${b}`,
-                   onclick: () => both(a, b) }, label);
+    el("button.button",
+      { title, "data-preset": `${a} ${b}`, onclick: () => both(a, b) }, label);
   const figures = page.hello.strategies.presets.filter((p) => FIGURES[p.name]);
-  return el(
-    "div", { class: "presets" },
-    el("p", { class: "note" }, "First, what choosing directions well is worth:"),
-    el("div", { class: "choices" },
+  return el("div.presets",
+    el("p.note", "First, what choosing directions well is worth:"),
+    el("div.choices",
       button("Uniform | importance", "A: uniform directions; B: as the material scatters",
         "paper-uniform", "paper-importance"),
       button("Importance | default", "B: what this program does if nothing is asked for",
         "paper-importance", "default")),
-    el("p", { class: "note" },
+    el("p.note",
       "Then the paper's figures: A is its common base (paper-plain), B changes one thing:"),
-    el("div", { class: "choices" },
+    el("div.choices",
       figures.map((p, i) =>
         button(`${i + 1}. ${FIGURES[p.name]}`, p.meaning, "paper-plain", p.name))),
   );

@@ -9,7 +9,7 @@ class Readout {
 
   clear() {
     this.node.replaceChildren(
-      el("span", { class: "note" }, "Point at the picture for the numbers of a pixel."),
+      el("span.note", "Point at the picture for the numbers of a pixel."),
     );
   }
 
@@ -49,7 +49,7 @@ class Readout {
   show({ x, y, slots }) {
     const rows = slots.map((pixel, i) => pixel && this.row("AB"[i], pixel));
     this.node.replaceChildren(
-      el("span", { class: "where" }, `pixel ${x}, ${y}`),
+      el("span.where", `pixel ${x}, ${y}`),
       ...rows.filter(Boolean),
     );
   }
@@ -58,14 +58,14 @@ class Readout {
     const parts = value.map((v, c) =>
       el(
         "span", { class: `channel channel-${c}` },
-        fmt(v, 4), error && el("span", { class: "note" }, `± ${fmt(error[c], 2)}`),
+        fmt(v, 4), error && el("span.note", `± ${fmt(error[c], 2)}`),
       ),
     );
     return el(
-      "span", { class: "readout-row", "data-slot": name },
-      el("b", {}, name), parts,
-      el("span", { class: "note" },
-        `${fmtCount(samples)} samples${error ? "" : ", too few for a standard error"}`),
+      "span.readout-row", { "data-slot": name },
+      el("b", name), parts,
+      el("span.note", `${fmtCount(samples)} samples`,
+        !error && ", too few for a standard error"),
     );
   }
 }

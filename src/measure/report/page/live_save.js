@@ -1,15 +1,6 @@
 "use strict";
 // Taking things away: files, the command line, the camera.
 
-function saveBlob(blob, name) {
-  const address = URL.createObjectURL(blob);
-  const link = el("a", { href: address, download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
-}
-
 async function copyText(text, shown) {
   shown.textContent = text;
   try {
@@ -22,8 +13,8 @@ async function copyText(text, shown) {
 }
 
 function saveBar(page) {
-  const said = el("p", { class: "note", id: "said", role: "status" });
-  const text = el("pre", { id: "copied", hidden: true });
+  const said = el("p#said.note", { role: "status" });
+  const text = el("pre#copied", { hidden: true });
   const show = async (what, content) => {
     text.hidden = false;
     const done = await copyText(content, text);
@@ -31,7 +22,7 @@ function saveBar(page) {
   };
   page.takeCameraText = ({ text: content }) => show("The camera", content);
   page.takeFile = (head, buffer, at) => {
-    saveBlob(new Blob([new Uint8Array(buffer, at)]), head.name);
+    saveFile(head.name, new Blob([new Uint8Array(buffer, at)]));
     said.textContent = `${head.name} is saved.`;
   };
   page.say = (message) => {
@@ -40,7 +31,7 @@ function saveBar(page) {
   const exr = (slot) => () => page.socket.send({ do: "exr", slot });
   const png = () => {
     page.viewer.draw();
-    page.viewer.canvas.toBlob((blob) => saveBlob(blob, `${page.stem}.png`), "image/png");
+    page.viewer.canvas.toBlob((blob) => saveFile(`${page.stem}.png`, blob), "image/png");
     said.textContent = `${page.stem}.png is saved: the picture as it is seen.`;
   };
   const command = () => {
@@ -51,11 +42,9 @@ function saveBar(page) {
     show("The command", moved + slot.command);
   };
   const button = (id, label, onclick) =>
-    el("button", { type: "button", class: "button", id, onclick }, label);
+    el("button.button", { id, onclick }, label);
   return el(
-    "div", { class: "save" },
-    el("div", { class: "choices" },
-      button("save-png", "Save PNG as seen", png),
+    "div.save", el("div.choices", button("save-png", "Save PNG as seen", png),
       button("save-exr-a", "Save EXR of A", exr(0)),
       button("save-exr-b", "Save EXR of B", exr(1)),
       button("copy-command", "Copy the command", command),

@@ -14,18 +14,17 @@ function drawScore(node, state) {
   node.hidden = !ratio;
   if (!ratio) return;
   if (ratio.value === undefined || ratio.value === null) {
-    node.replaceChildren(el("p", { class: "note" }, `No ratio yet: ${ratio.why}.`));
+    node.replaceChildren(el("p.note", `No ratio yet: ${ratio.why}.`));
     return;
   }
+  const cost = state.pace === "time" ? "processor time" : "samples";
   const bounds = `[${known(ratio.low) ? fmt(ratio.low) : "0"}, ${
     known(ratio.high) ? fmt(ratio.high) : "∞"}]`;
   node.replaceChildren(
-    el("div", { class: "number" }, fmt(ratio.value),
-      el("span", { class: "bounds" }, ` ${bounds}`)),
-    el("p", {}, el("b", {}, `${verdictText(ratio, state.pace)}. `),
-      `Efficiency of B over A, 1 / (relative MSE × ${
-        state.pace === "time" ? "processor time" : "samples"}), with a 95 % interval that holds at all looks together, `,
-      "from what both estimate of their own errors."),
-    ratio.why && el("p", { class: "note" }, `An end is open, ${ratio.why}`),
+    el("div.number", fmt(ratio.value), el("span.bounds", ` ${bounds}`)),
+    el("p", el("b", `${verdictText(ratio, state.pace)}. `),
+      `Efficiency of B over A, 1 / (relative MSE × ${cost}), with a 95 % interval that `,
+      "holds at all looks together, from what both estimate of their own errors."),
+    ratio.why && el("p.note", `An end is open, ${ratio.why}`),
   );
 }

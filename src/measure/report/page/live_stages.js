@@ -6,13 +6,11 @@ const MOST_BARS = 12;
 function stageRow(stage, total, most) {
   const share = stage.seconds / total;
   return el(
-    "div", { class: "live-stage" },
-    el("span", { class: "live-stage-name" }, stage.name.replaceAll("_", " ")),
-    el("span", { class: "live-stage-bar" },
-      el("span", { style: { width: `${(100 * share) / most}%` } })),
-    el("span", { class: "live-stage-share" }, fmtPercent(share, 2)),
-    el("span", { class: "live-stage-filled" },
-      stage.filled === null ? "" : `${fmtPercent(stage.filled, 2)} of lanes`),
+    "div.live-stage", el("span.live-stage-name", stage.name.replaceAll("_", " ")),
+    el("span.live-stage-bar", el("span", { style: { width: `${(100 * share) / most}%` } })),
+    el("span.live-stage-share", fmtPercent(share, 2)),
+    el("span.live-stage-filled",
+      stage.filled !== null && `${fmtPercent(stage.filled, 2)} of lanes`),
   );
 }
 
@@ -24,12 +22,12 @@ function drawStages(node, slot) {
   const rest = stages.slice(MOST_BARS).reduce((sum, s) => sum + s.seconds, 0);
   node.replaceChildren();
   appendAll(node, [
-    el("p", {}, el("b", {}, `${fmt(slot.rays / slot.seconds / 1e6)} Mray/s`),
+    el("p", el("b", `${fmt(slot.rays / slot.seconds / 1e6)} Mray/s`),
       ` and ${fmt(slot.samples / slot.seconds / 1e6)} million samples a second of `,
       "processor time, all of the program's threads together"),
     stages.slice(0, MOST_BARS).map((stage) => stageRow(stage, total, most)),
     rest > 0 &&
-      el("p", { class: "note" },
+      el("p.note",
         `${stages.length - MOST_BARS} more stages take ${fmtPercent(rest / total, 2)}`),
   ]);
 }
@@ -37,19 +35,19 @@ function drawStages(node, slot) {
 function drawOmitted(node, slot) {
   node.replaceChildren(
     ...slot.omitted.map(({ name, reason }) =>
-      el("div", {}, el("b", {}, name.replaceAll("_", " ")), ` ${reason}`)),
+      el("div", el("b", name.replaceAll("_", " ")), ` ${reason}`)),
   );
 }
 
 class Stages {
   constructor() {
     this.bars = [0, 1].map((slot) => el("div", { "data-stages": slot }));
-    this.omitted = [0, 1].map(() => el("div", { class: "omitted" }));
+    this.omitted = [0, 1].map(() => el("div.omitted"));
     this.columns = [0, 1].map((slot) =>
-      el("div", { class: "live-stages-column" },
-        el("h3", {}, swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.bars[slot],
-        el("details", {}, el("summary", {}, "Left out, and why"), this.omitted[slot])));
-    this.node = el("div", { class: "live-stages" }, this.columns);
+      el("div.live-stages-column",
+        el("h3", swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.bars[slot],
+        el("details", el("summary", "Left out, and why"), this.omitted[slot])));
+    this.node = el("div.live-stages", this.columns);
     this.plans = ["", ""];
   }
 

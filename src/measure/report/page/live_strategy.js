@@ -18,23 +18,21 @@ class StrategyCard {
       ["scene", page.hello.scene_strategy],
       ...lists.presets.map((p) => [p.name, p.strategy]),
     ]);
-    this.status = el("div", { class: "card-status", "aria-live": "off" });
-    this.axes = el("div", { class: "axes" });
+    this.status = el("div.card-status", { "aria-live": "off" });
+    this.axes = el("div.axes");
     this.select = el("select", { onchange: () => this.choose(this.select.value) });
-    this.node = el(
-      "div", { class: "card", id: `card-${slot}` },
-      el("div", { class: "card-head" },
-        el("label", { class: "menu" },
-          el("span", {}, swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.select),
+    this.node = el(`div#card-${slot}.card`,
+      el("div.card-head",
+        el("label.menu", el("span", swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.select),
         slot === 1 && this.offButton()),
-      el("details", {}, el("summary", {}, "Choose by axes"), this.axes),
+      el("details", el("summary", "Choose by axes"), this.axes),
       this.status,
     );
     this.fill();
   }
 
   offButton() {
-    const button = el("button", { type: "button", class: "button", id: "off" }, "None");
+    const button = el("button#off.button", "None");
     button.addEventListener("click", () => this.choose(""));
     return button;
   }
@@ -88,7 +86,7 @@ class StrategyCard {
   show(state) {
     this.node.classList.toggle("empty", state.name === "");
     if (state.refused) {
-      this.status.replaceChildren(el("p", { class: "refused" }, state.refused));
+      this.status.replaceChildren(el("p.refused", state.refused));
       return;
     }
     if (state.name === "" || state.spp === undefined) {
@@ -100,14 +98,13 @@ class StrategyCard {
       ? joined(intervalTexts({ value: look.relmse, low: look.low, high: look.high }))
       : "not yet: it is estimated from 8 samples per pixel on";
     this.status.replaceChildren(
-      el("dl", { class: "facts live-facts" },
-        fact("Samples per pixel", fmtCount(state.spp)),
+      el("dl.facts.live-facts", fact("Samples per pixel", fmtCount(state.spp)),
         fact("Processor time", fmtSeconds(state.seconds)),
         fact("Relative MSE", error,
           look && look.why, { class: "wide", "data-fact": "relmse" }),
         state.training && fact("Learned", state.training, null, { class: "wide" }),
         state.invalid > 0 && fact("Invalid samples", fmtCount(state.invalid)),
-        state.notes.length > 0 && fact("Notes", state.notes.join("; "), null, { class: "wide" })),
+        fact("Notes", state.notes.join("; "), null, { class: "wide" })),
     );
   }
 }

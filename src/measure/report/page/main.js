@@ -37,13 +37,8 @@ function fillNavigation(scene) {
     ...(study.scenes.length < 2
       ? []
       : study.scenes.map((other) =>
-          el(
-            "a",
-            {
-              href: sceneHash(other),
-              class: "tab",
-              "aria-current": other === scene ? "page" : null,
-            },
+          el("a.tab",
+            { href: sceneHash(other), "aria-current": other === scene ? "page" : null },
             other.name,
           ),
         )),
@@ -51,21 +46,11 @@ function fillNavigation(scene) {
   linkSections(scene.error ? [] : SECTIONS, (id) => sceneHash(scene, id));
 }
 
-function errorScene(scene) {
-  return [
-    el(
-      "section",
-      { "aria-labelledby": "summary-title" },
-      el("h1", { id: "summary-title" }, scene.name),
-      el(
-        "div",
-        { class: "warnings", role: "note" },
-        el("h3", {}, "This scene could not be studied"),
-        el("p", {}, scene.error),
-      ),
-      scene.path && el("p", { class: "full-text" }, scene.path),
-    ),
-  ];
+function errorScene({ name, error, path }) {
+  return firstSection(name,
+    warningBox("This scene could not be studied", [error]),
+    path && el("p.full-text", path),
+  );
 }
 
 function sceneSections(view) {
@@ -84,7 +69,7 @@ function sceneSections(view) {
     mapsSection(view),
     stagesSection(view),
     levelsSection(view),
-    glossarySection(),
+    readingSection(TERMS),
   ];
 }
 
@@ -96,9 +81,8 @@ function showScene(index) {
   document.title = `${scene.name} – Lanelight study`;
   fillNavigation(scene);
   tip.hide();
-  const content = document.getElementById("content");
-  content.replaceChildren(...(scene.error ? errorScene(scene) : sceneSections(view)));
-  content.dataset.scene = scene.name;
+  showContent(scene.error ? errorScene(scene) : sceneSections(view));
+  document.getElementById("content").dataset.scene = scene.name;
 }
 
 function followHash() {
@@ -110,29 +94,21 @@ function followHash() {
   else if (changed) scrollTo(0, 0);
 }
 
-function footerText() {
-  const versions = study.machine ? versionsText(study.machine.versions) : null;
-  return (
-    `Written by lanelight study${versions ? ` (${versions})` : ""}. This page holds all ` +
-    "its numbers and images and needs no network. Plots: uPlot, MIT licence."
-  );
-}
-
 function start() {
-  theme.bindButton(document.getElementById("theme"));
+  const { versions } = study.machine || {};
+  const by = versions ? ` (${versionsText(versions)})` : "";
+  const footer =
+    `Written by lanelight study${by}. This page holds all its numbers and images and ` +
+    "needs no network.";
+  startPage({ title: "Lanelight study", footer });
   document.getElementById("skip").addEventListener("click", (event) => {
     event.preventDefault(); // the address belongs to the scenes
     document.getElementById("content").focus();
   });
-  document.getElementById("bottom").textContent = footerText();
   if (!study.scenes || study.scenes.length === 0) {
-    document
-      .getElementById("content")
-      .replaceChildren(el("p", { class: "wait" }, "This study has no scenes."));
-    return;
+    return showContent(el("p.wait", "This study has no scenes."));
   }
   addEventListener("hashchange", followHash);
-  addEventListener("scroll", tip.hide, { passive: true });
   followHash();
 }
 

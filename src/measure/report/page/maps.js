@@ -91,9 +91,7 @@ function tilePicture(view, s, reference) {
       );
     }
   };
-  return el(
-    "div",
-    {},
+  return el("div",
     picture(view, {
       label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
       width,
@@ -107,9 +105,7 @@ function tilePicture(view, s, reference) {
           (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP,
         ),
     }),
-    el(
-      "div",
-      { class: "inset-name" },
+    el("div.inset-name",
       failed.size === 0
         ? "no tile fails"
         : `${failed.size} of ${columns * rows} tiles fail`,
@@ -118,8 +114,7 @@ function tilePicture(view, s, reference) {
 }
 
 function mapsSection(view) {
-  if (view.ran.length === 0)
-    return section("maps", "Maps", el("p", {}, "No strategy ran."));
+  if (view.ran.length === 0) return section("maps", "Maps", el("p", "No strategy ran."));
   const maps = [
     imageMap(view, {
       title: "Relative deviation",
@@ -138,38 +133,21 @@ function mapsSection(view) {
     tileMap(view),
   ];
   const rows = leadingRows(view, view.ranked, (s) =>
-    el(
-      "div",
-      { class: "map-row", role: "group", "aria-label": s.name },
-      el("h3", { class: "map-name" }, strategyLabel(s)),
-      maps.map((map) => el("div", { class: "map-cell" }, map.cell(s))),
+    el("div.map-row", { role: "group", "aria-label": s.name },
+      el("h3.map-name", strategyLabel(s)),
+      maps.map((map) => el("div.map-cell", map.cell(s))),
     ),
   );
-  return section(
-    "maps",
-    "Maps",
-    el(
-      "p",
-      { class: "lead" },
+  return section("maps", "Maps",
+    el("p.lead",
       "Standard deviation of one render and bias of the mean of all " +
         "repetitions, both relative to the reference and on one scale for all strategies; and " +
         "the test that a tile's mean equals the reference's, with failed tiles outlined.",
     ),
-    el(
-      "div",
-      { class: "maps" },
-      el(
-        "div",
-        { class: "map-row map-head" },
-        el("div", { class: "map-name" }),
-        maps.map((map) =>
-          el(
-            "div",
-            { class: "map-cell" },
-            el("div", { class: "map-title" }, map.title),
-            map.legend,
-          ),
-        ),
+    el("div.maps",
+      el("div.map-row.map-head",
+        el("div.map-name"),
+        maps.map((map) => el("div.map-cell", el("div.map-title", map.title), map.legend)),
       ),
       rows,
     ),

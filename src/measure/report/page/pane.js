@@ -25,11 +25,7 @@ function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
     context.fillStyle = theme.color("--muted");
     context.font = `${14 * devicePixelRatio}px system-ui, sans-serif`;
     context.textAlign = "center";
-    context.fillText(
-      MISSING_IMAGE,
-      canvas.width / 2,
-      canvas.height / 2,
-    );
+    context.fillText(MISSING_IMAGE, canvas.width / 2, canvas.height / 2);
   }
   context.restore();
 }
@@ -79,21 +75,18 @@ function paneTitle(comparison, show) {
     b,
     split: `${a}  |  ${b}`,
     flip: comparison.flipped ? b : a,
-    difference: `${comparison.kind.title}, of A  ${labelOf(comparison, "a")} and B  ${labelOf(comparison, "b")}`,
+    difference: `${comparison.kind.title}, of ${a} and ${b}`,
   }[show];
 }
 
 // A pane: the canvas below a line that says what it shows.
 function makePane(comparison, show, repaint, hover) {
   const { width, height } = comparison.size;
-  const canvas = el("canvas", {
-    class: "pane",
-    tabindex: 0,
-    "data-pane": show,
-    role: "img",
+  const canvas = el("canvas.pane", {
+    tabindex: 0, "data-pane": show, role: "img",
     style: { "aspect-ratio": `${width} / ${height}` },
   });
-  const title = el("div", { class: "pane-title" });
+  const title = el("div.pane-title");
   const retitle = () => {
     title.textContent = paneTitle(comparison, show);
     canvas.setAttribute(
@@ -122,16 +115,13 @@ function makePane(comparison, show, repaint, hover) {
   });
   if (show === "flip") canvas.addEventListener("dblclick", flip);
   retitle();
-  const frame = el(
-    "div",
-    { class: "pane-frame" },
+  const frame = el("div.pane-frame",
     canvas,
     show === "split" && splitHandle(comparison, canvas, repaint),
   );
   // No higher than most of the window.
-  const box = el(
-    "div",
-    { class: "pane-box", style: { "max-width": `calc(78vh * ${width / height})` } },
+  const box = el("div.pane-box",
+    { style: { "max-width": `calc(78vh * ${width / height})` } },
     title,
     frame,
   );
@@ -140,12 +130,8 @@ function makePane(comparison, show, repaint, hover) {
 
 // The divider, for pointer and keyboard.
 function splitHandle(comparison, canvas, repaint) {
-  const handle = el("div", {
-    class: "split",
-    role: "slider",
-    tabindex: 0,
-    "aria-label": "Share of image A",
-    "aria-valuemin": 0,
+  const handle = el("div.split", {
+    role: "slider", tabindex: 0, "aria-label": "Share of image A", "aria-valuemin": 0,
     "aria-valuemax": 100,
   });
   const set = (share) => {

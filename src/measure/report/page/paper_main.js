@@ -8,28 +8,22 @@ function paperNumber(view, number, strategies) {
       (a, b) => (valueOf(a.order) ?? 0) - (valueOf(b.order) ?? 0))[0];
     if (!steepest || valueOf(steepest.order) === null) return null;
     const { value, bounds } = intervalTexts(steepest.order);
-    return heroNumber(value, bounds, ["is the steepest slope, of ", el("b", {}, steepest.name)]);
+    return heroNumber(value, bounds, ["is the steepest slope, of ", el("b", steepest.name)]);
   }
   const s = strategyOfFigure(view, number);
   if (!s || valueOf(s.efficiency) === null) return null;
   const { value, bounds } = intervalTexts(s.efficiency);
-  return heroNumber(`${value}×`, bounds, ["as efficient as ", el("b", {}, view.baseline.name)]);
+  return heroNumber(`${value}×`, bounds, ["as efficient as ", el("b", view.baseline.name)]);
 }
 
 function paperPart(number, title, big, found, figure) {
   const [equation, says] = PAPER_EQUATIONS[number];
-  return section(
-    `part-${number}`,
-    title,
-    el(
-      "div",
-      { class: "paper-part" },
-      el(
-        "div",
-        {},
-        el("p", { class: "equation" }, equation),
-        el("p", {}, says),
-        el("p", { class: "found" }, found || "Nothing was found of it in this study."),
+  return section(`part-${number}`, title,
+    el("div.paper-part",
+      el("div",
+        el("p.equation", equation),
+        el("p", says),
+        el("p.found", found || "Nothing was found of it in this study."),
         big,
       ),
       figure,
@@ -39,22 +33,19 @@ function paperPart(number, title, big, found, figure) {
 
 function paperIntroduction(view) {
   const { bias } = view.scene;
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, "A paper on path tracing, on one page"),
-    el("p", { class: "verdict" },
-       "S. Maughan's Path Tracing Renderer Using Monte Carlo Methods, each figure rendered anew ",
-       "and measured, on the scene ", el("b", {}, view.scene.name), "."),
-    el("p", { class: "equation" }, "L(x, ω) = Lₑ(x, ω) + ∫ f(x, ω, ω′) L(x′, −ω′) cos θ′ dω′"),
-    el("p", { class: "lead" },
-       "Light that leaves a point is what it emits and what it scatters of all that arrives " +
+  return firstSection("A paper on path tracing, on one page",
+    el("p.verdict",
+      "S. Maughan's Path Tracing Renderer Using Monte Carlo Methods, each figure rendered anew ",
+       "and measured, on the scene ", el("b", view.scene.name), "."),
+    el("p.equation", "L(x, ω) = Lₑ(x, ω) + ∫ f(x, ω, ω′) L(x′, −ω′) cos θ′ dω′"),
+    el("p.lead",
+      "Light that leaves a point is what it emits and what it scatters of all that arrives " +
        "(Kajiya 1986). A path is one sample of that integral, nested; the figures are ways to " +
        "draw it. All are compared with one baseline, which changes nothing but the one thing " +
        "that a figure is about."),
     bias && known(bias.tests) &&
-      el("p", { class: "lead" },
-         `Bias: of ${bias.tests} tests that a strategy's mean image is the reference's, ` +
+      el("p.lead",
+        `Bias: of ${bias.tests} tests that a strategy's mean image is the reference's, ` +
          `${bias.failed} failed (probability of any false alarm: ${fmtShort(bias.level)}).`),
     factsList(view),
   );
@@ -81,19 +72,17 @@ function paperSections(view) {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
   const scene = study.scenes[0];
-  document.title = `${scene.name} – Lanelight paper`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight study --paper. This page holds all its numbers and images and needs " +
-    "no network; report.html beside it has more. Plots: uPlot, MIT licence.";
-  linkSections(Object.keys(PAPER_EQUATIONS).map((key) => [`part-${key}`, `Figure ${key}`]));
+  const numbers = Object.keys(PAPER_EQUATIONS);
+  startPage({
+    title: `${scene.name} – Lanelight paper`,
+    footer:
+      "Written by lanelight study --paper. This page holds all its numbers and images and " +
+      "needs no network; report.html beside it has more.",
+    sections: numbers.map((key) => [`part-${key}`, `Figure ${key}`]),
+  });
   const view = makeView(scene);
-  document
-    .getElementById("content")
-    .replaceChildren(...appendAll(el("div"), [paperIntroduction(view), paperSections(view)])
-      .childNodes);
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(paperIntroduction(view), paperSections(view));
 }
 
 start();

@@ -25,12 +25,8 @@ function picture(
   },
 ) {
   const shown = crop || { x: 0, y: 0, width, height };
-  const canvas = el("canvas", {
-    role: "img",
-    "aria-label": label,
-    class: "picture",
-    width: shown.width,
-    height: shown.height,
+  const canvas = el("canvas.picture", {
+    role: "img", "aria-label": label, width: shown.width, height: shown.height,
     style: { "aspect-ratio": `${shown.width} / ${shown.height}` },
   });
   if (crop) canvas.classList.add("crop");
@@ -66,10 +62,7 @@ function picture(
 // White within black, so that it shows on anything.
 function strokeFrame(context, { x, y, width, height }, ratio) {
   const unit = Math.min(devicePixelRatio, (width * ratio) / 14);
-  for (const [color, line] of [
-    ["#000", 4 * unit],
-    ["#fff", 2 * unit],
-  ]) {
+  for (const [color, line] of [["#000", 4 * unit], ["#fff", 2 * unit]]) {
     context.strokeStyle = color;
     context.lineWidth = line;
     context.strokeRect(x * ratio, y * ratio, width * ratio, height * ratio);
@@ -90,28 +83,17 @@ function debounced(run) {
 }
 
 function missingPicture(text) {
-  return el("div", { class: "missing", role: "img", "aria-label": text }, text);
+  return el("div.missing", { role: "img", "aria-label": text }, text);
 }
 
 // A colour ramp with texts below its two ends and its middle.
 function rampLegend(table, [low, middle, high]) {
-  const canvas = el("canvas", {
-    width: 256,
-    height: 1,
-    class: "ramp",
-    "aria-hidden": "true",
-  });
+  const canvas = el("canvas.ramp", { width: 256, height: 1, "aria-hidden": "true" });
   const pixels = new ImageData(256, 1);
   for (let i = 0; i < 256; ++i) putRamp(pixels.data, 4 * i, table, i / 255);
   canvas.getContext("2d").putImageData(pixels, 0, 0);
-  return el(
-    "div",
-    { class: "ramp-legend" },
+  return el("div.ramp-legend",
     canvas,
-    el(
-      "div",
-      { class: "ramp-texts" },
-      [low, middle, high].map((t) => el("span", {}, t)),
-    ),
+    el("div.ramp-texts", [low, middle, high].map((t) => el("span", t))),
   );
 }

@@ -3,14 +3,10 @@
 
 function rankingSection(view) {
   const baseline = view.baseline ? view.baseline.name : null;
-  return section(
-    "ranking",
-    "Ranking",
-    el(
-      "p",
-      { class: "lead" },
+  return section("ranking", "Ranking",
+    el("p.lead",
       "Efficiency is 1 / (relative MSE × seconds of processor time)",
-      baseline ? [", relative to ", el("b", {}, baseline)] : null,
+      baseline ? [", relative to ", el("b", baseline)] : null,
       ": at twice the efficiency, the same image takes half the time. Small print: " +
         `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
         "A rank range such as 2–4 says that the order within it could be chance.",
@@ -21,29 +17,18 @@ function rankingSection(view) {
 
 // The columns that answer, or all of them across the whole window.
 function rankingTables(view) {
-  const host = el("div", { class: "ranking-host" });
+  const host = el("div.ranking-host");
   const show = (which) => {
     host.classList.toggle("wide", which === "all");
     host.replaceChildren(rankingTable(view, which === "all"));
   };
   show("main");
-  const choices = [
-    ["main", "Main columns"],
-    ["all", "All columns"],
-  ];
-  return [
-    el("div", { class: "toolbar" }, choiceButtons("Columns", choices, "main", show)),
-    host,
-  ];
+  const choices = [["main", "Main columns"], ["all", "All columns"]];
+  return [el("div.toolbar", choiceButtons("Columns", choices, "main", show)), host];
 }
 
 function rankingTable(view, all) {
-  const scale = whiskerScale(
-    view.ranked.map((s) => s.efficiency),
-    true,
-    [1],
-  );
-  const notRun = view.strategies.filter((s) => !view.ran.includes(s));
+  const scale = whiskerScale(view.ranked.map((s) => s.efficiency), true, [1]);
   const columns = rankingColumns(view, scale).filter(
     (column) => all || MAIN_COLUMNS.has(column.key),
   );
@@ -51,50 +36,31 @@ function rankingTable(view, all) {
     caption: "Ranking of the strategies by efficiency",
     columns,
     rows: view.ranked,
-    fixed: [
-      ...view.ran.map((s) => twinsRow(view, s, columns.length)).filter(Boolean),
-      ...notRun
-        .filter((s) => s.status !== "same")
-        .map((s) => notRunRow(s, columns.length)),
-    ],
+    fixed: otherRows(view, columns.length),
     sortedBy: "rank",
     rowClass: (s) => (s.rank && s.rank[0] === 1 ? "best" : null),
   });
 }
 
-// Those that do exactly the same here were rendered once.
-function twinsRow(view, strategy, count) {
-  const twins = twinsOf(view, strategy);
-  if (twins.length === 0) return null;
-  return el(
-    "tr",
-    { class: "not-run" },
-    el("td", { class: "text" }, "="),
-    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
-    el(
-      "td",
-      { class: "text", colspan: count - 2 },
-      el(
-        "span",
-        { class: "why" },
-        `The same on this scene, and rendered once: ${twins.map((s) => s.name).join(", ")}`,
-      ),
-    ),
+// A row beside the ranking: why a strategy has no numbers of its own.
+function otherRow(mark, strategy, why, count) {
+  return el("tr.not-run",
+    el("td.text", mark),
+    el("th.text", { scope: "row" }, strategyLabel(strategy)),
+    el("td.text", { colspan: count - 2 }, el("span.why", why)),
   );
 }
 
-function notRunRow(strategy, count) {
-  return el(
-    "tr",
-    { class: "not-run" },
-    el("td", { class: "text" }, UNKNOWN),
-    el("th", { scope: "row", class: "text" }, strategyLabel(strategy)),
-    el(
-      "td",
-      { class: "text", colspan: count - 2 },
-      el("span", { class: "why" }, whyMissing(strategy)),
-    ),
-  );
+// Those that do exactly the same here were rendered once.
+function otherRows(view, count) {
+  const twins = view.ran.map((s) => [s, twinsOf(view, s).map((twin) => twin.name)]);
+  const same = twins.filter(([, names]) => names.length > 0);
+  const others = view.strategies.filter((s) => !view.ran.includes(s) && s.status !== "same");
+  const once = "The same on this scene, and rendered once: ";
+  return [
+    ...same.map(([s, names]) => otherRow("=", s, once + names.join(", "), count)),
+    ...others.map((s) => otherRow(UNKNOWN, s, whyMissing(s), count)),
+  ];
 }
 
 function rankText(rank) {
@@ -112,14 +78,6 @@ function rivals(view, s) {
 
 function rankCell(view, s) {
   const others = rivals(view, s);
-  return el(
-    "span",
-    {
-      class: "rank",
-      title: others.length
-        ? `Not distinguishable from ${others.map((o) => o.name).join(", ")}`
-        : null,
-    },
-    rankText(s.rank),
-  );
+  const title = `Not distinguishable from ${others.map((o) => o.name).join(", ")}`;
+  return el("span.rank", { title: others.length > 0 && title }, rankText(s.rank));
 }

@@ -3,87 +3,58 @@
 
 // A column of an interval of the level that the ranking is of. common: the values' common
 // scale, which then stands in the header; null for each its own.
-function levelColumn(
-  view,
-  key,
-  title,
-  unit,
-  hint,
-  { scaled = commonScale, texts = intervalTexts } = {},
-) {
-  const intervalOf = (s) => s.level && s.level[key];
-  const common = scaled && scaled(view.ranked.map((s) => valueOf(intervalOf(s))));
-  const cell = (s) =>
-    common ? intervalTexts(intervalOf(s), common.scale) : texts(intervalOf(s));
-  return {
-    key,
-    title,
-    hint,
-    unit: [unit, common && common.unit].filter(Boolean).join(", "),
-    cell: (s) => twoLines(cell(s)),
-    sort: (s) => valueOf(intervalOf(s)),
-  };
+function levelColumn(view, key, title, unit, hint, scaled = commonScale, texts) {
+  const of = (s) => s.level && s.level[key];
+  const common = scaled && scaled(view.ranked.map((s) => valueOf(of(s))));
+  return intervalColumn(key, title, of,
+    common ? (interval) => intervalTexts(interval, common.scale) : texts,
+    { hint, unit: [unit, common && common.unit].filter(Boolean).join(", ") },
+  );
 }
 
 function levelNumber(key, title, hint, format) {
-  return {
-    key,
-    title,
-    hint,
-    cell: (s) => format(s.level ? s.level[key] : null),
-    sort: (s) => (s.level && known(s.level[key]) ? s.level[key] : null),
-  };
+  return numberColumn(key, title, (s) => (s.level ? s.level[key] : null), format, { hint });
 }
 
 function targetColumn(view, key, title, texts) {
   const target = view.scene.target_relmse;
-  return {
-    key: `target-${key}`,
-    title,
+  const of = (s) => s.to_target && s.to_target[key];
+  return intervalColumn(`target-${key}`, title, of, texts, {
     unit: known(target) ? `to ${fmtShort(target)}` : null,
     hint: "To reach the target's relative MSE; * extrapolated: no render got there",
     cell: (s) => {
       if (!s.to_target) return UNKNOWN;
-      const { value, bounds } = texts(s.to_target[key]);
+      const { value, bounds } = texts(of(s));
       return twoLines({ value: s.to_target.extrapolated ? `${value} *` : value, bounds });
     },
-    sort: (s) => (s.to_target ? valueOf(s.to_target[key]) : null),
-  };
+  });
 }
 
 function efficiencyColumns(view, scale) {
+  const drawn = { marks: [1], width: 160 };
   return [
-    {
-      key: "efficiency",
-      title: "Efficiency",
+    intervalColumn("efficiency", "Efficiency", (s) => s.efficiency, intervalTexts, {
       unit: "relative",
       descendingFirst: true,
       cell: (s) =>
         twoLines(intervalTexts(s.efficiency), s === view.baseline ? "baseline" : null),
-      sort: (s) => valueOf(s.efficiency),
-    },
+    }),
     {
       key: "whisker",
       title: "",
       text: true,
       axis: scale && whiskerAxis(scale, { width: 160 }),
-      cell: (s) =>
-        whisker(s.efficiency, scale, {
-          style: s.style,
-          marks: [1],
-          width: 160,
-          label: `Efficiency of ${s.name}`,
-        }),
+      cell: ({ efficiency, style, name }) =>
+        whisker(efficiency, scale, { ...drawn, style, label: `Efficiency of ${name}` }),
     },
-    {
-      key: "efficiency-trimmed",
-      title: "Trimmed",
-      unit: "efficiency",
-      hint: "Efficiency without the worst 1 % of the pixels of each render",
-      descendingFirst: true,
-      cell: (s) => twoLines(intervalTexts(s.efficiency_trimmed)),
-      sort: (s) => valueOf(s.efficiency_trimmed),
-    },
+    intervalColumn("efficiency-trimmed", "Trimmed", (s) => s.efficiency_trimmed,
+      intervalTexts,
+      {
+        unit: "efficiency",
+        hint: "Efficiency without the worst 1 % of the pixels of each render",
+        descendingFirst: true,
+      },
+    ),
   ];
 }
 
@@ -105,116 +76,66 @@ function breakable(text) {
 }
 
 // What answers the question; the rest is for those who doubt it.
-const MAIN_COLUMNS = new Set([
-  "rank",
-  "name",
-  "efficiency",
-  "whisker",
-  "efficiency-trimmed",
-  "relmse",
-  "cpu_seconds",
-  "order",
-  "target-seconds",
-]);
+const MAIN_COLUMNS = new Set(["rank", "name", "efficiency", "whisker", "efficiency-trimmed",
+                              "relmse", "cpu_seconds", "order", "target-seconds"]);
 
 // The full text on demand: it may be five lines long.
 function nameCell(s) {
   if (!s.text || s.text === s.name) return strategyLabel(s);
-  return el(
-    "details",
-    { class: "name" },
-    el("summary", {}, strategyLabel(s)),
-    el("span", { class: "full-text" }, breakable(s.text)),
+  return el("details.name",
+    el("summary", strategyLabel(s)),
+    el("span.full-text", breakable(s.text)),
   );
+}
+
+// Counts of samples as whole numbers.
+function wholeTexts(interval) {
+  const x = valueOf(interval);
+  if (x === null || x < 100 || x >= 1e9) return intervalTexts(interval);
+  const ends = [interval.low, interval.high].map(fmtCount);
+  return { value: fmtCount(x), bounds: hasBounds(interval) ? `[${ends.join(", ")}]` : "" };
+}
+
+function coverageColumn() {
+  const self = (s) => s.level && s.level.self;
+  return {
+    key: "self",
+    title: "Coverage",
+    unit: "self-estimate",
+    hint: "How often the interval that a render states of itself held its true error",
+    cell: (s) => twoLines(coverageTexts(self(s))),
+    sort: (s) => (self(s) && self(s).total ? self(s).inside / self(s).total : null),
+  };
 }
 
 function rankingColumns(view, scale) {
   const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
   const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the most spp";
-  const wholeTexts = (interval) => {
-    const x = valueOf(interval);
-    return x !== null && x >= 100 && x < 1e9
-      ? {
-          value: fmtCount(x),
-          bounds: hasBounds(interval)
-            ? `[${fmtCount(interval.low)}, ${fmtCount(interval.high)}]`
-            : "",
-        }
-      : intervalTexts(interval);
-  };
+  const signed = (interval) => percentTexts(interval, true);
+  const level = (...column) => levelColumn(view, ...column);
   return [
-    {
-      key: "rank",
-      title: "Rank",
-      text: true,
-      cell: (s) => rankCell(view, s),
+    textColumn("rank", "Rank", (s) => rankCell(view, s), {
       sort: (s) => view.ranked.indexOf(s),
-    },
-    {
-      key: "name",
-      title: "Strategy",
-      text: true,
-      rowHead: true,
-      cell: nameCell,
-      sort: (s) => s.name,
-    },
-    ...efficiencyColumns(view, scale),
-    levelColumn(
-      view,
-      "relmse",
-      "Relative MSE",
-      at,
-      "Squared error over squared reference + 0.01",
-    ),
-    levelColumn(
-      view,
-      "relmse_trimmed",
-      "Trimmed",
-      "relative MSE",
-      "Relative MSE without the worst 1 % of the pixels",
-    ),
-    levelColumn(view, "cpu_seconds", "Time", "processor", "Median of one render", {
-      scaled: commonTime,
-      texts: secondsTexts,
     }),
-    {
-      key: "order",
-      title: "Order",
+    textColumn("name", "Strategy", nameCell, { rowHead: true, sort: (s) => s.name }),
+    ...efficiencyColumns(view, scale),
+    level("relmse", "Relative MSE", at, "Squared error over squared reference + 0.01"),
+    level("relmse_trimmed", "Trimmed", "relative MSE",
+      "Relative MSE without the worst 1 % of the pixels"),
+    level("cpu_seconds", "Time", "processor", "Median of one render", commonTime,
+      secondsTexts),
+    intervalColumn("order", "Order", (s) => s.order, intervalTexts, {
       unit: "of convergence",
       hint: "Slope of log RMSE over log samples; −0.5 for independent samples",
-      cell: (s) => twoLines(intervalTexts(s.order)),
-      sort: (s) => valueOf(s.order),
-    },
+    }),
     targetColumn(view, "spp", "Samples", wholeTexts),
     targetColumn(view, "seconds", "Time", secondsTexts),
-    levelColumn(
-      view,
-      "bias",
-      "Bias",
-      "of the mean",
-      "Mean of the image against the reference",
-      { scaled: null, texts: (interval) => percentTexts(interval, true) },
-    ),
+    level("bias", "Bias", "of the mean", "Mean of the image against the reference", null,
+      signed),
     levelNumber("bias_p", "p", "Welch's test that the means are equal", fmtP),
-    levelColumn(view, "variance", "Variance", null, "Part of the relative MSE"),
-    levelColumn(
-      view,
-      "bias2",
-      "Bias²",
-      null,
-      "Part of the relative MSE; can be negative by chance",
-    ),
-    {
-      key: "self",
-      title: "Coverage",
-      unit: "self-estimate",
-      hint: "How often the interval that a render states of itself held its true error",
-      cell: (s) => twoLines(coverageTexts(s.level && s.level.self)),
-      sort: (s) =>
-        s.level && s.level.self && s.level.self.total
-          ? s.level.self.inside / s.level.self.total
-          : null,
-    },
+    level("variance", "Variance", null, "Part of the relative MSE"),
+    level("bias2", "Bias²", null, "Part of the relative MSE; can be negative by chance"),
+    coverageColumn(),
     levelNumber("rays_per_sample", "Rays", "of all kinds, per sample", fmt),
     levelNumber("path_length", "Path", "Scattering rays per sample", fmt),
   ];

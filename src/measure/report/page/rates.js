@@ -1,11 +1,7 @@
 "use strict";
 // Samples and rays per second as people read them.
 
-const RATE_PREFIXES = [
-  [1e9, "G"],
-  [1e6, "M"],
-  [1e3, "k"],
-];
+const RATE_PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"]];
 
 function rateTick(x) {
   if (!known(x)) return UNKNOWN;

@@ -4,7 +4,7 @@
 
 // The legend of what the panes' colours mean, when they are not the scene's own.
 function comparatorScale(comparison) {
-  const box = el("div", { class: "scale-box" });
+  const box = el("div.scale-box");
   const update = () => {
     const { curve, exposure } = comparison.view.tone.value;
     box.replaceChildren();
@@ -54,6 +54,6 @@ function showPixel(comparison, readout, point) {
     [kind.signed ? "(A − B) / B" : kind.label, values ? format(values.at(y * width + x)) : UNKNOWN],
   ];
   readout.replaceChildren(
-    ...cells.map(([name, text]) => el("span", {}, el("b", {}, name), ` ${text}`)),
+    ...cells.map(([name, text]) => el("span", el("b", name), ` ${text}`)),
   );
 }

@@ -19,10 +19,10 @@ function stageColor(index) {
 }
 
 function stageTip(strategy, stage) {
-  const line = (name, text) => text !== UNKNOWN && el("div", {}, `${name} ${text}`);
+  const line = (name, text) => text !== UNKNOWN && el("div", `${name} ${text}`);
   return [
-    el("b", {}, `${stage.name}: ${fmtPercent(stage.share)}`),
-    el("div", {}, strategy.name),
+    el("b", `${stage.name}: ${fmtPercent(stage.share)}`),
+    el("div", strategy.name),
     line("time", fmtSeconds(stage.seconds)),
     line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
     line("items", fmtCount(stage.items)),
@@ -36,33 +36,25 @@ function stageBar(strategy, names, length = 1) {
     (stage) => known(stage.share) && stage.share > 0,
   );
   if (stages.length === 0)
-    return el("div", { class: "bar empty" }, "No stages recorded.");
+    return el("div.bar.empty", "No stages recorded.");
   const rank = new Map(names.map((name, i) => [name, i]));
   stages.sort((a, b) => rank.get(a.name) - rank.get(b.name));
-  const total = Math.max(
-    1,
-    stages.reduce((sum, stage) => sum + stage.share, 0),
-  );
-  return el(
-    "div",
-    { class: "bar", role: "list" },
+  const total = Math.max(1, stages.reduce((sum, stage) => sum + stage.share, 0));
+  return el("div.bar", { role: "list" },
     stages.map((stage) => {
       const share = stage.share / total;
       const index = rank.get(stage.name);
       const text = `${stage.name} ${fmtPercent(stage.share)}`;
       return withTip(
-        el(
-          "div",
+        el("div",
           {
             class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part",
-            role: "listitem",
-            tabindex: share >= SMALL_STAGE ? 0 : null,
+            role: "listitem", tabindex: share >= SMALL_STAGE ? 0 : null,
             "aria-label": text,
             style: { width: `${share * 100}%`, "background-color": stageColor(index) },
           },
           share * length > 0.06 &&
-            el(
-              "span",
+            el("span",
               { "aria-hidden": "true", class: share * length < 0.12 ? "narrow" : null },
               fmtPercent(stage.share, 2),
             ),
@@ -84,15 +76,11 @@ function stageSeconds(strategy) {
 function stageLegend(names) {
   const rest = names.length > COLOR_COUNT;
   const entry = (text, index) =>
-    el(
-      "li",
-      {},
-      el("span", { class: "patch", style: { "background-color": stageColor(index) } }),
+    el("li",
+      el("span.patch", { style: { "background-color": stageColor(index) } }),
       text,
     );
-  return el(
-    "ul",
-    { class: "stage-legend" },
+  return el("ul.stage-legend",
     names.slice(0, COLOR_COUNT).map(entry),
     rest ? entry(`other (${names.slice(COLOR_COUNT).join(", ")})`, COLOR_COUNT) : null,
   );
@@ -103,12 +91,9 @@ function stagesTable(view, names) {
     const stage = (s.stages || []).find((candidate) => candidate.name === name);
     return stage ? fmtPercent(stage.share) : UNKNOWN;
   };
-  return el(
-    "details",
-    {},
-    el("summary", {}, "The same as a table"),
-    plainTable(
-      "Share of each stage in the time of each strategy",
+  return el("details",
+    el("summary", "The same as a table"),
+    plainTable("Share of each stage in the time of each strategy",
       ["Strategy", "All stages", ...names],
       view.ranked.map((s) => [
         s.name,
@@ -121,15 +106,8 @@ function stagesTable(view, names) {
 
 // A bar with its name, and a few words on the whole.
 function stageRow(strategy, text, bar, attributes = {}) {
-  return el(
-    "div",
-    { class: "stage-row", ...attributes },
-    el(
-      "div",
-      { class: "stage-name" },
-      strategyLabel(strategy),
-      el("span", { class: "bounds" }, text),
-    ),
+  return el("div.stage-row", { ...attributes },
+    el("div.stage-name", strategyLabel(strategy), el("span.bounds", text)),
     bar,
   );
 }
@@ -137,26 +115,20 @@ function stageRow(strategy, text, bar, attributes = {}) {
 function stagesSection(view) {
   const names = stageNames(view);
   if (names.length === 0) {
-    return section(
-      "stages",
-      "Where the time went",
-      el("p", {}, "No stage times were recorded."),
+    return section("stages", "Where the time went",
+      el("p", "No stage times were recorded."),
     );
   }
   const rows = leadingRows(view, view.ranked, (s) =>
     stageRow(s, fmtSeconds(stageSeconds(s)), stageBar(s, names)),
   );
-  return section(
-    "stages",
-    "Where the time went",
-    el(
-      "p",
-      { class: "lead" },
+  return section("stages", "Where the time went",
+    el("p.lead",
       "Share of each stage in the processor time, at the largest " +
         "count, all repetitions together.",
     ),
     stageLegend(names),
-    el("div", { class: "stage-rows" }, rows),
+    el("div.stage-rows", rows),
     stagesTable(view, names),
   );
 }

@@ -32,27 +32,14 @@ function markerPath(marker, x, y, r) {
 // A piece of the strategy's line with its marker.
 function swatch(style) {
   const color = `var(${style.variable})`;
-  return svg(
-    "svg",
-    {
-      class: "swatch",
-      viewBox: "0 0 34 12",
-      width: 34,
-      height: 12,
-      "aria-hidden": "true",
-    },
+  return svg("svg.swatch",
+    { viewBox: "0 0 34 12", width: 34, height: 12, "aria-hidden": "true" },
     svg("line", {
-      x1: 1,
-      y1: 6,
-      x2: 33,
-      y2: 6,
-      "stroke-width": 2,
-      "stroke-dasharray": style.dash.join(" ") || null,
-      style: { stroke: color },
+      x1: 1, y1: 6, x2: 33, y2: 6, "stroke-width": 2,
+      "stroke-dasharray": style.dash.join(" ") || null, style: { stroke: color },
     }),
     svg("path", {
-      d: markerPath(style.marker, 17, 6, 4),
-      "stroke-width": 1.8,
+      d: markerPath(style.marker, 17, 6, 4), "stroke-width": 1.8,
       style: { stroke: color, fill: color },
     }),
   );
@@ -78,11 +65,9 @@ function fullName(strategy) {
 }
 
 function strategyLabel(strategy) {
-  return el(
-    "span",
-    { class: "strategy", title: fullName(strategy) },
+  return el("span.strategy", { title: fullName(strategy) },
     swatch(strategy.style),
-    el("span", { class: "strategy-name" }, shortName(strategy.name)),
+    el("span.strategy-name", shortName(strategy.name)),
   );
 }
 

@@ -25,10 +25,10 @@ function pointRows(aCase, point) {
 }
 
 function describePoint(aCase) {
-  return (line, point) => [
-    el("b", {}, line.name === "all" ? aCase.name : line.name),
-    el("div", {}, `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
-    pointRows(aCase, point).map(([name, text]) => el("div", {}, `${name}: ${text}`)),
+  return (line, { point }) => [
+    el("b", line.name === "all" ? aCase.name : line.name),
+    el("div", `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
+    pointRows(aCase, point).map(([name, text]) => el("div", `${name}: ${text}`)),
   ];
 }
 
@@ -90,68 +90,37 @@ function choicesOf(aCase, lines, plot) {
   return (plot.choices ? Object.keys(plot.choices) : [null]).filter(has);
 }
 
-function detailPlot(aCase, target, lines, plot) {
-  const choices = choicesOf(aCase, lines, plot);
+function detailPlot(view, aCase, target, plot) {
+  const choices = choicesOf(aCase, view.ran, plot);
   if (choices.length === 0) return null;
-  let choice = choices[0];
-  const host = el("div", { class: "map-host", "data-plot": plot.key });
   const title = plot.title(aCase);
-  const draw = () =>
-    host.isConnected &&
-    mapPlot(host, {
-      aCase,
-      target,
-      lines,
-      quantity: title,
-      label: `${title} against ${aCase.axis.name}`,
-      yLog: plot.log,
-      yTick: choice ? plot.choices[choice][1] : plot.tick,
-      include: plot.include,
-      value: (point) => plot.value(aCase, point, choice),
-      describe: describePoint(aCase),
-    });
-  new ResizeObserver(() => requestAnimationFrame(draw)).observe(host);
-  const buttons =
-    choices.length > 1 &&
-    choiceButtons(
-      title,
-      choices.map((key) => [key, plot.choices[key][0]]),
-      choice,
-      (key) => {
-        choice = key;
-        draw();
-      },
-    );
-  const caption = el("figcaption", {}, title, buttons);
-  const saving = mapSaveButtons(host, `${title}, ${aCase.name}`);
-  return el("figure", { class: "plot-figure" }, caption, host, saving);
+  const { host, figure } = plotFigure(plot.key, title, `${title}, ${aCase.name}`);
+  let end = () => {};
+  const draw = (choice) => {
+    end();
+    end = showPlot(view, host, mapOptions(aCase, target, view.ran, plot, choice));
+  };
+  draw(choices[0]);
+  if (choices.length > 1) {
+    const options = choices.map((key) => [key, plot.choices[key][0]]);
+    figure.firstChild.append(choiceButtons(title, options, choices[0], draw));
+  }
+  return figure;
 }
 
-function detailSection(aCase, target, onChoose) {
-  const lines = seriesOf(aCase, target);
-  const shown = new Set(lines.map((line) => line.index));
-  const plots = el("div", { class: "map-plots" });
-  const draw = () => {
-    tip.hide();
-    const some = lines.filter((line) => shown.has(line.index));
-    const figures = PLOTS.map((plot) => detailPlot(aCase, target, some, plot));
-    plots.replaceChildren(...figures.filter(Boolean));
-    plots.style.setProperty("--plots", Math.max(1, plots.childElementCount));
-  };
-  draw();
-  return section(
-    "map",
-    el("span", {}, aCase.name, el("span", { class: "on-target" }, ` on ${target}`)),
+function detailSection(view, aCase, target, onChoose) {
+  const figures = PLOTS.map((plot) => detailPlot(view, aCase, target, plot)).filter(Boolean);
+  return section("map", el("span", aCase.name, el("span.on-target", ` on ${target}`)),
     mapMenu(aCase, onChoose),
     factList(aCase, target),
-    seriesLegend(lines, shown, draw),
-    plots,
-    el(
-      "p",
-      { class: "hint" },
+    view.ran.length > MOST_BANDS && showAllButtons(view),
+    view.ran.length > 1 && strategyLegend(view, "Curves shown"),
+    el("div.map-plots", { style: { "--plots": Math.max(1, figures.length) } }, figures),
+    el("p.hint",
       "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
         "lines: where a point would fail. Red rings: points that are not good; " +
-        "crosses: refused, with the message. A hollow marker has no error at all.",
+        "crosses: refused, with the message. A hollow marker has no error at all. Drag to " +
+        "zoom, double-click to see all again.",
     ),
   );
 }

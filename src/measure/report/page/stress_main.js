@@ -1,18 +1,15 @@
 "use strict";
 // Shows the run; what depends on the SIMD target or the chosen map is drawn anew.
 
-const state = { target: targets[0], map: null };
+const state = { target: targets[0], map: null, view: null };
 
 function fillTargets(onTarget) {
   if (targets.length < 2) return;
   document.getElementById("scenes").replaceChildren(
     ...targets.map((target) =>
-      el(
-        "a",
+      el("a.tab",
         {
-          href: "#summary",
-          class: "tab",
-          "data-target": target,
+          href: "#summary", "data-target": target,
           "aria-current": target === state.target ? "true" : null,
           onclick: (event) => {
             event.preventDefault();
@@ -22,18 +19,6 @@ function fillTargets(onTarget) {
         target,
       ),
     ),
-  );
-}
-
-function fillSections() {
-  linkSections(
-    [
-      ["summary", "Verdict"],
-      maps.length > 0 && ["map", "Map"],
-      compared.length > 0 && ["strategies", "Strategies"],
-      ["cases", "Cases"],
-      ["reading", "How to read this"],
-    ].filter(Boolean),
   );
 }
 
@@ -51,17 +36,28 @@ function markTile() {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = "Lanelight stress";
-  document.getElementById("bottom").textContent =
-    `Written by ${study.version}. This page holds all its numbers and needs no network.`;
-  const top = el("div", {}),
-    detail = el("div", {}),
-    strategies = el("div", {});
+  startPage({
+    title: "Lanelight stress",
+    footer: `Written by ${study.version}. This page holds all its numbers and needs no network.`,
+    sections: [
+      ["summary", "Verdict"],
+      maps.length > 0 && ["map", "Map"],
+      compared.length > 0 && ["strategies", "Strategies"],
+      ["cases", "Cases"],
+      ["reading", "How to read this"],
+    ],
+  });
+  const top = el("div"),
+    detail = el("div"),
+    strategies = el("div");
   const showMap = () => {
     tip.hide();
-    const parts = state.map ? [detailSection(state.map, state.target, choose)] : [];
-    detail.replaceChildren(...parts);
+    if (state.view) state.view.close();
+    const { map, target } = state;
+    if (map) {
+      state.view = linesView(seriesOf(map, target));
+      detail.replaceChildren(detailSection(state.view, map, target, choose));
+    }
     markTile();
   };
   const choose = (name) => {
@@ -73,16 +69,12 @@ function start() {
     state.target = target;
     fillTargets(showTarget);
     top.replaceChildren(stressSummary(target, choose));
-    strategies.replaceChildren(...[strategiesSection(target)].filter(Boolean));
+    strategies.replaceChildren(strategiesSection(target) || "");
     showMap();
   };
   state.map = firstMap();
-  fillSections();
-  document
-    .getElementById("content")
-    .replaceChildren(top, detail, strategies, tableSection(choose), readingSection());
+  showContent(top, detail, strategies, tableSection(choose), readingSection(STRESS_TERMS));
   showTarget(state.target);
-  addEventListener("scroll", tip.hide, { passive: true });
 }
 
 start();

@@ -39,19 +39,17 @@ function heatCell(aCase, line, point, first) {
   if (!point) return el("td", { class: `heat${edge}` }, "");
   const ratio = hasNumber(point) ? valueOf(point.efficiency) : null;
   const bad = !point.verdict.good;
-  const cell = el(
-    "td",
+  const cell = el("td",
     {
-      class: `heat${bad ? " bad" : ""}${edge}`,
-      tabindex: 0,
+      class: `heat${bad ? " bad" : ""}${edge}`, tabindex: 0,
       style: ratio > 0 ? { background: efficiencyColor(ratio) } : {},
     },
     heatText(point),
   );
   return withTip(cell, () => [
-    describePoint(aCase)(line, point),
+    describePoint(aCase)(line, { point }),
     ratio !== null &&
-      el("div", {}, `efficiency ${joined(intervalTexts(point.efficiency))}`),
+      el("div", `efficiency ${joined(intervalTexts(point.efficiency))}`),
   ]);
 }
 
@@ -74,41 +72,31 @@ function isPromised({ axis }, x) {
 function heatHead(blocks) {
   const names = blocks.map(({ aCase, values }) =>
     withTip(
-      el(
-        "th",
-        { class: "first map-title", scope: "colgroup", colspan: values.length },
+      el("th.first.map-title", { scope: "colgroup", colspan: values.length },
         aCase.name.replace(/^strateg(y|ies)-/, ""),
       ),
-      () => [el("b", {}, aCase.name), el("div", {}, aCase.extreme)],
+      () => [el("b", aCase.name), el("div", aCase.extreme)],
     ),
   );
   const parameters = blocks.flatMap(({ aCase, values }) =>
     values.map((x, i) =>
-      el(
-        "th",
-        {
-          scope: "col",
-          class: [i === 0 && "first", isPromised(aCase, x) && "inside"]
+      el("th",
+        { scope: "col", class: [i === 0 && "first", isPromised(aCase, x) && "inside"]
             .filter(Boolean)
-            .join(" "),
-        },
+            .join(" ") },
         parameterTick(x),
       ),
     ),
   );
-  return el(
-    "thead",
-    {},
-    el("tr", {}, el("th", { class: "text", scope: "col" }, "Strategy"), names),
-    el("tr", {}, el("th", { class: "text", scope: "col" }, ""), parameters),
+  return el("thead",
+    el("tr", el("th.text", { scope: "col" }, "Strategy"), names),
+    el("tr", el("th.text", { scope: "col" }, ""), parameters),
   );
 }
 
 function heatRow(name, blocks) {
-  return el(
-    "tr",
-    { "data-strategy": name },
-    el("th", { scope: "row", class: "text" }, name),
+  return el("tr", { "data-strategy": name },
+    el("th.text", { scope: "row" }, name),
     blocks.flatMap(({ aCase, values, lines }) =>
       values.map((x, i) => {
         const line = lines.get(name);
@@ -125,11 +113,7 @@ function heatMap(target) {
   return scrollingTable(
     "Efficiencies",
     heatHead(blocks),
-    el(
-      "tbody",
-      {},
-      names.map((name) => heatRow(name, blocks)),
-    ),
+    el("tbody", names.map((name) => heatRow(name, blocks))),
     "data heat-map",
   );
 }
@@ -163,15 +147,11 @@ function survivalText(target) {
 function strategiesSection(target) {
   if (compared.length === 0) return null;
   const baselines = [...new Set(compared.map((c) => c.baseline))];
-  return section(
-    "strategies",
-    "Which strategy survives stiffness",
-    el(
-      "p",
-      { class: "lead" },
+  return section("strategies", "Which strategy survives stiffness",
+    el("p.lead",
       survivalText(target),
       "Numbers are efficiencies, 1 / (variance × processor time), relative to ",
-      el("b", {}, baselines.join(", ")),
+      el("b", baselines.join(", ")),
       ": blue is better, orange is worse, full colour a factor of ten. A red frame is " +
         "wrong or refused, a dot was not measured; point at it for the reason.",
     ),

@@ -15,22 +15,14 @@ function summaryFacts() {
     `${threads} thread${threads === 1 ? "" : "s"}, seed ${seed}`,
     `a correct renderer fails one run in ${fmtCount(1 / study.false_alarm)}`,
   ];
-  return el(
-    "p",
-    { class: "lead" },
-    parts.join(" · "),
-    el("br"),
-    machinesText([study.machine]),
-  );
+  return el("p.lead", parts.join(" · "), el("br"), machinesText([study.machine]));
 }
 
 function tileLegend() {
   const key = (name, text) =>
-    el("span", { class: "key" }, el("span", { class: `key-mark ${name}` }), text);
-  return el(
-    "p",
-    { class: "tile-legend" },
-    el("b", {}, "Error against the parameter, "),
+    el("span.key", el("span", { class: `key-mark ${name}` }), text);
+  return el("p.tile-legend",
+    el("b", "Error against the parameter, "),
     `from ${powerOfTen(TILE.from)} to 10, relative. `,
     key("promise", "promised range"),
     key("allowed", "noise and tolerance"),
@@ -43,34 +35,28 @@ function tileLegend() {
 function chips() {
   const single = study.cases.filter((c) => !maps.includes(c));
   if (single.length === 0) return null;
-  return el(
-    "div",
-    { class: "chips" },
-    el("span", { class: "note" }, "Of a single point each:"),
+  return el("div.chips",
+    el("span.note", "Of a single point each:"),
     single.map((c) =>
-      withTip(
-        el("span", { class: "chip", "data-outcome": c.outcome, tabindex: 0 }, c.name),
-        () => [
-          el("b", {}, `${c.name}: ${WORDS[c.outcome]}`),
-          el("div", {}, c.extreme),
-          el("div", {}, `must: ${c.must}`),
-          c.why && el("div", {}, c.why),
-        ],
-      ),
+      withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => [
+        el("b", `${c.name}: ${WORDS[c.outcome]}`),
+        el("div", c.extreme),
+        el("div", `must: ${c.must}`),
+        c.why && el("div", c.why),
+      ]),
     ),
   );
 }
 
 function stressSummary(target, onChoose) {
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title", "data-outcome": verdictKind() }, study.sentence),
+  const first = firstSection(study.sentence,
     summaryFacts(),
     maps.length > 0 && tileLegend(),
     tileGrid(target, onChoose),
     chips(),
   );
+  first.querySelector("h1").dataset.outcome = verdictKind();
+  return first;
 }
 
 const STRESS_TERMS = [
@@ -105,17 +91,3 @@ const STRESS_TERMS = [
       "camera sample. Lanes: how full the vectors of all stages were.",
   ],
 ];
-
-function readingSection() {
-  return section(
-    "reading",
-    "How to read this",
-    el(
-      "dl",
-      { class: "glossary" },
-      STRESS_TERMS.map(([term, text]) =>
-        el("div", {}, el("dt", {}, term), el("dd", {}, text)),
-      ),
-    ),
-  );
-}

@@ -9,25 +9,17 @@ function worstOf(aCase) {
 
 function nameCell(aCase, onChoose) {
   const name = maps.includes(aCase)
-    ? el(
-        "button",
-        { type: "button", class: "link", onclick: () => onChoose(aCase.name) },
-        aCase.name,
-      )
+    ? el("button.link", { onclick: () => onChoose(aCase.name) }, aCase.name)
     : aCase.name;
-  return [name, el("span", { class: "full-text" }, aCase.extreme)];
+  return [name, el("span.full-text", aCase.extreme)];
 }
 
 function outcomeCell(aCase) {
   return [
-    el(
-      "span",
-      { class: "verdict-word", "data-outcome": aCase.outcome },
-      WORDS[aCase.outcome],
-    ),
-    aCase.why && el("span", { class: "bounds why" }, aCase.why),
+    el("span.verdict-word", { "data-outcome": aCase.outcome }, WORDS[aCase.outcome]),
+    aCase.why && el("span.bounds.why", aCase.why),
     aCase.outcome === "weak" &&
-      el("span", { class: "bounds" }, `${aCase.weak} of ${aCase.promised} points`),
+      el("span.bounds", `${aCase.weak} of ${aCase.promised} points`),
   ];
 }
 
@@ -36,10 +28,8 @@ function measuredCell(aCase) {
   if (!point || !hasNumber(point)) return UNKNOWN;
   if (aCase.truth === "rate") return `${point.failures} of ${fmtCount(point.trials)}`;
   const half = (point.verdict.allowance || 0) - point.tolerance;
-  return twoLines({
-    value: fmt(point.measured, 5),
-    bounds: half > 0 ? `± ${fmt(half, 2)}` : "",
-  });
+  const bounds = half > 0 ? `± ${fmt(half, 2)}` : "";
+  return twoLines({ value: fmt(point.measured, 5), bounds });
 }
 
 function zCell(aCase) {
@@ -49,8 +39,7 @@ function zCell(aCase) {
 }
 
 function breakCell(aCase) {
-  const places = firstBreaks(aCase);
-  return places.map((b) => el("span", { class: "value" }, breakText(aCase, b)));
+  return firstBreaks(aCase).map((b) => el("span.value", breakText(aCase, b)));
 }
 
 function raysOf(aCase) {
@@ -63,77 +52,37 @@ function invalidOf(aCase) {
 }
 
 function caseColumns(onChoose) {
-  const number = (key, title, of, format, hint) => ({
-    key,
-    title,
-    hint,
-    cell: (c) => format(of(c)),
-    sort: of,
-  });
-  const worst = (key) => (c) => (worstOf(c) ? worstOf(c)[key] : null);
+  const expected = (c) => worstOf(c) && worstOf(c).expected;
+  const silent = { sort: null }; // does not sort
   return [
+    textColumn("name", "Case", (c) => nameCell(c, onChoose), {
+      rowHead: true, sort: (c) => c.name,
+    }),
+    textColumn("group", "Group", (c) => c.group),
+    textColumn("outcome", "Verdict", outcomeCell, { sort: (c) => ORDER[c.outcome] }),
+    textColumn("must", "Must be true", (c) => el("span.must", c.must), silent),
+    numberColumn("expected", "Expected", expected, (x) => fmtShort(x, 5)),
     {
-      key: "name",
-      title: "Case",
-      text: true,
-      rowHead: true,
-      cell: (c) => nameCell(c, onChoose),
-      sort: (c) => c.name,
-    },
-    {
-      key: "group",
-      title: "Group",
-      text: true,
-      cell: (c) => c.group,
-      sort: (c) => c.group,
-    },
-    {
-      key: "outcome",
-      title: "Verdict",
-      text: true,
-      cell: outcomeCell,
-      sort: (c) => ORDER[c.outcome],
-    },
-    {
-      key: "must",
-      title: "Must be true",
-      text: true,
-      cell: (c) => el("span", { class: "must" }, c.must),
-    },
-    number("expected", "Expected", worst("expected"), (x) => fmtShort(x, 5)),
-    {
-      key: "measured",
-      title: "Measured",
+      key: "measured", title: "Measured", cell: measuredCell,
       hint: "The promised point that is nearest to failing, with its noise",
-      cell: measuredCell,
     },
-    {
-      key: "z",
-      title: "z",
-      hint: "Standard errors beyond the tolerance",
-      cell: zCell,
-    },
-    number("detectable", "Finds", (c) => c.detectable, fmtFound,
-      "The error that every promised point would find with a probability of 90 %"),
-    number("invalid", "Invalid", invalidOf, fmtCount),
-    number("seconds", "Time", (c) => sumPoints(c, "total_seconds"), fmtSeconds),
-    number("rays", "Rays", raysOf, (x) => fmt(x, 3), "Per sample"),
-    { key: "breaks", title: "First breaks at", text: true, cell: breakCell },
+    { key: "z", title: "z", hint: "Standard errors beyond the tolerance", cell: zCell },
+    numberColumn("detectable", "Finds", (c) => c.detectable, fmtFound, {
+      hint: "The error that every promised point would find with a probability of 90 %",
+    }),
+    numberColumn("invalid", "Invalid", invalidOf, fmtCount),
+    numberColumn("seconds", "Time", (c) => sumPoints(c, "total_seconds"), fmtSeconds),
+    numberColumn("rays", "Rays", raysOf, (x) => fmt(x, 3), { hint: "Per sample" }),
+    textColumn("breaks", "First breaks at", breakCell, silent),
   ];
-}
-
-function filterMenu(label, key, options, onChange) {
-  return menu(label, { "data-filter": key }, [["", "all"], ...options], "", onChange);
 }
 
 function tableSection(onChoose) {
   const chosen = { group: "", outcome: "" };
-  const host = el("div", {});
+  const host = el("div");
   const fill = () => {
-    const rows = study.cases.filter(
-      (c) =>
-        (!chosen.group || c.group === chosen.group) &&
-        (!chosen.outcome || c.outcome === chosen.outcome),
+    const rows = study.cases.filter((c) =>
+      Object.entries(chosen).every(([key, value]) => !value || c[key] === value),
     );
     host.replaceChildren(
       sortableTable({
@@ -144,23 +93,20 @@ function tableSection(onChoose) {
       }),
     );
   };
-  const set = (key) => (value) => {
-    chosen[key] = value;
-    fill();
-  };
+  const filter = (label, key, options) =>
+    menu(label, { "data-filter": key }, [["", "all"], ...options], "", (value) => {
+      chosen[key] = value;
+      fill();
+    });
   fill();
   const groups = [...new Set(study.cases.map((c) => c.group))].map((g) => [g, g]);
   const outcomes = Object.keys(ORDER)
     .filter((outcome) => study.outcomes[outcome] > 0)
     .map((outcome) => [outcome, WORDS[outcome]]);
-  return section(
-    "cases",
-    "All cases",
-    el(
-      "div",
-      { class: "menus" },
-      filterMenu("Group", "group", groups, set("group")),
-      filterMenu("Verdict", "outcome", outcomes, set("outcome")),
+  return section("cases", "All cases",
+    el("div.menus",
+      filter("Group", "group", groups),
+      filter("Verdict", "outcome", outcomes),
     ),
     host,
   );

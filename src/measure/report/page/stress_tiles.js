@@ -14,7 +14,7 @@ function tilePoints(aCase, line, xScale) {
   return line.points.filter(hasNumber).map((point) => {
     const { value, limit } = errorOf(aCase, point);
     return {
-      x: TILE.width * xScale.at(point.parameter),
+      x: TILE.width * shareOn(xScale, point.parameter),
       y: tileY(value),
       limit: known(limit) ? tileY(limit) : TILE.height,
       bad: !point.verdict.good,
@@ -26,13 +26,10 @@ function tileCurve(line, points) {
   const d = points.map((p, i) => `${i === 0 ? "M" : "L"}${p.x} ${p.y}`).join("");
   const color = `var(${line.style.variable})`;
   return [
-    svg("path", { class: "curve", d, style: { stroke: color } }),
+    svg("path.curve", { d, style: { stroke: color } }),
     points.map((p) =>
       svg("circle", {
-        class: p.bad ? "dot bad" : "dot",
-        cx: p.x,
-        cy: p.y,
-        r: p.bad ? 3.4 : 1.8,
+        class: p.bad ? "dot bad" : "dot", cx: p.x, cy: p.y, r: p.bad ? 3.4 : 1.8,
         style: { fill: p.bad ? null : color },
       }),
     ),
@@ -48,10 +45,9 @@ function tileAllowance(curves) {
   const xs = [...lowest.keys()].sort((a, b) => a - b);
   if (xs.length < 2) return null;
   const top = xs.map((x) => `${x},${lowest.get(x)}`).join(" ");
-  return svg("polygon", {
-    class: "allowed",
-    points: `${xs[0]},${TILE.height} ${top} ${xs[xs.length - 1]},${TILE.height}`,
-  });
+  const [first, last] = [xs[0], xs[xs.length - 1]];
+  const points = `${first},${TILE.height} ${top} ${last},${TILE.height}`;
+  return svg("polygon.allowed", { points });
 }
 
 function tileDrawing(aCase, target) {
@@ -59,35 +55,22 @@ function tileDrawing(aCase, target) {
   const lines = seriesOf(aCase, target);
   const curves = lines.map((line) => tilePoints(aCase, line, xScale));
   const [from, to] = promisedShare(aCase, xScale);
-  return svg(
-    "svg",
+  return svg("svg.tile-plot",
     {
-      class: "tile-plot",
-      viewBox: `0 0 ${TILE.width} ${TILE.height}`,
-      preserveAspectRatio: "none",
-      role: "img",
-      "aria-label": `Error against ${aCase.axis.name}`,
+      viewBox: `0 0 ${TILE.width} ${TILE.height}`, preserveAspectRatio: "none",
+      role: "img", "aria-label": `Error against ${aCase.axis.name}`,
     },
-    svg("rect", {
-      class: "promise",
-      x: TILE.width * from,
-      width: Math.max(1, TILE.width * (to - from)),
-      y: 0,
+    svg("rect.promise", {
+      x: TILE.width * from, width: Math.max(1, TILE.width * (to - from)), y: 0,
       height: TILE.height,
     }),
     [1, 1e-2, 1e-4, 1e-6].map((error) =>
-      svg("line", {
-        class: "grid",
-        x1: 0,
-        x2: TILE.width,
-        y1: tileY(error),
-        y2: tileY(error),
-      }),
+      svg("line.grid", { x1: 0, x2: TILE.width, y1: tileY(error), y2: tileY(error) }),
     ),
     tileAllowance(curves),
     nearestBreaks(aCase, target).map((place) => {
-      const x = TILE.width * xScale.at(place.parameter);
-      return svg("line", { class: "break", x1: x, x2: x, y1: 0, y2: TILE.height });
+      const x = TILE.width * shareOn(xScale, place.parameter);
+      return svg("line.break", { x1: x, x2: x, y1: 0, y2: TILE.height });
     }),
     lines.map((line, i) => tileCurve(line, curves[i])),
   );
@@ -108,25 +91,21 @@ function tile(aCase, target, onChoose) {
   const outcome = failed ? "failed" : aCase.outcome === "failed" ? "good" : aCase.outcome;
   const [low, high] = axisEnds(aCase);
   return withTip(
-    el(
-      "button",
+    el("button.tile",
       {
-        type: "button",
-        class: "tile",
-        "data-case": aCase.name,
-        "data-outcome": outcome,
+        "data-case": aCase.name, "data-outcome": outcome,
         onclick: () => onChoose(aCase.name),
       },
-      el("span", { class: "tile-name" }, aCase.name),
+      el("span.tile-name", aCase.name),
       tileDrawing(aCase, target),
-      el("span", { class: "tile-ends" }, el("span", {}, low), el("span", {}, high)),
+      el("span.tile-ends", el("span", low), el("span", high)),
     ),
     () => [
-      el("b", {}, aCase.name),
-      el("div", {}, aCase.extreme),
-      el("div", {}, `${WORDS[outcome]}; promised ${promiseText(aCase)}`),
+      el("b", aCase.name),
+      el("div", aCase.extreme),
+      el("div", `${WORDS[outcome]}; promised ${promiseText(aCase)}`),
       nearestBreaks(aCase, target).map((b) =>
-        el("div", {}, `breaks at ${breakText(aCase, b)}`),
+        el("div", `breaks at ${breakText(aCase, b)}`),
       ),
     ],
   );
@@ -137,9 +116,5 @@ function tileGrid(target, onChoose) {
   const order = [...maps].sort(
     (a, b) => Number(failsOn(b, target)) - Number(failsOn(a, target)),
   );
-  return el(
-    "div",
-    { class: "tiles" },
-    order.map((aCase) => tile(aCase, target, onChoose)),
-  );
+  return el("div.tiles", order.map((aCase) => tile(aCase, target, onChoose)));
 }

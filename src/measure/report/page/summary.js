@@ -3,10 +3,7 @@
 
 function summarySection(view) {
   const { scene } = view;
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, scene.name),
+  return firstSection(scene.name,
     hero(view),
     warningsList(view),
     factsList(view),
@@ -24,22 +21,16 @@ function factsList(view) {
   const repetitions = known(settings.repetitions) ? fmtCount(settings.repetitions) : null;
   const versions = versionsText(machine.versions);
   const threads = known(machine.threads) ? `${fmtCount(machine.threads)} threads` : null;
-  return el(
-    "dl",
-    { class: "facts" },
+  return el("dl.facts",
     fact("Image", size, cropNote(scene)),
     fact("Repetitions", repetitions, "of every cell, interleaved, with different seeds"),
     fact("Confidence", confidenceText(), "of all intervals, unless said otherwise"),
     fact("Samples", countsText(scene.counts), "per pixel"),
     fact("Reference", referenceText(scene.reference), referenceNote(scene.reference)),
-    fact(
-      "Study took",
-      known(study.seconds) ? fmtSeconds(study.seconds) : null,
+    fact("Study took", known(study.seconds) ? fmtSeconds(study.seconds) : null,
       study.scenes.length > 1 ? "for all scenes" : null,
     ),
-    fact(
-      "Machine",
-      machinesText(scene.machines) || machine.text,
+    fact("Machine", machinesText(scene.machines) || machine.text,
       [machine.target, threads, versions].filter(Boolean).join(", "),
       { class: "wide" },
     ),
@@ -93,24 +84,16 @@ function referenceNote(reference) {
   );
   const text = parts.join("; ");
   if (!reference.strategy) return text;
-  return el(
-    "details",
-    { class: "reference-strategy" },
-    el("summary", {}, text),
-    el("span", { class: "full-text" }, breakable(reference.strategy)),
+  return el("details.reference-strategy",
+    el("summary", text),
+    el("span.full-text", breakable(reference.strategy)),
   );
 }
 
 function notesList(scene) {
   if (!scene.notes || scene.notes.length === 0) return null;
-  return el(
-    "details",
-    { class: "notes" },
-    el("summary", {}, `Notes on the scene file (${scene.notes.length})`),
-    el(
-      "ul",
-      {},
-      scene.notes.map((note) => el("li", {}, note)),
-    ),
+  return el("details.notes",
+    el("summary", `Notes on the scene file (${scene.notes.length})`),
+    el("ul", scene.notes.map((note) => el("li", note))),
   );
 }

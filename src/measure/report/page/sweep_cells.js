@@ -30,11 +30,12 @@ function cellsOf(group) {
 function intervalOf(group, name) {
   if (name === "efficiency") return group.efficiency || { value: null };
   if (group.measured) return group.measured[name] || { value: null };
-  const { measured } = study.cells[group.cells[0]];
+  return statedInterval(study.cells[group.cells[0]].measured, name);
+}
+
+function statedInterval(measured, name) {
   return {
-    value: measured[name],
-    low: measured[`${name}_low`],
-    high: measured[`${name}_high`],
+    value: measured[name], low: measured[`${name}_low`], high: measured[`${name}_high`],
   };
 }
 

@@ -97,9 +97,7 @@ function fixedMenu(axis, choice, onChange) {
 }
 
 function choiceMenus(choice, onChange) {
-  return el(
-    "div",
-    { class: "menus", role: "group", "aria-label": "Axes of the plots" },
+  return el("div.menus", { role: "group", "aria-label": "Axes of the plots" },
     choice.along && axisMenu("along", "Along a line", choice, onChange),
     varyingAxes.length > 1 && axisMenu("lines", "A line for each", choice, onChange),
     [...choice.fixed.keys()]

@@ -6,9 +6,7 @@ const MOST_PICTURES = 200;
 function groupPicture(view, group, label) {
   const { name } = study.cells[group.cells[0]];
   const image = findImage(name);
-  return el(
-    "figure",
-    { class: "thumbnail" },
+  return el("figure.thumbnail",
     image
       ? picture(view, {
           label,
@@ -17,7 +15,7 @@ function groupPicture(view, group, label) {
           makePixels: () => tonedPixels(image, view.tone.value),
         })
       : missingPicture("no picture of it"),
-    el("figcaption", {}, label),
+    el("figcaption", label),
   );
 }
 
@@ -41,8 +39,8 @@ function chosenPictures(view, choice, amount, value) {
     .map((group) => groupPicture(view, group, labelOf(group)));
   const cut = groups.length - figures.length;
   return [
-    el("div", { class: "thumbnails" }, figures),
-    cut > 0 && el("p", { class: "hint" }, `${cut} more are not shown.`),
+    el("div.thumbnails", figures),
+    cut > 0 && el("p.hint", `${cut} more are not shown.`),
   ];
 }
 
@@ -50,28 +48,18 @@ function imagesSection(view, choice) {
   if (imageBlocks.size === 0) return null;
   const amount = varyingAxes.find((axis) => AMOUNTS.includes(axis.name)) || null;
   const values = amount ? amount.values : [null];
-  const output = el("output");
   const host = el("div");
   const show = (i) => {
-    if (amount) output.textContent = valueLabel(amount, values[i]);
     host.replaceChildren();
-    appendAll(host, [chosenPictures(view, choice, amount, values[i])]);
+    appendAll(host, chosenPictures(view, choice, amount, values[i]));
   };
-  const slider = el("input", {
-    type: "range",
-    min: 0,
-    max: values.length - 1,
-    value: values.length - 1,
-    "data-control": "amount",
-    "aria-label": amount && amount.title,
-    oninput: () => show(Number(slider.value)),
-  });
-  show(values.length - 1);
-  return section(
-    "images",
-    "Pictures",
+  const last = values.length - 1;
+  show(last);
+  const amounts =
     amount &&
-      el("label", { class: "labelled" }, el("span", {}, amount.title), slider, output),
-    host,
-  );
+    slider(amount.title, {
+      min: 0, max: last, value: last, "data-control": "amount",
+      text: (i) => valueLabel(amount, values[i]), onInput: show,
+    }).node;
+  return section("images", "Pictures", amounts, host);
 }

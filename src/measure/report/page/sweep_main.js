@@ -7,19 +7,13 @@ function plotArea(choice, onChange) {
   if (current) current.close();
   const panels = choicePanels(choice);
   const lines = allLines(panels);
-  const view = makeView({ strategies: lines });
-  // The legend's names and styles are those of the lines.
-  view.ran = view.ranked = lines;
-  view.shown.set(new Set(lines.map((line) => line.index)));
-  current = view;
+  const view = (current = linesView(lines));
   return [
-    section(
-      "plots",
-      "Efficiency, error, throughput",
+    section("plots", "Efficiency, error, throughput",
       varyingAxes.length > 0 && choiceMenus(choice, onChange),
       lines.length > 0
         ? plotsSection(view, choice, panels, lines)
-        : el("p", {}, "No finished cell has these values."),
+        : el("p", "No finished cell has these values."),
     ),
     imagesSection(view, choice),
     costSection(view, choice, panels),
@@ -27,23 +21,18 @@ function plotArea(choice, onChange) {
 }
 
 function start() {
-  theme.bindButton(document.getElementById("theme"));
-  document.title = `${study.file} – Lanelight sweep`;
-  document.getElementById("bottom").textContent =
-    "Written by lanelight sweep. This page holds all its numbers and needs no network. " +
-    "Plots: uPlot, MIT licence.";
-  const content = document.getElementById("content");
-  if (doneCells.length === 0) {
-    content.replaceChildren(sweepSummary(), tableSection());
-    return;
-  }
-  linkSections([
-    ["plots", "Plots"],
-    ...(imageBlocks.size > 0 ? [["images", "Pictures"]] : []),
-    ["stages", "Stage costs"],
-    ["cells", "Cells"],
-  ]);
-  const area = el("div", { id: "area" });
+  startPage({
+    title: `${study.file} – Lanelight sweep`,
+    footer:
+      "Written by lanelight sweep. This page holds all its numbers and needs no network.",
+    sections: doneCells.length > 0 && [
+      ["plots", "Plots"],
+      imageBlocks.size > 0 && ["images", "Pictures"],
+      ["stages", "Stage costs"],
+      ["cells", "Cells"],
+    ],
+  });
+  const area = el("div#area");
   const show = (choice) => {
     const focused = document.activeElement && document.activeElement.dataset.menu;
     tip.hide();
@@ -51,9 +40,8 @@ function start() {
     const again = focused && area.querySelector(`[data-menu="${focused}"]`);
     if (again) again.focus();
   };
-  content.replaceChildren(sweepSummary(), area, tableSection());
-  show(firstChoice());
-  addEventListener("scroll", tip.hide, { passive: true });
+  showContent(sweepSummary(), area, tableSection());
+  if (doneCells.length > 0) show(firstChoice());
 }
 
 start();

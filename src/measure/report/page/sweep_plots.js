@@ -30,11 +30,11 @@ function describeGroup(choice, measure, line, point) {
   const seeds = point.group.cells.length;
   const seconds = intervalOf(point.group, "cpu_seconds").value;
   return [
-    el("b", {}, choice.lines ? line.name : point.name),
-    choice.lines && choice.along && el("div", {}, point.name),
-    el("div", {}, `${label} ${joined(texts(intervalOf(point.group, measure)))}`),
-    el("div", {}, `processor time ${fmtSeconds(seconds)}`),
-    el("div", {}, seeds > 1 ? `${seeds} seeds` : "one seed"),
+    el("b", choice.lines ? line.name : point.name),
+    choice.lines && choice.along && el("div", point.name),
+    el("div", `${label} ${joined(texts(intervalOf(point.group, measure)))}`),
+    el("div", `processor time ${fmtSeconds(seconds)}`),
+    el("div", seeds > 1 ? `${seeds} seeds` : "one seed"),
   ];
 }
 
@@ -59,7 +59,7 @@ function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
     : alongPositions(choice);
   const drawn = lines.map((line) => plotted(line, measure, xs));
   if (drawn.every((line) => line.points.length === 0)) {
-    host.replaceChildren(el("p", { class: "hint" }, `No ${label} of these is known.`));
+    host.replaceChildren(el("p.hint", `No ${label} of these is known.`));
     return () => host.replaceChildren();
   }
   const xAxis = byTime ? TIME_AXIS : alongAxis(choice.along);
@@ -69,7 +69,7 @@ function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
     xAxis,
     yAxis: { label: axis || label, ticks: decadeTicks, format: tick },
     include,
-    guides: (u) => byTime && power && drawSlopes(u, power),
+    guides: (frame) => byTime && power && slopeGuides(frame, power),
     describe: (line, point) => describeGroup(choice, measure, line, point),
   });
 }
@@ -84,18 +84,14 @@ function measureRows(view, host, choice, lines, { measure, include }) {
   const scale = whiskerScale([...rows.map(({ y }) => y), ...include], log, log ? [1] : [0]);
   const row = ({ line, point, y }) =>
     withTip(
-      el(
-        "div",
-        { class: "rate-row" },
-        el("span", { class: "rate-name" }, swatch(line.style), point.name),
+      el("div.rate-row",
+        el("span.rate-name", swatch(line.style), point.name),
         whisker(y, scale, { style: line.style, width: 180, marks: log ? [1] : [] }),
-        el("span", { class: "rate-value" }, twoLines(texts(y))),
+        el("span.rate-value", twoLines(texts(y))),
       ),
       () => describeGroup(choice, measure, line, point),
     );
-  const axis = el(
-    "div",
-    { class: "rate-row" },
+  const axis = el("div.rate-row",
     el("span"),
     scale && whiskerAxis(scale, { width: 180, format: tick, most: 4 }),
   );
@@ -178,9 +174,7 @@ function plotsSection(view, choice, panels, lines) {
   ];
   update({});
   return [
-    el(
-      "div",
-      { class: "toolbar" },
+    el("div.toolbar",
       choiceButtons("Measure", measures, shownMeasure.measure, (measure) =>
         update({ measure }),
       ),
@@ -190,6 +184,6 @@ function plotsSection(view, choice, panels, lines) {
     ),
     lines.length > 1 && strategyLegend(view, "Lines shown"),
     el("div", { class: panels.length > 2 ? "plots many" : "plots" }, figures),
-    el("p", { class: "hint" }, intervalNote()),
+    el("p.hint", intervalNote()),
   ];
 }

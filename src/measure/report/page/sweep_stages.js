@@ -34,7 +34,7 @@ function costSection(view, choice, panels) {
   );
   const bars = all.filter((bar) => bar.stages.length > 0).slice(0, MOST_BARS);
   if (bars.length === 0) {
-    return section("stages", "Stage costs", el("p", {}, "No stage times were recorded."));
+    return section("stages", "Stage costs", el("p", "No stage times were recorded."));
   }
   const names = stageNames({ ranked: bars });
   const most = Math.max(...bars.map((bar) => bar.perSample));
@@ -52,16 +52,12 @@ function costSection(view, choice, panels) {
       row.hidden = !shown.has(Number(row.dataset.line));
     });
   view.shown.listen(show);
-  return section(
-    "stages",
-    "Stage costs",
-    el(
-      "p",
-      { class: "lead" },
+  return section("stages", "Stage costs",
+    el("p.lead",
       "Processor time of each stage per sample; a bar's length is the sum." +
         (all.length > bars.length ? ` The first ${MOST_BARS} of ${all.length}.` : ""),
     ),
     stageLegend(names),
-    el("div", { class: "stage-rows" }, rows),
+    el("div.stage-rows", rows),
   );
 }

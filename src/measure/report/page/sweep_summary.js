@@ -55,27 +55,11 @@ function warnings() {
 }
 
 function sweepSummary() {
-  const texts = warnings();
-  return el(
-    "section",
-    { id: "summary", "aria-labelledby": "summary-title" },
-    el("h1", { id: "summary-title" }, study.file),
-    el("p", { class: "lead headline" }, headlineText()),
-    texts.length > 0 &&
-      el(
-        "div",
-        { class: "warnings", role: "note" },
-        el(
-          "ul",
-          {},
-          texts.map((text) => el("li", {}, text)),
-        ),
-      ),
-    el(
-      "dl",
-      { class: "facts" },
-      fact(
-        "Cells",
+  return firstSection(study.file,
+    el("p.lead.headline", headlineText()),
+    warningBox(null, warnings()),
+    el("dl.facts",
+      fact("Cells",
         `${fmtCount(doneCells.length)} of ${fmtCount(study.cells.length)} done`,
         study.excluded > 0 ? `${fmtCount(study.excluded)} combinations excluded` : null,
       ),

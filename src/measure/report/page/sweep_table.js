@@ -4,48 +4,26 @@
 const MOST_CELLS = 500;
 
 function axisColumn(axis) {
-  const number = (cell) => {
-    const x = Number(cell.values[axis.name]);
+  const number = ({ values }) => {
+    const x = Number(values[axis.name]);
     return known(x) ? x : null;
   };
-  return {
-    key: axis.name,
-    title: axis.title,
-    text: !axis.numeric,
-    cell: (cell) => valueOn(cell, axis),
-    sort: axis.numeric ? number : (cell) => valueOn(cell, axis),
-  };
+  const text = (cell) => valueOn(cell, axis);
+  const sort = axis.numeric ? number : text;
+  return textColumn(axis.name, axis.title, text, { text: !axis.numeric, sort });
 }
 
 function measuredColumn(key, title, unit, format) {
-  return {
-    key,
-    title,
-    unit,
-    cell: (cell) => format(cell.measured[key]),
-    sort: (cell) => (known(cell.measured[key]) ? cell.measured[key] : null),
-  };
+  return numberColumn(key, title, (cell) => cell.measured[key], format, { unit });
 }
 
 function errorColumn(key, title) {
-  const interval = ({ measured }) => ({
-    value: measured[key],
-    low: measured[`${key}_low`],
-    high: measured[`${key}_high`],
-  });
-  return {
-    ...measuredColumn(key, title, null, fmt),
-    cell: (cell) => twoLines(intervalTexts(interval(cell))),
-  };
+  return intervalColumn(key, title, ({ measured }) => statedInterval(measured, key));
 }
 
 function statusCell(cell) {
   if (cell.status === "done") return "done";
-  return el(
-    "span",
-    { class: "why" },
-    [cell.status, cell.message].filter(Boolean).join(": "),
-  );
+  return el("span.why", [cell.status, cell.message].filter(Boolean).join(": "));
 }
 
 function cellColumns() {
@@ -58,13 +36,7 @@ function cellColumns() {
   const seed = { name: "seed", title: "Seed", numeric: true };
   return [
     ...[...shown, ...(study.seeds > 1 ? [seed] : [])].map(axisColumn),
-    {
-      key: "status",
-      title: "Status",
-      text: true,
-      cell: statusCell,
-      sort: (c) => c.status,
-    },
+    textColumn("status", "Status", statusCell, { sort: (c) => c.status }),
     errorColumn("relmse", "Relative MSE"),
     errorColumn("rmse", "RMSE"),
     measuredColumn("cpu_seconds", "Processor time", null, fmtSeconds),
@@ -77,13 +49,12 @@ function cellColumns() {
 
 function tableSection() {
   const cut = study.cells.length > MOST_CELLS;
-  return section(
-    "cells",
-    "All cells",
-    el(
-      "p",
-      { class: "lead" },
-      `The same and more is in sweep.csv.${cut ? ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones in the order chosen.` : ""}`,
+  return section("cells", "All cells",
+    el("p.lead",
+      "The same and more is in sweep.csv.",
+      cut &&
+        ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones ` +
+          "in the order chosen.",
     ),
     sortableTable({
       columns: cellColumns(),

@@ -16,6 +16,9 @@ const TONE_CURVES = {
   false: { label: "False colour", curve: null },
 };
 
+// As options of a menu.
+const TONE_OPTIONS = Object.entries(TONE_CURVES).map(([key, { label }]) => [key, label]);
+
 const FALSE_STOPS = 6; // false colour spans 2^-6 to 2^6 around the exposure
 
 // Colours at equal steps, sRGB bytes.

@@ -12,8 +12,10 @@ function makeSignal(value) {
       value = next;
       for (const listener of listeners) listener(value);
     },
+    // Returns what ends the listening.
     listen(listener) {
       listeners.add(listener);
+      return () => listeners.delete(listener);
     },
   };
 }
@@ -50,6 +52,14 @@ function makeView(scene) {
   };
 }
 
+// A view of lines that are not the strategies of a scene: all are shown.
+function linesView(lines) {
+  const view = makeView({ strategies: lines });
+  view.ran = view.ranked = lines;
+  view.shown.set(new Set(lines.map((line) => line.index)));
+  return view;
+}
+
 const MOST_CURVES = 8; // that an eye can tell apart
 
 // Indices of all, or of the first and the baseline where all would be too many.
@@ -76,8 +86,7 @@ function leadingRows(view, strategies, row) {
   if (strategies.length <= MOST_ROWS) return strategies.map(row);
   const first = leading(view.ranked, view.baseline);
   const rest = strategies.filter((s) => !first.has(s.index));
-  const others = el("details", { class: "others" },
-                    el("summary", {}, `The other ${rest.length} strategies`));
+  const others = el("details.others", el("summary", `The other ${rest.length} strategies`));
   others.addEventListener("toggle", () => others.append(...rest.map(row)), { once: true });
   return [strategies.filter((s) => first.has(s.index)).map(row), others];
 }
@@ -91,12 +100,6 @@ function rankOrder(scene, ran) {
   const place = new Map((scene.ranking || []).map((index, i) => [index, i]));
   const order = (s) => (place.has(s.index) ? place.get(s.index) : 1e6 + s.index);
   return [...ran].sort((a, b) => order(a) - order(b));
-}
-
-// Calls draw now and whenever the colours change.
-function drawThemed(view, draw) {
-  document.addEventListener("themechange", draw, { signal: view.signal });
-  draw();
 }
 
 function confidenceText() {

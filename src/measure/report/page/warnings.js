@@ -116,11 +116,9 @@ function warningTexts(view) {
 }
 
 function warningItem({ title, text, strategies }) {
-  return el("li", {}, el("b", {}, title), ` ${text}`, strategies.length > 0 && [
+  return el("li", el("b", title), ` ${text}`, strategies.length > 0 && [
     " ",
-    el(
-      "span",
-      { class: "who", title: strategies.map((s) => s.name).join(", ") },
+    el("span.who", { title: strategies.map((s) => s.name).join(", ") },
       `(${strategies.length > 1 ? `${strategies.length} strategies: ` : ""}` +
         `${someNames(strategies)})`,
     ),
@@ -130,17 +128,11 @@ function warningItem({ title, text, strategies }) {
 function warningsList(view) {
   const items = warningTexts(view);
   if (items.length === 0) {
-    return el(
-      "p",
-      { class: "all-well" },
+    return el("p.all-well",
       "Nothing to beware of: every strategy ran, no test " +
         "failed, and the reference is good enough.",
     );
   }
-  return el(
-    "div",
-    { class: "warnings", role: "note" },
-    el("h3", {}, items.length === 1 ? "One thing to know" : `${items.length} things to know`),
-    el("ul", {}, items.map(warningItem)),
-  );
+  const title = items.length === 1 ? "One thing to know" : `${items.length} things to know`;
+  return warningBox(title, items.map(warningItem));
 }

@@ -1,11 +1,9 @@
 "use strict";
 // Dots with whiskers: an estimate and its interval on an axis.
 
-// scale: {from, to, log}. Position of x in [0, width], held inside.
+// Position of x in [0, width], held inside.
 function whiskerX(scale, x, width) {
-  const f = scale.log ? Math.log10 : (v) => v;
-  const share = (f(x) - f(scale.from)) / (f(scale.to) - f(scale.from));
-  return Math.max(0, Math.min(1, share)) * width;
+  return Math.max(0, Math.min(1, shareOn(scale, x))) * width;
 }
 
 // A scale that holds all intervals and `include`, with some room.
@@ -28,31 +26,6 @@ function whiskerScale(intervals, log, include = []) {
   return { from: low - room, to: high + room, log };
 }
 
-// Round values inside a scale: 1, 2, 5 times powers of ten, at most `most`.
-function whiskerTicks(scale, most = 5) {
-  const inside = (x) => x >= scale.from && x <= scale.to;
-  if (!scale.log) {
-    const step = niceStep((scale.to - scale.from) / most);
-    const first = Math.ceil(scale.from / step);
-    const count = Math.floor(scale.to / step) - first + 1;
-    return Array.from({ length: Math.max(0, count) }, (_, i) => (first + i) * step);
-  }
-  for (const factors of [[1, 2, 5], [1, 3], [1]]) {
-    const ticks = [];
-    for (let e = exponentOf(scale.from); e <= exponentOf(scale.to); ++e) {
-      ticks.push(...factors.map((f) => f * 10 ** e).filter(inside));
-    }
-    if (ticks.length <= most) return ticks;
-  }
-  const low = Math.ceil(Math.log10(scale.from)),
-    high = Math.floor(Math.log10(scale.to));
-  const step = Math.ceil((high - low + 1) / most);
-  return Array.from(
-    { length: Math.floor((high - low) / step) + 1 },
-    (_, i) => 10 ** (low + i * step),
-  );
-}
-
 // The drawing of one interval. marks: values with a vertical line.
 function whisker(
   interval,
@@ -60,48 +33,34 @@ function whisker(
   { style, width = 150, height = 26, marks = [], label },
 ) {
   const x = valueOf(interval);
-  if (x === null || !scale || (scale.log && x <= 0)) return el("span", {}, UNKNOWN);
+  if (x === null || !scale || (scale.log && x <= 0)) return el("span", UNKNOWN);
   const color = style ? `var(${style.variable})` : "var(--text)";
   const y = height / 2,
     pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
   const low = scale.log && interval.low <= 0 ? scale.from : interval.low;
-  return svg(
-    "svg",
+  return svg("svg.whisker",
     {
-      class: "whisker",
-      width,
-      height,
-      viewBox: `0 0 ${width} ${height}`,
-      role: "img",
+      width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
       "aria-label": label || joined(intervalTexts(interval)),
     },
     marks.map((mark) =>
-      svg("line", { class: "mark", x1: at(mark), x2: at(mark), y1: 0, y2: height }),
+      svg("line.mark", { x1: at(mark), x2: at(mark), y1: 0, y2: height }),
     ),
     hasBounds(interval) && [
       svg("line", {
-        x1: at(low),
-        x2: at(interval.high),
-        y1: y,
-        y2: y,
-        "stroke-width": 2,
+        x1: at(low), x2: at(interval.high), y1: y, y2: y, "stroke-width": 2,
         style: { stroke: color },
       }),
       [low, interval.high].map((v) =>
         svg("line", {
-          x1: at(v),
-          x2: at(v),
-          y1: y - 4,
-          y2: y + 4,
-          "stroke-width": 2,
+          x1: at(v), x2: at(v), y1: y - 4, y2: y + 4, "stroke-width": 2,
           style: { stroke: color },
         }),
       ),
     ],
     svg("path", {
-      d: markerPath(style ? style.marker : "circle", at(x), y, 4.2),
-      "stroke-width": 2,
+      d: markerPath(style ? style.marker : "circle", at(x), y, 4.2), "stroke-width": 2,
       style: { stroke: color, fill: color },
     }),
   );
@@ -111,24 +70,14 @@ function whisker(
 function whiskerAxis(scale, { width = 150, format = fmtShort, most = 5 }) {
   const pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
-  return svg(
-    "svg",
-    {
-      class: "whisker-axis",
-      width,
-      height: 22,
-      viewBox: `0 0 ${width} 22`,
-      "aria-hidden": "true",
-    },
+  return svg("svg.whisker-axis",
+    { width, height: 22, viewBox: `0 0 ${width} 22`, "aria-hidden": "true" },
     svg("line", { x1: pad, x2: width - pad, y1: 20.5, y2: 20.5 }),
-    whiskerTicks(scale, most).map((tick) => [
+    roundTicks(scale, most).map((tick) => [
       svg("line", { x1: at(tick), x2: at(tick), y1: 16, y2: 21 }),
-      svg(
-        "text",
+      svg("text",
         {
-          x: Math.max(10, Math.min(width - 10, at(tick))),
-          y: 12,
-          "text-anchor": "middle",
+          x: Math.max(10, Math.min(width - 10, at(tick))), y: 12, "text-anchor": "middle",
         },
         format(tick),
       ),
