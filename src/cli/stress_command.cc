@@ -6,7 +6,6 @@
 
 #include "kernels/simd/target.h"
 #include "src/base/core/json_text.h"
-#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/defaults.h"
@@ -22,7 +21,6 @@
 #include "src/measure/stress/select.h"
 #include "src/measure/stress/stress_json.h"
 #include "src/measure/stress/suite.h"
-#include "src/render/job/saving.h"
 
 namespace lanelight {
 namespace {
@@ -30,7 +28,7 @@ namespace {
 struct StressCommandOptions {
   std::vector<std::string> words, targets;
   stress::SuiteOptions suite;
-  std::string out, json, part;
+  std::string out, json;
   RenderSettings settings;  // its seed and threads
   bool list = false, quiet = false;
 };
@@ -41,10 +39,7 @@ constexpr const char* kStressInterruptText =
 
 std::vector<stress::Case> Selected(const StressCommandOptions& options) {
   try {
-    const auto cases = stress::SelectCases(stress::AllCases(), options.words);
-    if (options.part.empty()) return cases;
-    const Part part = ParsePart(options.part);
-    return stress::PartOf(cases, part.index, part.count);
+    return stress::SelectCases(stress::AllCases(), options.words);
   } catch (const InputError& error) {
     throw CLI::ValidationError("CASE", error.message());
   }
@@ -121,10 +116,6 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
       ->type_name("DIR");
   command.add_option("--json", options.json, "Write stress.json ('-': print it)")
       ->type_name("FILE");
-  command
-      .add_option("--part", options.part,
-                  "Run every N-th of these cases only, from the I-th on")
-      ->type_name("I/N");
   CLI::Validator target = ValueOf(TargetType(AvailableTargets()));
   command
       .add_option("--simd", options.targets,

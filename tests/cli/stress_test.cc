@@ -39,7 +39,6 @@ TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
   CHECK_THAT(r.err, Contains("did you mean \"unit-of-length\"?") && Contains("--list"));
   CHECK(r.out.empty());
   CHECK(RunLanelight({"stress", "--simd", "AVX9000"}).exit_code == kExitUsage);
-  CHECK(RunLanelight({"stress", "--part", "5/4"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--seed", "-1"}).exit_code == kExitUsage);
   CHECK(RunLanelight({"stress", "--seed", "1e3"}).exit_code == kExitUsage);
 }

@@ -21,7 +21,7 @@ PointVerdict VerdictOf(const Case& about, const JudgedPoint& judged, double leve
 double Used(const Case& about, const JudgedPoint& judged) {
   if (!judged.verdict.good()) return std::numeric_limits<double>::infinity();
   const double error = judged.point.measured - judged.point.expected;
-  const bool one_sided = about.truth == Truth::kBound || about.truth == Truth::kRate;
+  const bool one_sided = about.truth == Truth::kRate;
   const double off = one_sided ? std::max(0.0, error) : std::abs(error);
   return judged.verdict.allowance > 0 ? off / judged.verdict.allowance : 0;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/core/suggest.h"
 
@@ -61,15 +60,6 @@ std::vector<Case> SelectCases(std::vector<Case> cases,
                         [&](const std::string& word) { return Means(word, about); });
   });
   return ByGroup(cases);
-}
-
-std::vector<Case> PartOf(const std::vector<Case>& cases, int part, int parts) {
-  LL_CHECK(part >= 1 && part <= parts);
-  std::vector<Case> mine;
-  for (std::size_t i = std::size_t(part) - 1; i < cases.size(); i += std::size_t(parts)) {
-    mine.push_back(cases[i]);
-  }
-  return mine;
 }
 
 }  // namespace lanelight::stress

@@ -15,8 +15,4 @@ namespace lanelight::stress {
 std::vector<Case> SelectCases(std::vector<Case> cases,
                               const std::vector<std::string>& words);
 
-/// Every `parts`-th case, from the `part`-th on (both from 1): a share of the work for a
-/// process of its own.
-std::vector<Case> PartOf(const std::vector<Case>& cases, int part, int parts);
-
 }  // namespace lanelight::stress

@@ -18,11 +18,10 @@ enum class Truth {
   kClosedForm,  // a formula, evaluated in double precision
   kInvariance,  // the same scene told otherwise (other units, place, order)
   kTwin,        // an independent computation: scalar, double precision, by hand
-  kBound,       // the measured value must not exceed the expected one
   kRate,        // failures among trials must not be more frequent than the expected rate
 };
 inline const char* Name(Truth truth) {
-  constexpr const char* kNames[] = {"closed form", "invariance", "twin", "bound", "rate"};
+  constexpr const char* kNames[] = {"closed form", "invariance", "twin", "rate"};
   return kNames[static_cast<int>(truth)];
 }
 

@@ -84,7 +84,7 @@ double Detectable(const Point& point, double allowance) {
   return scale > 0 ? found / scale : kInfinity;
 }
 
-PointVerdict JudgeValue(Truth truth, const Point& point, double level) {
+PointVerdict JudgeValue(const Point& point, double level) {
   PointVerdict verdict;
   const double error = point.measured - point.expected;
   if (!std::isfinite(error)) {
@@ -101,14 +101,10 @@ PointVerdict JudgeValue(Truth truth, const Point& point, double level) {
   verdict.allowance = point.tolerance + noise;
   verdict.detectable = Detectable(point, verdict.allowance);
   verdict.weak = !(verdict.detectable <= kWeakFrom);
-  const bool bound = truth == Truth::kBound;
-  const double excess = (bound ? error : std::abs(error)) - point.tolerance;
+  const double excess = std::abs(error) - point.tolerance;
   if (excess > 0) verdict.z = excess / point.standard_error;  // infinite without noise
   if (excess <= noise) return verdict;
-  return Faulty(verdict, bound ? Fault::kOver : Fault::kOff,
-                bound ? fmt::format("{:.3g} is over the bound of {:.3g}", point.measured,
-                                    point.expected)
-                      : OffText(point, error));
+  return Faulty(verdict, Fault::kOff, OffText(point, error));
 }
 
 }  // namespace
@@ -120,8 +116,7 @@ double LevelOf(double family, std::size_t points) {
 
 const char* Name(Fault fault) {
   constexpr const char* kNames[] = {
-      "",        "off",    "over", "too often", "invalid samples", "not a number",
-      "refused", "crashed"};
+      "", "off", "too often", "invalid samples", "not a number", "refused", "crashed"};
   return kNames[static_cast<int>(fault)];
 }
 
@@ -133,7 +128,7 @@ double ScaleOf(const Point& point) {
 PointVerdict Judge(Truth truth, const Point& point, double level) {
   if (!point.refused.empty()) return Faulty({}, Fault::kRefused, point.refused);
   if (truth == Truth::kRate) return JudgeRate(point, level);
-  const PointVerdict verdict = JudgeValue(truth, point, level);
+  const PointVerdict verdict = JudgeValue(point, level);
   if (!verdict.good() || point.invalid == 0) return verdict;
   return Faulty(verdict, Fault::kInvalid,
                 fmt::format("{} invalid samples", point.invalid));

@@ -23,15 +23,13 @@ double LevelOf(double family, std::size_t points);
 enum class Fault {
   kNone,
   kOff,        // further from the expected value than tolerance and noise allow
-  kOver,       // above the bound
   kTooOften,   // failures are more frequent than promised
   kInvalid,    // NaN, infinite or negative samples
   kNotNumber,  // the mean or its error is no number, or there was no trial
   kRefused,    // a message instead of a number
   kCrashed,    // an exception that is no InputError
 };
-/// "", "off", "over", "too often", "invalid samples", "not a number", "refused",
-/// "crashed".
+/// "", "off", "too often", "invalid samples", "not a number", "refused", "crashed".
 const char* Name(Fault fault);
 
 struct PointVerdict {
@@ -54,9 +52,9 @@ struct PointVerdict {
 /// Judges a point by a test of this `level`.
 ///
 /// Values: |measured - expected| may be the tolerance and as many standard errors as
-/// Student's t has at that level, with the degrees of freedom of the standard error; a
-/// bound is the same in one direction. So a true value within the tolerance fails with
-/// probability `level` at most, as far as the noise is normal. Rates: the exact binomial
+/// Student's t has at that level, with the degrees of freedom of the standard error. So a
+/// true value within the tolerance fails with probability `level` at most, as far as the
+/// noise is normal. Rates: the exact binomial
 /// test that the probability of failure is the promised one or less (Clopper and Pearson
 /// 1934). Invalid samples are a fault, except of a rate.
 PointVerdict Judge(Truth truth, const Point& point, double level);

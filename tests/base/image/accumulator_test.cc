@@ -115,6 +115,21 @@ TEST_CASE("film: the variance is right for any number of samples", "[film]") {
   }
 }
 
+TEST_CASE("film: the variance is right to 1e-3 beside a mean of 1e6", "[film]") {
+  // Samples of +1 and -1; blocks of four share a sign where single samples scatter.
+  for (const bool replicates : {false, true}) {
+    for (float mean = 1; mean < 2e6f; mean *= 10) {
+      std::vector<float> values;
+      for (int i = 0; i < 4096; ++i) {
+        values.push_back(mean + ((replicates ? i : i / 4) % 2 == 0 ? 1.f : -1.f));
+      }
+      CAPTURE(replicates, mean);
+      CHECK(FilmOf({1, replicates}, values).Variance(0, 0).x ==
+            Approx(1 / (replicates ? 3.0 : 4095.0)).epsilon(1e-3));
+    }
+  }
+}
+
 TEST_CASE("film: dependent samples of unequal replicates", "[film]") {
   // Replicates that repeat one number each: the variance of a sum is that of n_r^2
   // samples, which the film takes to be in proportion to n_r. Right for whole turns, and

@@ -1,8 +1,10 @@
 // Fresnel equations against closed forms in double precision.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/probe/fresnel_probe.h"
+#include "src/measure/stress/closed_forms.h"
 #include "tests/kernels/shade/probe_batch.h"
 #include "tests/reference/optics.h"
 #include "tests/support/test_target.h"
@@ -18,6 +20,10 @@ struct Incidences {
   Incidences(float eta, float k) : c(kCount), out(kCount), cos_t(kCount) {
     for (int i = 0; i < kCount; ++i) c[i] = (i + 0.5f) / kCount;
     for (int i = 0; i < 16; ++i) c[i] = std::ldexp(1.f, -24 + i);  // grazing
+    const float critical = k < 0 && eta < 1 ? std::sqrt((1 - eta) * (1 + eta)) : 0;
+    for (int i = 0; i < 8; ++i) {
+      c[100 + i] = critical + std::pow(10.f, -i) * (1 - critical);
+    }
     c[kCount - 1] = 1;
     const std::vector<float> etas(kCount, eta), ks(kCount, k);
     ProbeFresnel(TestTarget(), {kCount, c.data(), etas.data(),
@@ -88,6 +94,40 @@ TEST_CASE("conductor reflectance", "[shade][fresnel]") {
       }
       INFO(target << ", eta " << eta << ", k " << k);
       CHECK(worst < (eta < 0.1f && k < 0.1f ? 2e-3 : 2e-6));
+    }
+  });
+}
+
+// Within 3e-5 of itself (kernels/bsdf/fresnel-inl.h), and what a rounding of the cosine
+// changes: from grazing angles to 1e-7 above the critical one.
+TEST_CASE("reflectance keeps its relative accuracy for any index", "[shade][fresnel]") {
+  std::vector<std::array<float, 2>> media;
+  for (double contrast = 1e-7; contrast < 2e3; contrast *= 10) {
+    media.push_back({static_cast<float>(1 + contrast), -1});
+    media.push_back({static_cast<float>(1 / (1 + contrast)), -1});
+  }
+  for (const float eta : {0.999f, 0.75f, 0.1f}) media.push_back({eta, -1});
+  for (double k = 1e-9; k < 2e9; k *= std::pow(10, 1.5)) {
+    for (const float eta : {0.01f, 1.f, 100.f}) {
+      media.push_back({eta, static_cast<float>(k)});
+    }
+  }
+  test::ForEachTarget([&](const std::string& target) {
+    for (const auto& [eta, k] : media) {
+      const auto exact = [&, eta = eta, k = k](double c) {
+        return k < 0 ? stress::FresnelDielectric(c, eta)
+                     : stress::FresnelConductor(c, eta, k);
+      };
+      const Incidences at(eta, k);
+      int wrong = 0;
+      for (int i = 0; i < kCount; ++i) {
+        const double c = at.c[i], want = exact(c);
+        const double slope =
+            std::abs(exact(std::min(1., c * (1 + 0x1p-22))) - exact(c * (1 - 0x1p-22)));
+        wrong += !(std::abs(at.out[i] - want) <= 3e-5 * want + slope);
+      }
+      INFO(target << ", eta " << eta << ", k " << k);
+      CHECK(wrong == 0);
     }
   });
 }

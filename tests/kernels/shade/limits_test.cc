@@ -36,15 +36,19 @@ Faults CountFaults(const TestMaterial& m, Vec3d wo) {
     faults.length += !(std::abs(Length(batch.Wi(i)) - 1) < 1e-3);
   }
   if (IsSpecular(m.kind)) return faults;
+  const auto evaluate = [&] {
+    batch.Eval(m);
+    for (std::uint32_t i = 0; i < batch.n; ++i) {
+      faults.eval += !Sane(batch.pdf[i]) || !Sane(batch.value[0][i]) ||
+                     !Sane(batch.value[1][i]) || !Sane(batch.value[2][i]);
+    }
+  };
+  evaluate();                                       // of the directions just found
   for (std::uint32_t i = 0; i < batch.n; i += 3) {  // the horizon
     const double x = batch.u[1][i], z = i % 2 ? 1e-7 : -1e-7;
     batch.SetWi(i, {x, std::sqrt(1 - x * x), z});
   }
-  batch.Eval(m);
-  for (std::uint32_t i = 0; i < batch.n; ++i) {
-    faults.eval += !Sane(batch.pdf[i]) || !Sane(batch.value[0][i]) ||
-                   !Sane(batch.value[1][i]) || !Sane(batch.value[2][i]);
-  }
+  evaluate();
   return faults;
 }
 

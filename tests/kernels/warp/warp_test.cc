@@ -152,6 +152,36 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
   ForceTarget("");
 }
 
+TEST_CASE("warps of numbers at the ends are unit directions with densities", "[warp]") {
+  constexpr float kEnds[] = {
+      0,    0x1p-24f,        0x1p-12f, 0.25f,        0.5f - 0x1p-24f,
+      0.5f, 0.5f + 0x1p-24f, 0.75f,    1 - 0x1p-12f, 1 - 0x1p-24f};
+  constexpr std::size_t kSide = std::size(kEnds), kPairs = kSide * kSide;
+  for (const std::string& target : AvailableTargets()) {
+    for (WarpId id : kWarpIds) {
+      std::vector<std::vector<float>> v(8,
+                                        std::vector<float>(kPairs + kWarpPadding, 0.5f));
+      for (std::size_t i = 0; i < kPairs; ++i) {
+        v[0][i] = kEnds[i % kSide];
+        v[1][i] = kEnds[i / kSide];
+      }
+      ProbeWarp(SimdTarget(target), id,
+                {static_cast<int>(kPairs), v[0].data(), v[1].data(), v[2].data(),
+                 v[3].data(), v[4].data(), v[5].data(), v[6].data(), v[7].data()});
+      int bad = 0;
+      for (std::size_t i = 0; i < kPairs; ++i) {
+        const double length = std::hypot(v[2][i], v[3][i], v[4][i]);
+        const bool place = id == WarpId::kDisk
+                               ? length < 1 + 1e-6
+                               : std::abs(length - 1) < 1e-3 && v[4][i] > 0;
+        bad += !(place && v[5][i] > 0 && std::isfinite(v[5][i]));
+      }
+      INFO(target << " warp " << static_cast<int>(id));
+      CHECK(bad == 0);
+    }
+  }
+}
+
 TEST_CASE("mean cosines of the diffuse models", "[warp]") {
   const struct {
     WarpId id;

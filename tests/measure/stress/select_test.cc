@@ -78,17 +78,4 @@ TEST_CASE("stress: the table of cases is complete", "[stress]") {
   for (const std::string& group : groups) CHECK(names.count(group) == 0);
 }
 
-TEST_CASE("stress: parts have every case once", "[stress]") {
-  std::vector<Case> cases(10);
-  for (int i = 0; i < 10; ++i) cases[std::size_t(i)].name = std::to_string(i);
-  std::multiset<std::string> names;
-  for (int part = 1; part <= 4; ++part) {
-    for (const Case& about : PartOf(cases, part, 4)) names.insert(about.name);
-  }
-  CHECK(names.size() == 10);
-  CHECK(std::set<std::string>(names.begin(), names.end()).size() == 10);
-  CHECK(PartOf(cases, 2, 4).front().name == "1");
-  CHECK(PartOf(cases, 12, 12).empty());
-}
-
 }  // namespace lanelight::stress

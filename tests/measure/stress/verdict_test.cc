@@ -55,17 +55,9 @@ TEST_CASE("stress: noise is allowed for by the level", "[stress]") {
   CHECK(FaultOf(few) == Fault::kOff);
 }
 
-TEST_CASE("stress: bounds look in one direction", "[stress]") {
-  CHECK(FaultOf(Around1(-100), Truth::kBound) == Fault::kNone);
-  CHECK(FaultOf(Around1(1.0001), Truth::kBound) == Fault::kOver);
-  CHECK(FaultOf(Around1(1.04, 0.01), Truth::kBound) == Fault::kNone);
-  CHECK(FaultOf(Around1(1.05, 0.01), Truth::kBound) == Fault::kOver);
-}
-
 TEST_CASE("stress: what is no number fails", "[stress]") {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     CHECK(FaultOf(Around1(bad)) == Fault::kNotNumber);
-    CHECK(FaultOf(Around1(bad), Truth::kBound) == Fault::kNotNumber);
     CHECK(FaultOf(Around1(1, bad)) == Fault::kNotNumber);
     CHECK(FaultOf(Around1(1, 0.1, bad)) == Fault::kNotNumber);
   }

@@ -11,15 +11,12 @@ namespace lanelight::stress {
 // clang-format off
 #define LANELIGHT_STRESS_CASES(X)                                                     \
   X(Unit)                                                                             \
-  /* Geometry. */                                                                     \
-  X(Triangle) X(Surface) X(Sphere) X(GroundSphere) X(PlaneAndDisk) X(Mesh) X(Size)    \
-  X(Instance) X(Camera)                                                               \
   /* Materials. */                                                                    \
-  X(Roughness) X(Fresnel) X(Glass) X(Coat) X(Scattering)                              \
+  X(Roughness) X(Glass)                                                               \
   /* Lights, and the way from them. */                                                \
   X(LightSize) X(ManyLight) X(Radiance) X(Transport) X(Reuse) X(Media)                \
-  /* Sums, sample points, strategies. */                                              \
-  X(Film) X(Sample) X(BsdfEnd) X(Variance) X(Strategy)
+  /* Strategies. */                                                                   \
+  X(Strategy)
 // clang-format on
 
 #define X(name) void Add##name##Cases(std::vector<Case>& cases);

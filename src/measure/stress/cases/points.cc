@@ -62,15 +62,6 @@ Point Expect(double expected, const std::string& text, const Quality& quality,
   return point;
 }
 
-std::vector<Point> ExpectBothWays(double expected, const std::string& text,
-                                  Quality quality, const Effort& effort) {
-  quality.strategy = "directions=bsdf";
-  const Point bsdf = Expect(expected, text, quality, effort);
-  quality.strategy = "";
-  quality.quick *= 16;
-  return {Named("bsdf", bsdf), Named("mis", Expect(expected, text, quality, effort))};
-}
-
 Point PlaneFurnace(double expected, const std::string& material, double cosine,
                    const Effort& effort) {
   return Expect(expected, ViewOfPlane(cosine) + Sky(1) + Plane(material), {.depth = 1},
@@ -94,21 +85,6 @@ Point WithRare(Point point, double rare, double difference) {
   const double deviation = difference * std::sqrt(rare * (1 - rare) / samples);
   point.standard_error = std::max(point.standard_error, deviation);
   point.tolerance += 3 * difference / samples;
-  return point;
-}
-
-Point BoundPoint(double worst, double bound) {
-  Point point;
-  point.measured = worst;
-  point.expected = bound;
-  return point;
-}
-
-Point NoFailures(std::uint64_t failures, std::uint64_t trials) {
-  Point point;
-  point.failures = failures;
-  point.trials = trials;
-  point.measured = trials > 0 ? double(failures) / double(trials) : 0;
   return point;
 }
 

@@ -72,11 +72,6 @@ Point Expect(double expected, const SceneText& scene);
 /// The same within the tolerance of the quality.
 Point Expect(double expected, const std::string& text, const Quality& quality,
              const Effort& effort);
-/// Renders it twice: paths that find the sky by hitting it, where every sample of a
-/// convex shape is its albedo exactly, and, with 16 times the samples, the usual ones
-/// with shadow rays. Two series.
-std::vector<Point> ExpectBothWays(double expected, const std::string& text,
-                                  Quality quality, const Effort& effort);
 /// A plane of a material between two skies of radiance 1, seen under this cosine: what a
 /// single event makes of them.
 Point PlaneFurnace(double expected, const std::string& material, double cosine,
@@ -90,10 +85,5 @@ Point NotMeasured(const std::string& series, const std::string& why);
 /// `rare`: the scatter of the samples alone says nothing where the rare one did not come.
 /// A few of them by chance are tolerated.
 Point WithRare(Point point, double rare, double difference);
-
-/// For Truth::kBound: the largest of errors against what it may be.
-Point BoundPoint(double worst, double bound);
-/// For Truth::kRate: failures among trials, of which none is promised.
-Point NoFailures(std::uint64_t failures, std::uint64_t trials);
 
 }  // namespace lanelight::stress

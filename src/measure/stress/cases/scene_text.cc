@@ -6,9 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/base/core/pi.h"
-#include "src/measure/stress/cases/draws.h"
-
 namespace lanelight::stress {
 
 std::string Grey(const std::string& parameter, double value) {
@@ -115,40 +112,6 @@ std::string MeshText::Text() const {
   return text + "]\n";
 }
 
-MeshText SphereMesh(int rings, int segments, Vec3d center, double radius) {
-  MeshText mesh;
-  for (int r = 0; r <= rings; ++r) {
-    const double theta = kPi * r / rings;
-    const double sine = r == 0 || r == rings ? 0 : std::sin(theta);
-    for (int s = 0; s < segments; ++s) {
-      const double phi = 2 * kPi * s / segments;
-      mesh.points.push_back(center + radius * Vec3d{sine * std::cos(phi),
-                                                    sine * std::sin(phi),
-                                                    std::cos(theta)});
-    }
-  }
-  const auto at = [&](int r, int s) { return r * segments + s % segments; };
-  for (int r = 0; r < rings; ++r) {
-    for (int s = 0; s < segments; ++s) {
-      const int a = r == 0 ? 0 : at(r, s), d = r == 0 ? 0 : at(r, s + 1);
-      const int last = at(rings, 0);
-      const int b = r + 1 == rings ? last : at(r + 1, s);
-      const int c = r + 1 == rings ? last : at(r + 1, s + 1);
-      if (b != c) mesh.indices.insert(mesh.indices.end(), {a, b, c});
-      if (a != d) mesh.indices.insert(mesh.indices.end(), {a, c, d});
-    }
-  }
-  return mesh;
-}
-
-MeshText SquareMesh(Vec3d center, Vec3d n, double side) {
-  const Across a(n);
-  const Vec3d u = a.u * (side / 2), v = a.v * (side / 2);
-  MeshText mesh;
-  mesh.AddQuad(center - u - v, center + u - v, center + u + v, center - u + v);
-  return mesh;
-}
-
 std::string Rectangle(Vec3d low, Vec3d high, bool up) {
   const Vec3d right{high.x, low.y, low.z}, left{low.x, high.y, low.z};
   MeshText mesh;
@@ -159,10 +122,6 @@ std::string Rectangle(Vec3d low, Vec3d high, bool up) {
 std::string SkyScene(const std::string& camera, double albedo,
                      const std::string& shapes) {
   return camera + "WorldBegin\n" + Sky(1) + "Material " + Diffuse(albedo) + "\n" + shapes;
-}
-
-std::string RayScene(const std::string& shapes, Vec3d eye) {
-  return SkyScene(CameraText(eye, eye - Vec3d{0, 0, 1}), 0.5, shapes);
 }
 
 std::string Walls(double emission, double albedo, double radius) {

@@ -67,10 +67,6 @@ struct MeshText {
   std::string Text() const;
 };
 
-/// Closed sphere of triangles that share their vertices.
-MeshText SphereMesh(int rings, int segments, Vec3d center, double radius);
-/// Square of two triangles across the unit vector `n`.
-MeshText SquareMesh(Vec3d center, Vec3d n, double side = 1);
 /// The rectangle from (x0, y0) to (x1, y1) at that height, whose normal is up, or down.
 std::string Rectangle(Vec3d low, Vec3d high, bool up = true);
 
@@ -78,8 +74,6 @@ std::string Rectangle(Vec3d low, Vec3d high, bool up = true);
 
 /// Diffuse shapes of this albedo under a sky of radiance 1.
 std::string SkyScene(const std::string& camera, double albedo, const std::string& shapes);
-/// Those for tracing rays, seen from `eye` downwards.
-std::string RayScene(const std::string& shapes, Vec3d eye = {0, 0, 5});
 
 /// The inside of a sphere of radius 4 that emits `emission` and reflects `albedo`.
 std::string Walls(double emission, double albedo, double radius = 4);

@@ -1,7 +1,9 @@
-#include "src/measure/stress/trace_rays.h"
+#include "tests/extremes/ray_trial.h"
 
+#include <cmath>
 #include <string_view>
 
+#include "src/base/core/pi.h"
 #include "src/measure/stress/scene_point.h"
 #include "src/scene/accel/accel.h"
 
@@ -17,6 +19,106 @@ RenderSettings SettingsOn(SimdTarget target) {
 constexpr std::size_t kPadding = 32;  // kernels may store a vector past the last path
 
 }  // namespace
+
+Across::Across(Vec3d n) {
+  const Vec3d other = std::abs(n.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  u = Normalize(Cross(n, other));
+  v = Cross(n, u);
+}
+
+Vec3d Across::At(double phi) const { return std::cos(phi) * u + std::sin(phi) * v; }
+
+double Draws::operator()(double low, double high) {
+  const double unit = static_cast<double>(engine_() >> 11) * 0x1p-53;
+  return low + (high - low) * unit;
+}
+
+Vec3d Draws::Direction() {
+  const double z = (*this)(-1, 1), phi = (*this)(0, 2 * kPi);
+  const double ring = std::sqrt(1 - z * z);
+  return {ring * std::cos(phi), ring * std::sin(phi), z};
+}
+
+Vec3d Draws::Above(Vec3d n, double sine) {
+  const double length = Length(n);
+  for (;;) {
+    const Vec3d d = Direction();
+    const double cosine = Dot(d, n);
+    if (std::abs(cosine) >= sine * length) return cosine > 0 ? d : -d;
+  }
+}
+
+Vec3d Draws::AtSine(Vec3d n, double sine) {
+  const Vec3d flat = Across(n).At((*this)(0, 2 * kPi));
+  return std::sqrt(1 - sine * sine) * flat + sine * n;
+}
+
+Vec3d PointOfSquare(Draws& draws, Vec3d center, Vec3d n, double side) {
+  const Across a(n);
+  return center + (a.u * draws(-0.45, 0.45) + a.v * draws(-0.45, 0.45)) * side;
+}
+
+MeshText SphereMesh(int rings, int segments, Vec3d center, double radius) {
+  MeshText mesh;
+  for (int r = 0; r <= rings; ++r) {
+    const double theta = kPi * r / rings;
+    const double sine = r == 0 || r == rings ? 0 : std::sin(theta);
+    for (int s = 0; s < segments; ++s) {
+      const double phi = 2 * kPi * s / segments;
+      mesh.points.push_back(center + radius * Vec3d{sine * std::cos(phi),
+                                                    sine * std::sin(phi),
+                                                    std::cos(theta)});
+    }
+  }
+  const auto at = [&](int r, int s) { return r * segments + s % segments; };
+  for (int r = 0; r < rings; ++r) {
+    for (int s = 0; s < segments; ++s) {
+      const int a = r == 0 ? 0 : at(r, s), d = r == 0 ? 0 : at(r, s + 1);
+      const int last = at(rings, 0);
+      const int b = r + 1 == rings ? last : at(r + 1, s);
+      const int c = r + 1 == rings ? last : at(r + 1, s + 1);
+      if (b != c) mesh.indices.insert(mesh.indices.end(), {a, b, c});
+      if (a != d) mesh.indices.insert(mesh.indices.end(), {a, c, d});
+    }
+  }
+  return mesh;
+}
+
+MeshText SquareMesh(Vec3d center, Vec3d n, double side) {
+  const Across a(n);
+  const Vec3d u = a.u * (side / 2), v = a.v * (side / 2);
+  MeshText mesh;
+  mesh.AddQuad(center - u - v, center + u - v, center + u + v, center - u + v);
+  return mesh;
+}
+
+std::string RayScene(const std::string& shapes, Vec3d eye) {
+  return SkyScene(CameraText(eye, eye - Vec3d{0, 0, 1}), 0.5, shapes);
+}
+
+std::vector<Point> ExpectBothWays(double expected, const std::string& text,
+                                  Quality quality, const Effort& effort) {
+  quality.strategy = "directions=bsdf";
+  const Point bsdf = Expect(expected, text, quality, effort);
+  quality.strategy = "";
+  quality.quick *= 16;
+  return {Named("bsdf", bsdf), Named("mis", Expect(expected, text, quality, effort))};
+}
+
+Point BoundPoint(double worst, double bound) {
+  Point point;
+  point.measured = worst;
+  point.tolerance = bound;
+  return point;
+}
+
+Point NoFailures(std::uint64_t failures, std::uint64_t trials) {
+  Point point;
+  point.failures = failures;
+  point.trials = trials;
+  point.measured = trials > 0 ? double(failures) / double(trials) : 0;
+  return point;
+}
 
 RayTracer::RayTracer(SimdTarget target, const std::string& text)
     : job_(PrepareText({text, SettingsOn(target)})) {

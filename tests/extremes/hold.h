@@ -1,0 +1,34 @@
+// Checks that what is taken to an extreme is what it must be there.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "src/measure/stress/cases/points.h"
+#include "src/measure/stress/cases/scene_text.h"
+
+namespace lanelight::stress {
+
+/// Measures at each value of a parameter and checks all points: no failure among trials,
+/// or a mean that is off by its tolerance and five standard errors at most. With all
+/// points of these files a test fails in fewer than 1 of 1000 seeds without a fault.
+template <class Measure>
+void Hold(const std::vector<double>& values, const Measure& measure) {
+  for (const double value : values) {
+    for (const Point& p : measure(value, Effort{})) {
+      CAPTURE(value, p.series, p.expected, p.measured, p.standard_error, p.tolerance,
+              p.failures, p.trials);
+      CHECK(p.failures == 0);
+      CHECK(std::abs(p.measured - p.expected) <= p.tolerance + 5 * p.standard_error);
+      CHECK(p.invalid == 0);
+    }
+  }
+}
+/// The same of what has no parameter.
+template <class Measure>
+void Hold(const Measure& measure) {
+  Hold({std::numeric_limits<double>::quiet_NaN()}, measure);
+}
+
+}  // namespace lanelight::stress
