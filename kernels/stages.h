@@ -37,7 +37,7 @@ namespace lanelight {
   X(IntersectCurves)                           \
   X(MediumDistance)                            \
   X(MediumTracking)                            \
-  X(Split)                                     \
+  X(Hits)                                      \
   X(Escape)                                    \
   X(HitLightTree)                              \
   X(EmissionTriangle)                          \
@@ -66,10 +66,10 @@ namespace lanelight {
   X(Gbuffer)                                   \
   X(Vertices)                                  \
   X(RecordVertex)                              \
-  X(UnsplitBefore)                             \
+  X(SinglePathBefore)                          \
   X(AdjointRoulette)                           \
   X(EfficiencyRoulette)                        \
-  X(UnsplitAfter)                              \
+  X(SinglePathAfter)                           \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
   X(CmjBounce)                                 \
@@ -79,7 +79,7 @@ namespace lanelight {
   X(LatticeBounce)                             \
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
-  X(RecordReuse)                               \
+  X(SecondVertices)                            \
   X(Route)                                     \
   X(ChooseGlass)                               \
   X(ChooseThinGlass)                           \
@@ -116,19 +116,19 @@ namespace lanelight {
   X(ShadowMedia)                               \
   X(ShadowThrough)                             \
   X(Connect)                                   \
-  X(RecordReuseLight)                          \
+  X(SecondVerticesLight)                       \
   X(RecordDecision)                            \
-  X(UnsplitDecision)                           \
+  X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
   X(LuminanceRoulette)                         \
   X(RecordPath)                                \
-  X(UnsplitPath)                               \
+  X(SinglePathEnd)                             \
   X(EnterMedia)                                \
   X(PassInterfaces)                            \
   X(Accumulate)                                \
   X(Pack)                                      \
-  X(ReuseSplit)                                \
+  X(ReuseOwnLight)                             \
   X(ReusePairs)                                \
   X(ReuseGlossy)                               \
   X(ReuseShadow)                               \

@@ -26,7 +26,7 @@ set(long
   reference/closed_form_test reference/estimators_test
   render/job/cuts_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
   kernels/roulette/efficiency_test kernels/roulette/shadow_test kernels/roulette/splitting_test
-  kernels/roulette/unsplit_test scenes/closed_form_scenes_test scenes/scenes_test
+  kernels/roulette/single_path_test scenes/closed_form_scenes_test scenes/scenes_test
   kernels/shade/coat_medium_test kernels/shade/limits_test kernels/shade/reference_test base/stat/convergence_test
   base/stat/efficiency_test base/stat/interval_test base/state/integrity_test vocabulary/strategy/unbiased_test
   extremes/materials_test extremes/round_test extremes/scenes_test extremes/triangles_test

@@ -38,7 +38,7 @@ STAGES = [
     ("points_camera_sobol", "Camera", ""),
     ("camera_perspective", "Camera", "Active"),
     ("intersect_triangles", "Active", ""),
-    ("split", "Active", "Hit Done"),
+    ("hits", "Active", "Hit Done"),
     ("emission_rectangle", "Hit", ""),
     ("limit", "Hit", "Surface Done"),
     ("surface_triangle", "Surface", ""),

@@ -49,7 +49,7 @@ struct HenyeyGreensteinBsdf : PlainBsdf {
     const VF sine = SafeSqrt(hn::Mul(versine, hn::Sub(Splat(2.0f), versine)));
     const SinCosPair turn = SinCos2Pi(u.u1);
     const MF back = hn::Lt(m.g, hn::Zero(DF()));
-    const Frame frame = FrameFromNormal(IfThenElse(back, wo, -wo));
+    const ShadingFrame frame = FrameFromNormal(IfThenElse(back, wo, -wo));
     const V3 local = {hn::Mul(sine, turn.cos), hn::Mul(sine, turn.sin),
                       hn::Sub(Splat(1.0f), versine)};
     return {frame.FromLocal(local), Splat3(1, 1, 1), Value(m.g, versine), Splat(1.0f)};

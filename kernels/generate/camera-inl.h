@@ -46,7 +46,8 @@ void Camera(Wave& wave) {
   const PathColumns& p = wave.path;
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);
-  const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
+  const ShadingFrame axes = {splat(camera.right), splat(camera.up),
+                             splat(camera.forward)};
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR {
                  StoreFirstValues(wave, slots);

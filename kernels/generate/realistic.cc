@@ -27,7 +27,8 @@ HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
   LensRay ray = LeaveFilm(camera.lenses, film, Gather(p.u_lens_0, slots),
                           Gather(p.u_lens_1, slots));
   TraceLenses(camera.lenses, ray);
-  const Frame axes = {splat(camera.right), splat(camera.up), splat(camera.forward)};
+  const ShadingFrame axes = {splat(camera.right), splat(camera.up),
+                             splat(camera.forward)};
   const V3 local = Mul(ray.o, Splat(camera.lenses.scene_from_mm));
   Scatter3(splat(camera.origin) + axes.FromLocal(local), p.o_x, p.o_y, p.o_z, slots);
   Scatter3(Normalize(axes.FromLocal(ray.d)), p.d_x, p.d_y, p.d_z, slots);

@@ -102,7 +102,7 @@ HWY_INLINE void SampleEmitters(const PathColumns& p, const StoreSlots& slots,
   const VF one_minus_cos = hn::Mul(u0, cap);
   const VF sin_theta =
       hn::Sqrt(hn::Mul(one_minus_cos, hn::Sub(Splat(2.0f), one_minus_cos)));
-  const Frame frame = FrameFromNormal(Normalize(to_center));
+  const ShadingFrame frame = FrameFromNormal(Normalize(to_center));
   const V3 w = frame.FromLocal({hn::Mul(sin_theta, cosine), hn::Mul(sin_theta, sine),
                                 hn::Sub(Splat(1.0f), one_minus_cos)});
   const VF pdf = hn::Div(light.pmf, hn::Mul(Splat(two_pi), cap));

@@ -24,7 +24,7 @@ template <class Bsdf>
 struct GlossyVertices {
   const Block& block;
   V3 at;
-  Frame frame;
+  ShadingFrame frame;
   typename Bsdf::Params material;
 
   HWY_INLINE GlossyVertices(const Block& from, const Slots& records) : block(from) {

@@ -3,7 +3,8 @@
 // Path j has found y from x_j, and there taken a light sample from direction w_l and gone
 // on in direction w_b. What it gathered is f(o_j, w), o_j being the direction to x_j,
 // times a factor that knows nothing of o_j: another first vertex x_i gets that factor
-// times f(o_i, w), of the lobes that are shared (kernels/reuse/split.cc). Three parts:
+// times f(o_i, w), of the lobes that are shared (kernels/reuse/own_light.cc). Three
+// parts:
 //
 //   lit    by the light sample, from w_l
 //   hit    of a lamp, or the environment, that the path has met next, from w_b

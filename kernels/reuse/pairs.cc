@@ -79,7 +79,7 @@ struct Receivers {
   V3 p, ng, beta, wo;
   VF p_error;
   VI depth;
-  Frame frame;
+  ShadingFrame frame;
   typename Bsdf::Params material;
 
   HWY_INLINE Receivers(const SurfaceReader<Bsdf>& from, VI slots)

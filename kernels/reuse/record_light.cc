@@ -20,7 +20,7 @@ HWY_INLINE void KeepLight(const Wave& wave, const Slots& slots, VI record) {
            record);
 }
 
-void RecordReuseLight(Wave& wave) {
+void SecondVerticesLight(Wave& wave) {
   const PathColumns& p = wave.path;
   const Queue& shaded =
       FilterQueue(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots) HWY_ATTR {
@@ -39,7 +39,7 @@ void RecordReuseLight(Wave& wave) {
   });
 }
 
-Stage RecordReuseLightStage() {
+Stage SecondVerticesLightStage() {
   using namespace fields;
   return {.name = "reuse_light",
           .meaning = "keeps what lights glossy second vertices",
@@ -50,7 +50,7 @@ Stage RecordReuseLightStage() {
                    FieldSet{Field::output, Field::bsdf_pdf, Field::reuse, Field::d_x,
                             Field::d_y, Field::d_z},
           .writes = {Field::reuse},
-          .resolve = Always<RecordReuseLight>};
+          .resolve = Always<SecondVerticesLight>};
 }
 
 LANELIGHT_END_KERNELS

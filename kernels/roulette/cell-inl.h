@@ -49,7 +49,7 @@ LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
 }
 
 /// What roulette on the throughput would add to the second moment of paths that have
-/// gathered g and have this throughput (record.cc has the formula).
+/// gathered g and have this throughput (training_records.cc has the formula).
 LANELIGHT_INLINE void AddRisk(const PathColumns& p, const Slots& slots, VF throughput,
                               VF g) {
   const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);

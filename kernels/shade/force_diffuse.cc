@@ -28,7 +28,8 @@ template <class Bsdf>
 HWY_NOINLINE V3 SampledReflectance(const SurfaceReader<Bsdf>& reader,
                                    const Slots& slots) {
   const PathColumns& p = reader.wave.path;
-  const Frame frame = reader.ShadingFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
+  const ShadingFrame frame =
+      reader.ShadingFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
   const V3 wo = frame.ToLocal(-Gather3(p.d_x, p.d_y, p.d_z, slots));
   VF u[4];
   DrawPoints(reader.wave, slots, u);

@@ -15,8 +15,8 @@ LANELIGHT_BEGIN_KERNELS
 
 /// Shading frame around n with the first axis along the surface tangent; where the
 /// tangent is missing or along n, any frame.
-HWY_INLINE Frame FrameFromTangent(V3 n, V3 tangent) {
-  const Frame any = FrameFromNormal(n);
+HWY_INLINE ShadingFrame FrameFromTangent(V3 n, V3 tangent) {
+  const ShadingFrame any = FrameFromNormal(n);
   const V3 flat = MulAdd(n, hn::Neg(Dot(n, tangent)), tangent);
   const VF length2 = Dot(flat, flat);
   const MF usable =
@@ -91,7 +91,7 @@ struct SurfaceReader {
     }
   }
 
-  HWY_INLINE Frame ShadingFrame(V3 ng, const Slots& slots) const {
+  HWY_INLINE ShadingFrame ShadingFrame(V3 ng, const Slots& slots) const {
     const PathColumns& path = wave.path;
     V3 n = ng;
     if (path.ns_x != nullptr) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
@@ -124,7 +124,7 @@ struct SurfaceReader {
 /// Where paths are shaded: directions to where they come from in the frame of the shading
 /// normal, geometric normals, and throughputs.
 struct ShadedPoint {
-  const Frame& frame;
+  const ShadingFrame& frame;
   V3 wo, ng, beta;
 };
 
@@ -201,7 +201,7 @@ struct Shader : SurfaceReader<Bsdf> {
   HWY_INLINE void operator()(const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-    const Frame frame = this->ShadingFrame(ng, slots);
+    const ShadingFrame frame = this->ShadingFrame(ng, slots);
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const Material material = Bsdf::Load(this->Inputs(slots));

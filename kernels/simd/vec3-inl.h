@@ -84,14 +84,14 @@ LANELIGHT_INLINE V3 Gather3(const float* table, VI index) {
 
 /// Tangent frame around unit normal n without branches or singularities (Duff et al.
 /// 2017, "Building an Orthonormal Basis, Revisited").
-struct Frame {
+struct ShadingFrame {
   V3 s, t, n;
   HWY_INLINE V3 ToLocal(V3 v) const { return {Dot(v, s), Dot(v, t), Dot(v, n)}; }
   HWY_INLINE V3 FromLocal(V3 v) const {
     return MulAdd(s, v.x, MulAdd(t, v.y, Mul(n, v.z)));
   }
 };
-LANELIGHT_INLINE Frame FrameFromNormal(V3 n) {
+LANELIGHT_INLINE ShadingFrame FrameFromNormal(V3 n) {
   const VF sign = hn::CopySignToAbs(Splat(1.0f), n.z);
   const VF a = hn::Div(Splat(-1.0f), hn::Add(sign, n.z));
   const VF b = hn::Mul(hn::Mul(n.x, n.y), a);

@@ -29,7 +29,7 @@ void NormalMaps(Wave& wave) {
             EvalTextures(wave.scene->textures, texture, Gather(path.uv_u, slots),
                          Gather(path.uv_v, slots), Splat3(0, 0, 0));
         const V3 local = Normalize(Mul(color, Splat(2.0f)) - Splat3(1, 1, 1));
-        const V3 n = Frame{x, Cross(ns, x), ns}.FromLocal(local);
+        const V3 n = ShadingFrame{x, Cross(ns, x), ns}.FromLocal(local);
         StoreNormal(wave, slots, Sided(n, ng, ns), ng, x);
       });
 }

@@ -147,7 +147,7 @@ inline void UseNanoVdb(std::shared_ptr<const SparseGrid> grid, bool compile) {
   medium.sparse_density = grid;
   medium.box_min = grid->box_min(), medium.box_max = grid->box_max();
   medium.sigma_s = {1, 1, 1};
-  const MediumGrid compiled = CompileMediumGrid(medium, Frame());
+  const MediumGrid compiled = CompileMediumGrid(medium, WorldFrame());
   for (const float v : compiled.majorants)
     demand(std::isfinite(v) && v >= 0, "majorants");
 }

@@ -133,7 +133,7 @@ void Search::Look(const Bezier& b, double u0, double u1, int depth) {
 }  // namespace
 
 int IntersectCurve(const Curve& curve, const Ray& ray, Hit& nearest) {
-  const Frame across = MakeFrame(ray.d);
+  const TangentFrame across = MakeFrame(ray.d);
   Bezier seen;
   for (int k = 0; k < 4; ++k) seen.p[k] = across.ToLocal(curve.p[k] - ray.o);
   Search search{curve, ray.d, std::max(curve.width[0], curve.width[1]), nearest};
@@ -151,7 +151,8 @@ SurfacePoint DescribeCurve(const Curve& curve, const Ray& ray, const Hit& hit) {
   // Toward the viewer, or the ribbon's own normal, made to stand on the curve.
   const bool ribbon = curve.type == CurveType::kRibbon;
   const Vec3d front = ribbon ? RibbonNormalAt(curve, u) : -ray.d;
-  const Frame frame = MakeFrame(along, front);  // z along, x front, y = along x front
+  const TangentFrame frame =
+      MakeFrame(along, front);  // z along, x front, y = along x front
   const Vec3d right = -frame.y;
   // As seen along the ray.
   const Vec3d aside = out.p - PointAt(curve.p, u);

@@ -7,7 +7,7 @@
 
 namespace lanelight::reference {
 
-struct Frame {
+struct TangentFrame {
   Vec3d x, y, z;
 
   Vec3d ToLocal(Vec3d v) const { return {Dot(v, x), Dot(v, y), Dot(v, z)}; }
@@ -16,7 +16,7 @@ struct Frame {
 
 /// Frame with the given unit normal and x axis as close to `tangent` as possible; any
 /// tangent if that is parallel to the normal or zero.
-inline Frame MakeFrame(Vec3d normal, Vec3d tangent = {}) {
+inline TangentFrame MakeFrame(Vec3d normal, Vec3d tangent = {}) {
   // Gram-Schmidt; the fallback axis is the coordinate axis least aligned with the normal.
   Vec3d t = tangent - Dot(tangent, normal) * normal;
   if (!(Length(t) > 1e-12 * Length(tangent))) {

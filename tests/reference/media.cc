@@ -180,7 +180,7 @@ Vec3d SamplePhaseFunction(double g, Vec3d forward, Random& random) {
     cosine = (1 + g * g - s * s) / (2 * g);
   }
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-  const Frame frame = MakeFrame(forward, {0, 0, 0});
+  const TangentFrame frame = MakeFrame(forward, {0, 0, 0});
   return Normalize(frame.ToWorld({sine * std::cos(phi), sine * std::sin(phi), cosine}));
 }
 

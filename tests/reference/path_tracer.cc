@@ -127,7 +127,7 @@ Rgb Tracer::Trace(Ray ray) const {
     if (regular) Regularize(material);
     const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
                                            options.texture, options.normal_map);
-    const Frame frame = MakeFrame(shaded.ns, shaded.dpdu);
+    const TangentFrame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
     if (scene.integrator.force_diffuse) material = MadeDiffuse(material, wo, random);
     const auto reflected = [&](Vec3d toward) {

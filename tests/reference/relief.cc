@@ -70,7 +70,7 @@ SurfacePoint Bumped(const SceneDescription& scene, const Material& material,
 SurfacePoint Mapped(const Material& material, const SurfacePoint& at,
                     const NormalMapLookup& normal_map) {
   const Rgb c = normal_map(material.normal_map, at.u, at.v);
-  const Frame frame = MakeFrame(at.ns, at.dpdu);
+  const TangentFrame frame = MakeFrame(at.ns, at.dpdu);
   SurfacePoint out = at;
   out.ns = Normalize(frame.ToWorld({2 * c.x - 1, 2 * c.y - 1, 2 * c.z - 1}));
   out.dpdu = frame.x;
@@ -87,7 +87,7 @@ Vec3d KeepInView(Vec3d n, Vec3d ng, Vec3d wo, bool mirrors) {
   if (Dot(ng, wo) < 0) wo = -wo;
   const double least = 1.0 / 64, steepest = std::acos(least);
   if (Dot(n, wo) < least) {
-    const Frame frame = MakeFrame(wo, n);
+    const TangentFrame frame = MakeFrame(wo, n);
     n = std::sin(steepest) * frame.x + std::cos(steepest) * wo;
   }
   const Vec3d mirrored = 2 * Dot(n, wo) * n - wo;

@@ -8,7 +8,7 @@ namespace {
 
 // Moves the origin to `point` and +z to `normal`.
 Transform Place(Vec3d point, Vec3d normal) {
-  const reference::Frame f = reference::MakeFrame(Normalize(normal));
+  const reference::TangentFrame f = reference::MakeFrame(Normalize(normal));
   return Transform({{{f.x.x, f.y.x, f.z.x, point.x},
                      {f.x.y, f.y.y, f.z.y, point.y},
                      {f.x.z, f.y.z, f.z.z, point.z},

@@ -39,7 +39,7 @@ constexpr Folder kFolders[] = {
     {"kernels/queue",           "the loop over a queue"},
     {"kernels/texture",         "textures"},
     {"kernels/points",          "sample points"},
-    {"kernels/pairs",           "antithetic pairs"},
+    {"kernels/antithetic",      "antithetic pairs"},
     {"kernels/generate",        "camera rays"},
     {"kernels/intersect",       "rays and shapes"},
     {"kernels/surface",         "where a ray hit"},

@@ -50,7 +50,7 @@ Stage::Stage(const std::string& scene, const RenderSettings& settings)
 View MakeView(const Stage& stage, const Eye& eye, int factor) {
   const SceneDescription& scene = stage.job.loaded->description;
   const CompiledScene& compiled = *stage.job.scene.compiled;
-  const Frame frame = {compiled.center, compiled.scale};
+  const WorldFrame frame = {compiled.center, compiled.scale};
   View view;
   view.eye = eye;
   view.factor = factor;

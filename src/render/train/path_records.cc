@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "src/base/core/check.h"
-#include "src/render/train/pilot_comparison.h"
+#include "src/render/train/trial_comparison.h"
 
 namespace lanelight {
 namespace {

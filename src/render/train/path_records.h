@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-/// What a recording pass knows of a sample (kernels/roulette/record.cc).
+/// What a recording pass knows of a sample (kernels/roulette/training_records.cc).
 struct PathRecord {
   struct Vertex {
     std::uint32_t cell;

@@ -6,7 +6,7 @@
 
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/train/unsplit_variances.h"
+#include "src/render/train/single_path_variances.h"
 #include "src/render/wave/wavefront.h"
 
 namespace lanelight {
@@ -34,12 +34,12 @@ bool IsSure(const std::vector<double>& variances) {
 
 // Both estimate the same; but what has seen less bright samples than the other tells
 // nothing new, and where it is all noise it may be negative.
-PilotMeasure Both(const PilotMeasure& own, PilotMeasure unsplit) {
-  if (unsplit.Variance() < own.Variance()) return own;
+PilotMeasure Both(const PilotMeasure& own, PilotMeasure single) {
+  if (single.Variance() < own.Variance()) return own;
   for (std::size_t i = 0; i < own.variances.size(); ++i) {
-    unsplit.variances[i] = (own.variances[i] + unsplit.variances[i]) / 2;
+    single.variances[i] = (own.variances[i] + single.variances[i]) / 2;
   }
-  return unsplit;
+  return single;
 }
 
 // Nothing but the roulette differs, and paths survive it with a higher probability.
@@ -61,7 +61,7 @@ bool LivesLonger(Strategy changed, const Strategy& usual) {
 }
 
 // It splits what otherwise plays the roulette that the records tell of.
-bool RecordsUnsplit(const TriedStrategy& tried, const TriedStrategy& usual) {
+bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& usual) {
   const Strategy given = PlannedStrategy(usual.scene, usual.options);
   return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
          given.scale == 1 && given.First() == kThroughputFirst &&
@@ -189,8 +189,8 @@ bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
 
 void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
   PlanOptions options = tried.options;
-  const bool records = RecordsUnsplit(tried, usual);
-  if (records) options.training = FeatureSet{Feature::kRecordsUnsplit};
+  const bool records = RecordsSinglePaths(tried, usual);
+  if (records) options.training = FeatureSet{Feature::kRecordsSinglePaths};
   const TrainingSamples samples = Render(tried, options, work_);
   if (Stopped()) return;
   // Weights are those of the image that the usual strategy shows.
@@ -204,10 +204,11 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
                                    PlannedStrategy(usual.scene, usual.options));
   tried.paired = records && !IsSure(usual.measure.variances);
   if (!tried.paired) return;
-  PilotMeasure unsplit = usual.measure;
-  unsplit.variances = UnsplitVariances(samples, work_, *image_, tried.tables.path_values,
-                                       ExposureOf(scene_), tried.measure.variances);
-  tried.usual = Both(usual.measure, std::move(unsplit));
+  PilotMeasure single = usual.measure;
+  single.variances =
+      SinglePathVariances(samples, work_, *image_, tried.tables.path_values,
+                          ExposureOf(scene_), tried.measure.variances);
+  tried.usual = Both(usual.measure, std::move(single));
 }
 
 }  // namespace lanelight

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "src/render/train/decision_candidates.h"
-#include "src/render/train/pilot_comparison.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
+#include "src/render/train/trial_comparison.h"
 #include "src/render/wave/stop_watcher.h"
 
 namespace lanelight {

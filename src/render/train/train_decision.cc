@@ -9,11 +9,11 @@
 // all: they are what roulette=adjoint is for. One pilot sees few of them or none. So the
 // variance of the strategy as given is estimated twice: from its own pass, and from the
 // copies of paths in the pass of adjoint, which has met other bright samples, and more of
-// them (kernels/roulette/unsplit.cc); the mean of both counts. A candidate without
-// such a pair may owe its gain to a bright sample that only the other pass has met: it
-// must be better without the worst thousandth of the pixels as well. If its paths live
-// longer and that is all, no sample of it varies more; where few pixels carry the error
-// all others decide.
+// them (kernels/roulette/single_path_records.cc); the mean of both counts. A candidate
+// without such a pair may owe its gain to a bright sample that only the other pass has
+// met: it must be better without the worst thousandth of the pixels as well. If its paths
+// live longer and that is all, no sample of it varies more; where few pixels carry the
+// error all others decide.
 //
 // Paths that serve their block are tried beside what has been chosen, on whole tiles.
 //

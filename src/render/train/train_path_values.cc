@@ -14,9 +14,9 @@
 
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/train/pilot_comparison.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
+#include "src/render/train/trial_comparison.h"
 #include "src/render/wave/stop_watcher.h"
 #include "src/render/wave/wavefront.h"
 

@@ -57,7 +57,7 @@ void CheckExtent(const Camera& camera, double extent) {
                                extent, kFarthestInScene));
 }
 
-void SetMotion(const Camera& camera, const Frame& frame, CompiledCamera& out) {
+void SetMotion(const Camera& camera, const WorldFrame& frame, CompiledCamera& out) {
   if (camera.end == nullptr) return;
   RequireInScene(frame.After(*camera.end).Point({0, 0, 0}), camera.where, "camera");
   out.moves = true;
@@ -66,7 +66,8 @@ void SetMotion(const Camera& camera, const Frame& frame, CompiledCamera& out) {
 
 }  // namespace
 
-CompiledCamera CompileCamera(const Camera& camera, const Film& film, const Frame& frame) {
+CompiledCamera CompileCamera(const Camera& camera, const Film& film,
+                             const WorldFrame& frame) {
   LL_CHECK(film.width > 0 && film.height > 0);
   const Window window = ScreenWindow(camera, film);
   Check(camera, window);

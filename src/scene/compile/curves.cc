@@ -108,7 +108,7 @@ Box CurveBox(const Shape& shape, const Transform& transform) {
   return box;
 }
 
-void AddCurves(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
+void AddCurves(const PlacedShape& placed, const WorldFrame& frame, std::uint32_t material,
                Geometry& geometry) {
   const std::vector<Curve>& curves = *placed.shape->curves;
   if (curves.size() > kMostCurves - geometry.curves.size()) {

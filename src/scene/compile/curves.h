@@ -13,7 +13,7 @@ Box CurveBox(const Shape& shape, const Transform& transform);
 
 /// Appends the curves of a shape. Throws InputError beyond kMostCurves, and where the
 /// transform flattens them so far that float32 overflows.
-void AddCurves(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
+void AddCurves(const PlacedShape& placed, const WorldFrame& frame, std::uint32_t material,
                Geometry& geometry);
 
 /// In one scene, copies made of instances counted: what 32-bit offsets reach.

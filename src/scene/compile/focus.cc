@@ -143,7 +143,7 @@ void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
   }
 }
 
-Frame FocusFrame(const Placement& placement) {
+WorldFrame FocusFrame(const Placement& placement) {
   const Vec3d eye = placement.eye;
   const std::vector<Seen> all = AllSeen(eye, placement);
   const Box near = NearPart(all);
@@ -156,7 +156,7 @@ Frame FocusFrame(const Placement& placement) {
   // A box about the near part's centre, of the size that gives the scale.
   Box about;
   about.Add(near.Center());
-  Frame frame = FrameOf(about);
+  WorldFrame frame = FrameOf(about);
   int exponent = 0;
   std::frexp(detail, &exponent);
   frame.scale = std::ldexp(1.0, 1 - exponent);

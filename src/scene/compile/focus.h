@@ -36,6 +36,6 @@ inline constexpr double kMostEmitterRange = 4e4;
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
 
 /// The frame of the scene; needs `eye` and `bounds`.
-Frame FocusFrame(const Placement& placement);
+WorldFrame FocusFrame(const Placement& placement);
 
 }  // namespace lanelight

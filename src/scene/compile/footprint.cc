@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/scene/compile/frame.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {

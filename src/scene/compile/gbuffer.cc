@@ -3,7 +3,7 @@
 namespace lanelight {
 
 GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
-                                 const Frame& frame) {
+                                 const WorldFrame& frame) {
   if (film.gbuffer == Gbuffer::kNone) return {};
   const bool in_camera = film.gbuffer == Gbuffer::kCamera;
   // What is subtracted first keeps the digits of points near to it.

@@ -1,7 +1,7 @@
 // The space that --gbuffer names, from the scene's.
 #pragma once
 
-#include "src/scene/compile/frame.h"
+#include "src/scene/compile/world_frame.h"
 #include "src/scene/compiled/gbuffer.h"
 #include "src/scene/description/description.h"
 
@@ -10,6 +10,6 @@ namespace lanelight {
 /// Nothing without a g-buffer. The camera's space is pbrt's: x to the right, y up, z
 /// forward, in the units of its transform.
 GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
-                                 const Frame& frame);
+                                 const WorldFrame& frame);
 
 }  // namespace lanelight

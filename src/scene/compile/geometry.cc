@@ -20,7 +20,7 @@ namespace {
 // A mesh, and where it goes.
 struct Job {
   const PlacedShape* placed;
-  const Frame* frame;
+  const WorldFrame* frame;
   MeshRange* range;
 };
 
@@ -170,7 +170,7 @@ void MakeGroups(const CompiledGeometry& out, Geometry& g) {
 
 void MakeInstances(const Placement& placement, Geometry& g) {
   for (const PlacedInstance& instance : placement.instances) {
-    const Frame& object = placement.objects[instance.object].frame;
+    const WorldFrame& object = placement.objects[instance.object].frame;
     const Transform scene_from_object =
         placement.frame.After(instance.world_from_object * object.Inverse());
     if (instance.end) {
@@ -195,7 +195,7 @@ void CompileCurves(const Placement& placement,
 void MakeQuadrics(const Placement& placement,
                   const std::vector<std::int32_t>& material_index, bool keep_uv,
                   Geometry& g) {
-  const Frame& frame = placement.frame;
+  const WorldFrame& frame = placement.frame;
   for (const PlacedShape& p : placement.spheres) {
     g.spheres.push_back(CompileSphere(p, frame, MaterialOf(p, material_index)));
   }

@@ -17,7 +17,7 @@ struct ImageFlux {
 
 // Adds the light whose power is that of its image times its intensity, scaled to the
 // power that is asked for.
-void AddWithPower(const Light& light, const Frame& frame, const ImageFlux& flux,
+void AddWithPower(const Light& light, const WorldFrame& frame, const ImageFlux& flux,
                   LightRecord& record, LightList& lights) {
   const auto& [mean, size] = flux;
   const double unit_power = size * Luminance(mean);
@@ -31,7 +31,7 @@ void AddWithPower(const Light& light, const Frame& frame, const ImageFlux& flux,
 
 }  // namespace
 
-void AddGoniometric(const Light& light, const Frame& frame, LightImageTable& images,
+void AddGoniometric(const Light& light, const WorldFrame& frame, LightImageTable& images,
                     LightList& lights) {
   const LightFile file = {light.where, "goniometric light's image", light.image_path};
   LightImage image = images.Load(file, LightImageTable::Use::kGrey);
@@ -50,7 +50,7 @@ void AddGoniometric(const Light& light, const Frame& frame, LightImageTable& ima
   AddWithPower(light, frame, {mean, 4 * kPi}, record, lights);
 }
 
-void AddProjection(const Light& light, const Frame& frame, LightImageTable& images,
+void AddProjection(const Light& light, const WorldFrame& frame, LightImageTable& images,
                    LightList& lights) {
   const LightFile file = {light.where, "projection light's image", light.image_path};
   LightImage image = images.Load(file, LightImageTable::Use::kColor);

@@ -36,7 +36,7 @@ struct LightList {
 
 /// Where a light with a place stands, in scene coordinates. Throws InputError if that is
 /// beyond them.
-inline Vec3d PositionOf(const Light& light, const Frame& frame) {
+inline Vec3d PositionOf(const Light& light, const WorldFrame& frame) {
   const Vec3d position = frame.Point(light.world_from_light.Point(light.from));
   RequireInScene(position, light.where, "light");
   return position;

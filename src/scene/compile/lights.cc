@@ -57,7 +57,7 @@ class LightCompiler {
   // The power of a distant light and of an environment is what falls on the scene.
   double SceneDisk() const { return radius_ > 0 ? kPi * radius_ * radius_ : kPi; }
 
-  const Frame& frame_;
+  const WorldFrame& frame_;
   const double radius_;
   LightList& lights_;
   LightImageTable& images_;
@@ -71,7 +71,7 @@ bool IsStretched(const Light& light) {
 
 // Intensity is power per solid angle; irradiance falls with the square of the distance,
 // and distances are scaled.
-Rgb SceneIntensity(const Light& light, const Frame& frame) {
+Rgb SceneIntensity(const Light& light, const WorldFrame& frame) {
   return light.emission * frame.scale * frame.scale;
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 class MediumBuilder {
  public:
-  MediumBuilder(const SceneDescription& d, const Frame& frame,
+  MediumBuilder(const SceneDescription& d, const WorldFrame& frame,
                 CompiledMaterials& materials)
       : d_(d), frame_(frame), materials_(materials), index_(d.media.size(), kVacuum) {}
 
@@ -34,7 +34,7 @@ class MediumBuilder {
 
  private:
   const SceneDescription& d_;
-  const Frame& frame_;
+  const WorldFrame& frame_;
   CompiledMaterials& materials_;
   std::vector<std::int32_t> index_;
   MediumTable table_;

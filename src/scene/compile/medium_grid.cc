@@ -122,7 +122,7 @@ void SetSpectra(const Medium& medium, double unit, MediumGrid& grid) {
   }
 }
 
-void SetSource(const Medium& medium, const Frame& frame, Transport transport,
+void SetSource(const Medium& medium, const WorldFrame& frame, Transport transport,
                MediumGrid& grid) {
   if (medium.kind == MediumKind::kNanoVdb) {
     grid.source = MediumSource::kSparse;
@@ -150,7 +150,7 @@ void SetSource(const Medium& medium, const Frame& frame, Transport transport,
   }
 }
 
-void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
+void SetMap(const Medium& medium, const WorldFrame& frame, MediumGrid& grid) {
   const Vec3d size = medium.box_max - medium.box_min;
   const Transform box_from_medium =
       Transform::Scale({1 / size.x, 1 / size.y, 1 / size.z}) *
@@ -168,7 +168,7 @@ void SetMap(const Medium& medium, const Frame& frame, MediumGrid& grid) {
 
 }  // namespace
 
-MediumGrid CompileMediumGrid(const Medium& medium, const Frame& frame,
+MediumGrid CompileMediumGrid(const Medium& medium, const WorldFrame& frame,
                              Transport transport) {
   MediumGrid grid;
   SetSource(medium, frame, transport, grid);

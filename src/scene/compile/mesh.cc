@@ -27,7 +27,7 @@ bool IsFinite(Vec3d v) { return std::isfinite(v.x + v.y + v.z); }
 
 class MeshCompiler {
  public:
-  MeshCompiler(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
+  MeshCompiler(const PlacedShape& placed, const WorldFrame& frame, std::uint32_t material,
                const MeshOutput& out)
       : mesh_(*placed.mesh),
         t_(frame.After(placed.transform)),
@@ -127,8 +127,8 @@ bool MeshCompiler::Compile(std::size_t i) const {
 
 }  // namespace
 
-bool CompileMesh(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
-                 const MeshOutput& out) {
+bool CompileMesh(const PlacedShape& placed, const WorldFrame& frame,
+                 std::uint32_t material, const MeshOutput& out) {
   const TriangleMesh& mesh = *placed.mesh;
   LL_CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
   LL_CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kDegenerate = 0xffffffffu;
 /// Writes the record of each triangle of the mesh; see src/scene/compile/geometry.h for
 /// the winding. Returns true if some vertex normal differs from its face normal by more
 /// than rounding.
-bool CompileMesh(const PlacedShape& placed, const Frame& frame, std::uint32_t material,
-                 const MeshOutput& out);
+bool CompileMesh(const PlacedShape& placed, const WorldFrame& frame,
+                 std::uint32_t material, const MeshOutput& out);
 
 }  // namespace lanelight

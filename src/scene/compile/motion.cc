@@ -12,7 +12,7 @@ Vec3d Times(const Matrix3& m, Vec3d v) {
 }  // namespace
 
 // scene = (from + s way + R(s) L(s) p - centre) * scale, p = object / scale' + centre'.
-Motion InFrames(const Motion& motion, const Frame& scene, const Frame& object) {
+Motion InFrames(const Motion& motion, const WorldFrame& scene, const WorldFrame& object) {
   Motion framed = motion;
   const double ratio = scene.scale / object.scale;
   for (int r = 0; r < 3; ++r) {
@@ -31,7 +31,7 @@ Motion InFrames(const Motion& motion, const Frame& scene, const Frame& object) {
 }
 
 // M(s) M(0)^-1 q = from + s way + R(s) (1 + s change linear^-1) (q - from).
-Motion OfCamera(const Motion& motion, const Frame& scene) {
+Motion OfCamera(const Motion& motion, const WorldFrame& scene) {
   Motion moved;
   moved.from = scene.Point(motion.from);
   moved.way = motion.way * scene.scale;

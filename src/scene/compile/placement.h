@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "src/scene/compile/frame.h"
+#include "src/scene/compile/world_frame.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -27,7 +27,7 @@ struct PlacedShape {
 struct PlacedObject {
   std::vector<PlacedShape> meshes;
   Box bounds;
-  Frame frame;  // of those bounds
+  WorldFrame frame;  // of those bounds
 };
 
 struct PlacedInstance {
@@ -49,7 +49,7 @@ struct Placement {
   std::vector<PlacedObject> objects;
   std::vector<PlacedInstance> instances;  // those that move first
   Vec3d eye;                              // the camera's position in the world
-  Frame frame;                            // of the scene
+  WorldFrame frame;                       // of the scene
   Box bounds;  // of the finite geometry in the world; if there is none, of the camera,
                // the lights with a position, and the camera's foot on each plane
 };

@@ -95,7 +95,7 @@ double Flux(const Portal& portal) {
 
 }  // namespace
 
-Portal CompilePortal(const Light& light, const Frame& frame,
+Portal CompilePortal(const Light& light, const WorldFrame& frame,
                      const Environment& environment) {
   const Side side = SidesOf(light);
   const Vec3d z = Cross(side.x, side.y);
@@ -124,7 +124,7 @@ Portal CompilePortal(const Light& light, const Frame& frame,
   return portal;
 }
 
-void AddPortalLight(const Light& light, const Frame& frame, std::vector<Note>& notes,
+void AddPortalLight(const Light& light, const WorldFrame& frame, std::vector<Note>& notes,
                     LightList& lights) {
   for (const Vec3d& corner : light.portal) {
     RequireInScene(frame.Point(corner), light.where, "portal");

@@ -28,7 +28,7 @@ bool IsAlphaTested(const PlacedShape& placed) {
   return placed.alpha.texture != kNone || placed.alpha.constant < 1;
 }
 
-SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
+SphereRecord CompileSphere(const PlacedShape& placed, const WorldFrame& frame,
                            std::uint32_t material) {
   const Shape& shape = *placed.shape;
   CheckRadius(shape, "a sphere");
@@ -48,7 +48,7 @@ SphereRecord CompileSphere(const PlacedShape& placed, const Frame& frame,
   return record;
 }
 
-LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const Frame& frame,
+LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const WorldFrame& frame,
                                      Vec3d eye, std::uint32_t material) {
   const SphereRecord sphere = CompileSphere(placed, frame, material);
   const Vec3d center = placed.transform.Point({0, 0, 0});
@@ -68,7 +68,7 @@ LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const Frame& fra
   return record;
 }
 
-DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
+DiskRecord CompileDisk(const PlacedShape& placed, const WorldFrame& frame,
                        std::uint32_t material) {
   const Shape& shape = *placed.shape;
   CheckRadius(shape, "a disk");
@@ -95,7 +95,7 @@ DiskRecord CompileDisk(const PlacedShape& placed, const Frame& frame,
   return record;
 }
 
-PlaneRecord CompilePlane(const PlacedShape& placed, const Frame& frame,
+PlaneRecord CompilePlane(const PlacedShape& placed, const WorldFrame& frame,
                          std::uint32_t material, bool keep_uv) {
   const Transform t = frame.After(placed.transform);
   const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});

@@ -49,7 +49,7 @@ void LeaveOut(const char* what, double scale, std::vector<PlacedShape>& shapes,
 
 // Rays are mapped into the object of an instance.
 bool CanBeEntered(const PlacedInstance& instance, const Placement& placement) {
-  const Frame& object = placement.objects[instance.object].frame;
+  const WorldFrame& object = placement.objects[instance.object].frame;
   const auto can = [&](const Transform& world_from_object) {
     const Transform object_from_scene =
         placement.frame.After(world_from_object * object.Inverse()).Inverse();
@@ -68,7 +68,7 @@ bool CanBeEntered(const PlacedInstance& instance, const Placement& placement) {
 // than in another.
 void CheckMotion(const PlacedInstance& instance, const Placement& placement) {
   if (!instance.end) return;
-  const Frame& object = placement.objects[instance.object].frame;
+  const WorldFrame& object = placement.objects[instance.object].frame;
   const Motion motion(instance.world_from_object, *instance.end);
   const Motion stored = MotionOf(RecordOf(InFrames(motion, placement.frame, object)));
   if (stored.At(0).IsInvertible() && stored.At(1).IsInvertible()) return;

@@ -101,8 +101,8 @@ struct ReuseColumns {
 };
 
 // The same of second vertices that are glossy. Colours are radiance that the path itself
-// gets, until kernels/reuse/split.cc; then they are without what the material makes of
-// light from there.
+// gets, until kernels/reuse/own_light.cc; then they are without what the material makes
+// of light from there.
 #define LANELIGHT_GLOSSY_COLUMNS(X)                                                   \
   X(f32, light_x, "direction of the light sample, unit, scene")                       \
   X(f32, light_y, "direction of the light sample")                                    \

@@ -99,7 +99,7 @@ namespace lanelight {
   X(kReuse, "paths that serve the pixels of their block (reuse=block)")      \
   X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
   X(kDecides, "a strategy chosen by a pilot")                                \
-  X(kRecordsUnsplit, "a training pass that records what single paths bring")
+  X(kRecordsSinglePaths, "a training pass that records what single paths bring")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.
 #define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)

@@ -154,14 +154,14 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_4(X, u32, cell, ({kRecordsPaths}), kPath, (kNoCell), "cache cell of vertex 0, 1, 2, 3; 0xffffffff = none") \
   LANELIGHT_4(X, f32, at, ({kRecordsPaths}), kPath, (0.0f), "luminance of the throughput there") \
   LANELIGHT_4(X, f32, got, ({kRecordsPaths}), kPath, (0.0f), "luminance gathered before it") \
-  X(f32, risk_0, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/record.cc)") \
-  X(f32, risk_1, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments, linear part")         \
-  X(f32, risk_2, ({kRecordsPaths, kRecordsUnsplit}), kPath, (0.0f), "second moments, constant part")       \
-  /* training pass with splitting: what the path would be without (kernels/roulette/unsplit.cc) */ \
-  X(f32, copy_weight, ({kRecordsUnsplit}), kPath, (1.0f), "product of 1/r of its decisions so far") \
-  X(f32, decided_at, ({kRecordsUnsplit}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
-  X(f32, unsplit, ({kRecordsUnsplit}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
-  X(f32, unsplit_l, ({kRecordsUnsplit}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
+  X(f32, risk_0, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/training_records.cc)") \
+  X(f32, risk_1, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, linear part")         \
+  X(f32, risk_2, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, constant part")       \
+  /* training pass with splitting: what the path would be without (kernels/roulette/single_path_records.cc) */ \
+  X(f32, copy_weight, ({kRecordsSinglePaths}), kPath, (1.0f), "product of 1/r of its decisions so far") \
+  X(f32, decided_at, ({kRecordsSinglePaths}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
+  X(f32, single_gathered, ({kRecordsSinglePaths}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
+  X(f32, single_l, ({kRecordsSinglePaths}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \
   LANELIGHT_XYZ(X, f32, aov_n, ({kAov}), kPath, (0.0f), "shading normal")                 \
@@ -311,8 +311,8 @@ inline constexpr FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell
                                        Field::cell_3, Field::at_0,   Field::at_1,
                                        Field::at_2,   Field::at_3,   Field::got_0,
                                        Field::got_1,  Field::got_2,  Field::got_3};
-inline constexpr FieldSet kUnsplit = {Field::copy_weight, Field::decided_at,
-                                      Field::unsplit, Field::unsplit_l};
+inline constexpr FieldSet kSinglePath = {Field::copy_weight, Field::decided_at,
+                                         Field::single_gathered, Field::single_l};
 inline constexpr FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};
 }  // namespace fields
 

@@ -21,7 +21,7 @@ inline constexpr int kRecordedVertices = 4;
   X(Triple, 1, ({kSpectralFilm}), false, "of bins that these wavelengths are of") \
   X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (first_numbers.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
-  X(Unsplit, 2, ({kRecordsUnsplit}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting") \
+  X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting") \
   X(Weight, 1, ({kReuse}), false, "weight of the sample, which its colour does not have in it until its block has been connected")
 // clang-format on
 

@@ -66,7 +66,7 @@ FeatureSet FeaturesOf(const View& view, const CompiledFilter& filter) {
 struct Shot {
   Film film;
   Camera camera;
-  Frame frame{{1.5, -2, 0.25}, 4};  // world to scene, as a compiled scene has it
+  WorldFrame frame{{1.5, -2, 0.25}, 4};  // world to scene, as a compiled scene has it
   CompiledScene scene;
   WaveFixture fixture;
 

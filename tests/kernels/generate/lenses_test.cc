@@ -43,7 +43,7 @@ struct Shot {
 
   explicit Shot(const Camera& c, unsigned seed = 29) : camera(c), fixture(scene, kPaths) {
     film.width = kWidth, film.height = kHeight;
-    scene.view.camera = CompileCamera(camera, film, Frame{{0, 0, 0}, 4});
+    scene.view.camera = CompileCamera(camera, film, WorldFrame{{0, 0, 0}, 4});
     Filter box;
     box.x_radius = box.y_radius = 0.5;
     scene.filter = CompileFilter(box);
@@ -246,7 +246,7 @@ TEST_CASE("an even light exposes the film as the stop's angle says", "[generate]
   Camera camera = Doublet(10, 5);
   camera.lens = {500, 1, 1.0, 40, 0, 50, 0, 30};
   camera.film_diagonal = 1e-3;
-  CHECK_THROWS_AS(CompileCamera(camera, Film{}, Frame{}), InputError);  // no lens
+  CHECK_THROWS_AS(CompileCamera(camera, Film{}, WorldFrame{}), InputError);  // no lens
   camera = Doublet(10, 5);
   camera.film_diagonal = 0.01;
   const Shot shot(camera);

@@ -46,7 +46,7 @@ class Checker {
     options.wavefront = 300;
     options.auxiliary = c.records ? Auxiliary::kNone : Auxiliary::kGbuffer;
     if (c.records && s.Splits()) {
-      options.training = FeatureSet{Feature::kRecordsUnsplit};
+      options.training = FeatureSet{Feature::kRecordsSinglePaths};
     } else if (c.records) {
       options.training = FeatureSet{Feature::kRecordsPaths, Feature::kOtherEvents};
       options = WithChanges(scene_, options, "roulette=throughput");

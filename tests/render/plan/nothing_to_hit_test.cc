@@ -76,7 +76,7 @@ TEST_CASE("a scene without surfaces pays for none", "[plan]") {
   for (const PlannedStage& s : r.plan.paths().stages)
     stages += std::string(s.stage.name) + " ";
   CHECK(stages ==
-        "generate points_camera_independent camera_perspective split escape limit "
+        "generate points_camera_independent camera_perspective hits escape limit "
         "accumulate pack ");
   CHECK(r.result.rays_shadow == 0);
 }

@@ -57,7 +57,7 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
   const Plan plan = PlanOf(kPointLight + kTriangle);
   CHECK(StageNames(plan) ==
         std::set<std::string>{"generate", "points_camera_independent",
-                              "camera_perspective", "intersect_triangles", "split",
+                              "camera_perspective", "intersect_triangles", "hits",
                               "limit", "surface_triangle", "points_bounce_independent",
                               "route", "light_point", "shade_diffuse", "shadow_triangles",
                               "connect", "roulette_throughput", "accumulate", "pack"});

@@ -6,9 +6,9 @@
 
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/train/pilot_comparison.h"
 #include "src/render/train/strategy_trial.h"
 #include "src/render/train/training.h"
+#include "src/render/train/trial_comparison.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/agreement/agreement.h"

@@ -56,7 +56,7 @@ TEST_CASE("compile: mirrored and scaled cameras", "[scene][compile]") {
   camera.world_from_camera =
       (Transform::Scale({-1, 1, 1}) * Transform::LookAt({1, 2, 3}, {1, 2, 13}, {0, 1, 0}))
           .Inverse();
-  const Frame frame{{1, 0, 0}, 4};
+  const WorldFrame frame{{1, 0, 0}, 4};
   const CompiledCamera c = CompileCamera(camera, FilmOf(100, 100), frame);
   CHECK(Near(Apply(c, 0, 0), {1, 1, 1}));
   CHECK(c.origin == Vec3f{0, 8, 12});
@@ -78,7 +78,7 @@ TEST_CASE("compile: orthographic camera", "[scene][compile]") {
   camera.kind = CameraKind::kOrthographic;
   camera.world_from_camera =
       Transform::Translate({0, 0, -5}) * Transform::Scale({3, 3, 3});
-  const Frame frame{{0, 0, 1}, 0.5};
+  const WorldFrame frame{{0, 0, 1}, 0.5};
   const CompiledCamera c = CompileCamera(camera, FilmOf(200, 100), frame);
   CHECK(Near(Apply(c, 100, 50), {0, 0, -3}));
   CHECK(Near(Apply(c, 0, 0), {-3, 1.5, -3}));  // (-2, 1) * 3 * 0.5

@@ -27,7 +27,7 @@ double MajorantAt(const MediumGrid& grid, Vec3d share) {
 
 // Nowhere below the density; the mean of bound and of density over the box.
 std::pair<double, double> CheckMajorants(const Medium& medium) {
-  const MediumGrid grid = CompileMediumGrid(medium, Frame());
+  const MediumGrid grid = CompileMediumGrid(medium, WorldFrame());
   const Vec3d size = medium.box_max - medium.box_min;
   double bounds = 0, densities = 0;
   constexpr int kSide = 40;
@@ -84,11 +84,12 @@ int CountAbove(const MediumGrid& spectra, const MediumGrid& bounds) {
 
 TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectral]") {
   const Medium medium = RandomColors();
-  const MediumGrid spectral = CompileMediumGrid(medium, Frame(), Transport::kSpectral);
+  const MediumGrid spectral =
+      CompileMediumGrid(medium, WorldFrame(), Transport::kSpectral);
   REQUIRE(spectral.values.size() == 8 * 60);
   CHECK(CountAbove(spectral, spectral) == 0);
   // Power: those of red, green and blue do not.
-  CHECK(CountAbove(spectral, CompileMediumGrid(medium, Frame())) > 10);
+  CHECK(CountAbove(spectral, CompileMediumGrid(medium, WorldFrame())) > 10);
 }
 
 TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spectral]") {
@@ -128,7 +129,7 @@ TEST_CASE("bounds of a NanoVDB grid in a box far larger", "[compile][media]") {
   const float largest = medium.sparse_density->largest();
   for (const double far : {1e12, 1e40, 1e300}) {
     medium.box_max = {far, far, far};
-    const MediumGrid grid = CompileMediumGrid(medium, Frame());
+    const MediumGrid grid = CompileMediumGrid(medium, WorldFrame());
     INFO(far);
     CHECK(grid.majorants[0] >= largest);
     for (const float v : grid.majorants) {

@@ -15,7 +15,7 @@ PlacedShape Placed(const Shape& shape) {
   return placed;
 }
 
-const Frame kFrame{{1, 2, 3}, 0.5};
+const WorldFrame kFrame{{1, 2, 3}, 0.5};
 
 TEST_CASE("compile: sphere record", "[scene][compile]") {
   Shape shape = SphereShape(3, 0);

@@ -134,8 +134,8 @@ void SplitGlossy(Wave& wave) {
   }
 }
 
-Stage ReuseSplitStage() {
-  return {.name = "reuse_split",
+Stage ReuseOwnLightStage() {
+  return {.name = "reuse_own_light",
           .meaning = "takes what serves others out of what paths have gathered",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,

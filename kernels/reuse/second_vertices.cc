@@ -189,15 +189,15 @@ HWY_INLINE void RecordFirsts(Wave& wave) {
 }
 
 // Seconds first: a vertex is not both.
-void RecordReuse(Wave& wave) {
+void SecondVertices(Wave& wave) {
   RecordSeconds(wave);
   RecordFirsts(wave);
 }
 
-Stage RecordReuseStage() {
+Stage SecondVerticesStage() {
   using namespace fields;
   const FieldSet state = {Field::reuse, Field::eta_scale};
-  return {.name = "reuse_record",
+  return {.name = "reuse_second_vertices",
           .meaning = "keeps first and second vertices of paths for their block",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
@@ -205,7 +205,7 @@ Stage RecordReuseStage() {
           .reads = FirstVertexFields(true, true) | kRadiance | state |
                    FieldSet{Field::output, Field::bsdf_pdf, Field::prim},
           .writes = kRadiance | kThroughput | state,
-          .resolve = Always<RecordReuse>};
+          .resolve = Always<SecondVertices>};
 }
 
 LANELIGHT_END_KERNELS

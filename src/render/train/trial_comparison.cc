@@ -1,4 +1,4 @@
-#include "src/render/train/pilot_comparison.h"
+#include "src/render/train/trial_comparison.h"
 
 #include <algorithm>
 #include <cmath>

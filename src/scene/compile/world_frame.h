@@ -31,7 +31,7 @@ struct Box {
 };
 
 /// p_frame = (p - center) * scale.
-struct Frame {
+struct WorldFrame {
   Vec3d center;
   double scale = 1;  // power of two
 
@@ -46,6 +46,6 @@ struct Frame {
 
 /// Centre of the box, and the power of two that brings its half diagonal into [1, 2).
 /// An empty box gives the identity, a single point a scale of 1.
-Frame FrameOf(const Box& box);
+WorldFrame FrameOf(const Box& box);
 
 }  // namespace lanelight

@@ -40,12 +40,13 @@ LANELIGHT_INLINE VF Sent(const Wave& wave, const Slots& slots) {
 
 // What the path would have gathered alone.
 LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered) {
-  const VF since = hn::Sub(gathered, Gather(p.unsplit_l, slots));
-  return hn::Add(Gather(p.unsplit, slots), hn::Div(since, Gather(p.copy_weight, slots)));
+  const VF since = hn::Sub(gathered, Gather(p.single_l, slots));
+  return hn::Add(Gather(p.single_gathered, slots),
+                 hn::Div(since, Gather(p.copy_weight, slots)));
 }
 
 // Of the pixel, by PathValues::inverse_pixel, in terms of what paths gather: about what
-// moments are taken (MomentsAbout in src/render/train/unsplit_variances.h).
+// moments are taken (MomentsAbout in src/render/train/single_path_variances.h).
 LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
@@ -58,17 +59,17 @@ LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   return hn::IfThenElseZero(hn::Gt(weights.x, hn::Zero(DF())), about);
 }
 
-void UnsplitBefore(Wave& wave) {
+void SinglePathBefore(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
     const VF gathered = Gathered(wave, slots);
-    Scatter(Alone(p, slots, gathered), p.unsplit, slots);
-    Scatter(gathered, p.unsplit_l, slots);
+    Scatter(Alone(p, slots, gathered), p.single_gathered, slots);
+    Scatter(gathered, p.single_l, slots);
     Scatter(Sent(wave, slots), p.decided_at, slots);
   });
 }
 
-void UnsplitAfter(Wave& wave) {
+void SinglePathAfter(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
     const VF before = Gather(p.decided_at, slots), zero = hn::Zero(DF());
@@ -80,7 +81,7 @@ void UnsplitAfter(Wave& wave) {
   });
 }
 
-void UnsplitDecision(Wave& wave) {
+void SinglePathDecision(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(
       wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
@@ -90,12 +91,12 @@ void UnsplitDecision(Wave& wave) {
       });
 }
 
-// In the order of PlaneGroup::kUnsplit; both are sums over the copies.
-void UnsplitPath(Wave& wave) {
+// In the order of PlaneGroup::kSinglePath; both are sums over the copies.
+void SinglePathEnd(Wave& wave) {
   const PathColumns& p = wave.path;
   float* const plane =
       wave.buffer.samples +
-      std::size_t(wave.run->planes.First(PlaneGroup::kUnsplit)) * wave.buffer.stride;
+      std::size_t(wave.run->planes.First(PlaneGroup::kSinglePath)) * wave.buffer.stride;
   ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
     const VI output = Gather(p.output, slots);
     const VF zero = hn::Zero(DF()), gathered = Gathered(wave, slots);
@@ -115,49 +116,49 @@ void UnsplitPath(Wave& wave) {
 
 namespace {
 constexpr FieldSet kTransport =
-    fields::kThroughput | fields::kRadiance | fields::kUnsplit | fields::kRisk;
+    fields::kThroughput | fields::kRadiance | fields::kSinglePath | fields::kRisk;
 }  // namespace
 
-Stage UnsplitBeforeStage() {
-  return {.name = "unsplit_before",
+Stage SinglePathBeforeStage() {
+  return {.name = "single_path_before",
           .meaning = "what a pilot path would be alone, before it may split",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
-          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
-          .reads = fields::kThroughput | fields::kRadiance | fields::kUnsplit,
-          .writes = FieldSet{Field::unsplit, Field::unsplit_l, Field::decided_at},
-          .resolve = Always<UnsplitBefore>};
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
+          .reads = fields::kThroughput | fields::kRadiance | fields::kSinglePath,
+          .writes = FieldSet{Field::single_gathered, Field::single_l, Field::decided_at},
+          .resolve = Always<SinglePathBefore>};
 }
-Stage UnsplitAfterStage() {
-  return {.name = "unsplit_after",
+Stage SinglePathAfterStage() {
+  return {.name = "single_path_after",
           .meaning = "the weight of a pilot path that has been decided on",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
-          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
           .reads = fields::kThroughput | FieldSet{Field::copy_weight, Field::decided_at},
           .writes = FieldSet{Field::copy_weight, Field::decided_at},
-          .resolve = Always<UnsplitAfter>};
+          .resolve = Always<SinglePathAfter>};
 }
-Stage UnsplitDecisionStage() {
-  return {.name = "unsplit_decision",
+Stage SinglePathDecisionStage() {
+  return {.name = "single_path_decision",
           .meaning =
               "what roulette would add to the second moment of a pilot path that splits",
           .input = QueueId::kScattered,
           .role = StageRole::kRecord,
-          .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
           .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
           .writes = fields::kRisk,
-          .resolve = Always<UnsplitDecision>};
+          .resolve = Always<SinglePathDecision>};
 }
-Stage UnsplitPathStage() {
+Stage SinglePathEndStage() {
   return {
-      .name = "unsplit_path",
+      .name = "single_path_end",
       .meaning = "writes what a finished pilot path would have brought without splitting",
       .input = QueueId::kDone,
       .role = StageRole::kRecord,
-      .needs = {Feature::kRecordsUnsplit, Feature::kSplitting},
+      .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
       .reads = kTransport | FieldSet{Field::output, Field::pixel},
-      .resolve = Always<UnsplitPath>};
+      .resolve = Always<SinglePathEnd>};
 }
 
 LANELIGHT_END_KERNELS

@@ -1,4 +1,4 @@
-#include "src/render/train/unsplit_variances.h"
+#include "src/render/train/single_path_variances.h"
 
 #include <cmath>
 
@@ -33,11 +33,11 @@ double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixe
   return about / exposure;
 }
 
-std::vector<double> UnsplitVariances(const TrainingSamples& samples,
-                                     const TrainingWork& work, const ImageGuess& image,
-                                     const PathValues& values, float exposure,
-                                     std::vector<double> variances) {
-  LL_CHECK_EQ(samples.planes, NumPlanes(PlaneGroup::kUnsplit));
+std::vector<double> SinglePathVariances(const TrainingSamples& samples,
+                                        const TrainingWork& work, const ImageGuess& image,
+                                        const PathValues& values, float exposure,
+                                        std::vector<double> variances) {
+  LL_CHECK_EQ(samples.planes, NumPlanes(PlaneGroup::kSinglePath));
   const double scale = ScaleOf(samples, values.channel);
   for (std::size_t i = 0; i < variances.size(); ++i) {
     const double about = MomentsAbout(values, exposure, work.pixels[i]);

@@ -32,8 +32,8 @@ void Split(Wave& wave) {
   });
 }
 
-Stage SplitStage() {
-  return {.name = "split",
+Stage HitsStage() {
+  return {.name = "hits",
           .meaning = "sorts paths into hits and misses",
           .input = QueueId::kActive,
           .role = StageRole::kSort,

@@ -1,4 +1,4 @@
-#include "src/scene/compile/frame.h"
+#include "src/scene/compile/world_frame.h"
 
 #include <cmath>
 
@@ -37,7 +37,7 @@ double Box::HalfDiagonal() const {
   return std::hypot(half.x, half.y, half.z);  // squares could overflow or underflow
 }
 
-Transform Frame::After(const Transform& transform) const {
+Transform WorldFrame::After(const Transform& transform) const {
   Transform::Matrix m = transform.matrix();
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
@@ -47,14 +47,14 @@ Transform Frame::After(const Transform& transform) const {
   return Transform(m);
 }
 
-Transform Frame::Inverse() const {
+Transform WorldFrame::Inverse() const {
   const double s = 1 / scale;
   return Transform::Translate(center) * Transform::Scale({s, s, s});
 }
 
-Frame FrameOf(const Box& box) {
+WorldFrame FrameOf(const Box& box) {
   if (box.empty()) return {};
-  Frame frame;
+  WorldFrame frame;
   frame.center = box.Center();
   const double half = box.HalfDiagonal();
   if (half > 0 && std::isfinite(half)) {

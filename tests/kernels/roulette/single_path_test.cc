@@ -6,9 +6,9 @@
 #include "src/base/stat/hypothesis.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
+#include "src/render/train/single_path_variances.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
-#include "src/render/train/unsplit_variances.h"
 #include "tests/reference/scenes.h"
 
 namespace lanelight::test {
@@ -69,14 +69,14 @@ MeanEstimate MeanOf(const std::vector<double>& values) {
 }
 
 struct SplitMoments {
-  std::vector<double> own, unsplit;  // of the pass; what it says of roulette=throughput
+  std::vector<double> own, single;  // of the pass; what it says of roulette=throughput
 };
 
 // With what the splitting roulette has learned, another one plays.
 TrainingSamples Pass(const Prepared& room, const char* roulette, bool records) {
   PlanOptions options =
       WithChanges(room.scene, room.plan.options, std::string("roulette=") + roulette);
-  options.training = records ? FeatureSet{Feature::kRecordsUnsplit} : FeatureSet{};
+  options.training = records ? FeatureSet{Feature::kRecordsSinglePaths} : FeatureSet{};
   return RunTrainingPass({room.scene, options, &room.tables, Prepared::kSeed},
                          MakeTrainingWork(room.scene, kSamples));
 }
@@ -91,7 +91,7 @@ SplitMoments MomentsOf(const Prepared& room, const TrainingSamples& samples) {
     m.own.push_back(off * off);
     if (samples.planes == 0) continue;
     CHECK(samples.recorded[2 * i] == Approx(y).epsilon(1e-4).margin(1e-6));
-    m.unsplit.push_back(samples.recorded[2 * i + 1]);
+    m.single.push_back(samples.recorded[2 * i + 1]);
   }
   return m;
 }
@@ -106,7 +106,7 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
     const Prepared room(TwoRooms(glass));
     const SplitMoments splits = MomentsOf(room, Pass(room, "adjoint", true));
     const SplitMoments plain = MomentsOf(room, Pass(room, "throughput", false));
-    const MeanEstimate said = MeanOf(splits.unsplit), is = MeanOf(plain.own);
+    const MeanEstimate said = MeanOf(splits.single), is = MeanOf(plain.own);
     const MeanEstimate other = MeanOf(splits.own);
     INFO("glass " << glass << ": " << said.mean << " +- " << std::sqrt(said.variance)
                   << " for " << is.mean << " +- " << std::sqrt(is.variance)
@@ -117,8 +117,7 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
   }
 }
 
-TEST_CASE("recording what paths would bring unsplit changes nothing of them",
-          "[roulette]") {
+TEST_CASE("recording of single-path estimates changes nothing of them", "[roulette]") {
   const Prepared room(TwoRooms(true));
   const TrainingSamples with = Pass(room, "adjoint", true),
                         without = Pass(room, "adjoint", false);
@@ -145,8 +144,8 @@ TEST_CASE("variances without splitting differ by second moments", "[roulette]") 
   values.inverse_pixel.assign(3, 1 / (std::sqrt(3.0f) * 0.3f));
   CHECK(MomentsAbout(values, 0.5f, 0) == Approx(0.6));
   const std::vector<double> own = RelativeVariances(samples, work, image);
-  const auto unsplit = UnsplitVariances(samples, work, image, values, 0.5f, own);
-  CHECK(unsplit[0] - own[0] == Approx(0.02 * image.ErrorWeight(0, 0)).epsilon(1e-5));
+  const auto single = SinglePathVariances(samples, work, image, values, 0.5f, own);
+  CHECK(single[0] - own[0] == Approx(0.02 * image.ErrorWeight(0, 0)).epsilon(1e-5));
   // What is black has no brightness to be about.
   values.inverse_pixel.assign(3, 0);
   CHECK(MomentsAbout(values, 0.5f, 0) == 0);

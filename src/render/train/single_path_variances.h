@@ -15,16 +15,16 @@ double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixe
 
 /// Variances of a sample by pixel, as RelativeVariances has them for `samples`, of the
 /// same strategy with roulette=throughput instead of splitting. `samples`: of a pass with
-/// `values` that records unsplit moments (Feature::kRecordsUnsplit); `variances`: its
-/// own.
+/// `values` that records single-path moments (Feature::kRecordsSinglePaths); `variances`:
+/// its own.
 ///
 /// The two differ by the second moments of independent samples: what stratified points
 /// take off is variance of the mean given the first numbers of a path, which decisions on
 /// its way leave as it is. A difference is taken to have the colour of the image. Of
 /// single pixels the result may be negative.
-std::vector<double> UnsplitVariances(const TrainingSamples& samples,
-                                     const TrainingWork& work, const ImageGuess& image,
-                                     const PathValues& values, float exposure,
-                                     std::vector<double> variances);
+std::vector<double> SinglePathVariances(const TrainingSamples& samples,
+                                        const TrainingWork& work, const ImageGuess& image,
+                                        const PathValues& values, float exposure,
+                                        std::vector<double> variances);
 
 }  // namespace lanelight
