@@ -1,15 +1,12 @@
 """Checks of the first screen, and of a study of many strategies."""
 
-import json
-
-from checks import check, plot, require
+from checks import check, data, pick, plot, require
 
 CROWD = 4  # index of the scene of many strategies
 
 
 def scene(page, index):
-    study = json.loads(page.js("return document.getElementById('study').textContent"))
-    return study["scenes"][index]
+    return data(page)["scenes"][index]
 
 
 def open_crowd(page):
@@ -111,15 +108,11 @@ def many_curves_fade_and_filter(page):
     leading = pressed()
     require(4 <= len(leading) <= 8, "curves in colour:", leading)
     first = page.ink(plot(page, "spp"))
-    page.js("""const f = document.querySelector('[data-control="filter"]');
-      f.value = 'pmj02'; f.dispatchEvent(new Event('input'));""")
-    page.settle()
+    pick(page, '[data-control="filter"]', "pmj02")
     found = [scene(page, CROWD)["strategies"][int(i)]["name"] for i in pressed()]
     require(len(found) == 4 and all("pmj02" in name for name in found), found)
     require(page.ink(plot(page, "spp"))["hash"] != first["hash"], "the plot is as before")
-    page.js("""const f = document.querySelector('[data-control="filter"]');
-      f.value = ''; f.dispatchEvent(new Event('input'));""")
-    page.settle()
+    pick(page, '[data-control="filter"]', "")
     require(pressed() == leading, "not as before", pressed())
     page.click('[data-show="all"]')
     every = page.ink(plot(page, "spp"))

@@ -3,7 +3,7 @@
 import time
 
 import browser
-from checks import check, require
+from checks import check, pick, require
 
 
 def until(page, script, *what, seconds=60):
@@ -35,12 +35,6 @@ def drag(page, dx, dy, steps=4):
 def choose(page, selector, value):
     from selenium.webdriver.support.ui import Select
     Select(page.find(selector)).select_by_value(value)
-    page.settle()
-
-
-def slide(page, selector, value):
-    page.js("const i = document.querySelector(arguments[0]); i.value = arguments[1];"
-            "i.dispatchEvent(new Event('input'))", selector, value)
     page.settle()
 
 
@@ -84,7 +78,7 @@ def exposure_and_curves_are_the_pages_own(page):
     time.sleep(0.5)
     seen = {ink(page)["hash"]}
     samples = spp(page)
-    slide(page, "#exposure", 2)
+    pick(page, "#exposure", 2)
     seen.add(ink(page)["hash"])
     for curve in ("filmic", "reinhard", "false"):
         choose(page, "#curve", curve)
@@ -143,7 +137,7 @@ def the_wheel_keys_and_sliders_move_it(page):
     until(page, "return page.state.moved", "keys do not move the camera")
     page.click("#home")
     until(page, "return !page.state.moved", "the button does not go back")
-    slide(page, "#fov", 60)
+    pick(page, "#fov", 60)
     until(page, "return page.state.eye.fov === 60", "the field of view is not 60")
     page.click("#home")
 

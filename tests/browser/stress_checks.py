@@ -1,13 +1,8 @@
 """Checks of what the page of stress cases draws, against the numbers that it holds."""
 
-import json
 import math
 
-from checks import check, note_of, require
-
-
-def data(page):
-    return json.loads(page.js("return document.getElementById('study').textContent"))
+from checks import check, data, note_of, require
 
 
 def case(page, name):
