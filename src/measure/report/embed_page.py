@@ -31,7 +31,7 @@ PAGES = {
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
-                    f"""{REPORT} {IMAGES} maps histogram compare_tiles compare_numbers
+                    f"""{REPORT} {PLOTS} {IMAGES} maps histogram compare_tiles compare_numbers
                     compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines

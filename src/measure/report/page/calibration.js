@@ -2,17 +2,7 @@
 // What renders say of their own error against what it is.
 
 function calibrationLines(view, ratio) {
-  return view.ran
-    .map((s) => ({
-      index: s.index,
-      name: s.name,
-      style: s.style,
-      points: (s.levels || [])
-        .map((level) => calibrationPoint(level, ratio))
-        .filter(Boolean)
-        .sort((a, b) => a.x - b.x),
-    }))
-    .filter((line) => line.points.length > 0);
+  return levelLines(view, (level) => calibrationPoint(level, ratio));
 }
 
 function calibrationPoint(level, ratio) {
@@ -22,14 +12,9 @@ function calibrationPoint(level, ratio) {
   if (!known(x) || x <= 0 || !known(y) || y <= 0) return null;
   const unit = ratio ? x : 1;
   const scaled = (bound) => (known(bound) ? bound / unit : null);
-  return {
-    x,
-    y: y / unit,
-    low: scaled(estimate.low),
-    high: scaled(estimate.high),
-    level,
-    hollow: Boolean(level.reference_limited),
-  };
+  const { low, high } = estimate;
+  const hollow = Boolean(level.reference_limited);
+  return { x, y: y / unit, low: scaled(low), high: scaled(high), level, hollow };
 }
 
 // Where the estimate is right.

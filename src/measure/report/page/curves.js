@@ -7,18 +7,18 @@ const MEASURES = {
   relmse_trimmed: { label: "Relative MSE, trimmed", power: 2 },
 };
 
-function curveLines(view, measure, xOf) {
+// A line for each strategy, of the levels for which pointOf(level) knows a point.
+function levelLines(view, pointOf) {
   return view.ran
-    .map((s) => ({
-      index: s.index,
-      name: s.name,
-      style: s.style,
-      points: (s.levels || [])
-        .map((level) => curvePoint(level, measure, xOf))
-        .filter(Boolean)
-        .sort((a, b) => a.x - b.x),
+    .map(({ index, name, style, levels }) => ({
+      index, name, style,
+      points: (levels || []).map(pointOf).filter(Boolean).sort((a, b) => a.x - b.x),
     }))
     .filter((line) => line.points.length > 0);
+}
+
+function curveLines(view, measure, xOf) {
+  return levelLines(view, (level) => curvePoint(level, measure, xOf));
 }
 
 function curvePoint(level, measure, xOf) {

@@ -17,26 +17,11 @@ function figureBox(number, title, body, caption) {
   );
 }
 
-function tonedPicture(view, image, label, options = {}) {
-  return picture(view, {
-    label,
-    width: image.width,
-    height: image.height,
-    ...options,
-    makePixels: () => tonedPixels(image, view.tone.value),
-    redrawOn: view.tone,
-  });
-}
-
 function diffuseFigure(view) {
   const models = view.scene.diffuse || [];
   if (models.length === 0) {
-    return figureBox(
-      1,
-      "Diffuse models",
-      missingPicture("Not rendered: the scene has no diffuse surfaces."),
-      null,
-    );
+    const why = "Not rendered: the scene has no diffuse surfaces.";
+    return figureBox(1, "Diffuse models", missingPicture(why), null);
   }
   const cells = models.map((model) => {
     const image = findImage(model.image);
@@ -52,12 +37,8 @@ function diffuseFigure(view) {
       ),
     );
   });
-  return figureBox(
-    1,
-    "Diffuse models",
-    el("div.models", cells),
-    "The same scene with each model of diffuse scattering.",
-  );
+  const caption = "The same scene with each model of diffuse scattering.";
+  return figureBox(1, "Diffuse models", el("div.models", cells), caption);
 }
 
 // The strategy's image at `level` with a magnified part, beside the same of the baseline,

@@ -31,13 +31,10 @@ function imageMap(view, { title, key, table, signed, valueAt }) {
   const cell = (s) => {
     const image = imageOf(s);
     if (!image) return missingPicture(noMapText(s));
-    return picture(view, {
-      label: `${title} of ${s.name}`,
-      width: image.width,
-      height: image.height,
-      makePixels: () =>
-        rampPixels(image.width, image.height, table, (i) => toShare(at(image, i))),
-    });
+    const { width, height } = image;
+    return picture(view, `${title} of ${s.name}`, image, () =>
+      rampPixels(width, height, table, (i) => toShare(at(image, i))),
+    );
   };
   const ends = signed
     ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
@@ -91,20 +88,11 @@ function tilePicture(view, s, reference) {
       );
     }
   };
+  const pixels = () =>
+    rampPixels(width, height, DIVERGING_TABLE, (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP);
+  const label = `Equality test of ${s.name} by tile, ${failed.size} failed`;
   return el("div",
-    picture(view, {
-      label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
-      width,
-      height,
-      overlay,
-      makePixels: () =>
-        rampPixels(
-          width,
-          height,
-          DIVERGING_TABLE,
-          (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP,
-        ),
-    }),
+    picture(view, label, { width, height }, pixels, { overlay }),
     el("div.inset-name",
       failed.size === 0
         ? "no tile fails"

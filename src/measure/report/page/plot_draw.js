@@ -5,7 +5,7 @@
 // that are not shown stay, thin and grey; under(frame), guides(frame),
 // over(frame, lines): what else is drawn}
 // axis: {label, ticks(scale, most), format(value), quiet: without its label}
-// line: {index, name, style, bars, points: [{x, y, low, high, hollow, bad, limit}]}, x
+// line: {index, name, style, bars, steps: it has no markers, points: [{x, y, low, high, hollow, bad, limit}]}, x
 // ascending; limit: where a point would be bad.
 
 function plotFrame({ width, height }, { x, y }, named) {
@@ -58,6 +58,7 @@ function pathOf(places) {
 function curveBounds(frame, line) {
   const points = line.points.filter((p) => known(p.low) && known(p.high) && p.high > 0);
   const color = `var(${line.style.variable})`;
+  if (line.steps) return null;
   if (line.bars || points.length === 1) {
     const bars = points.map((p) => [
       [frame.x(p.x), frame.y(p.low)],
@@ -84,7 +85,7 @@ function plotCurve(frame, line) {
       d: pathOf(line.points.map((p) => [frame.x(p.x), frame.y(p.y)])),
       "stroke-dasharray": line.style.dash.join(" ") || null, style: { stroke },
     }),
-    line.points.map((p) => [
+    !line.steps && line.points.map((p) => [
       p.bad && svg("circle.bad", { cx: frame.x(p.x), cy: frame.y(p.y), r: 8 }),
       svg("path.marker", {
         d: markerPath(line.style.marker, frame.x(p.x), frame.y(p.y), 4),

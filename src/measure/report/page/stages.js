@@ -112,6 +112,24 @@ function stageRow(strategy, text, bar, attributes = {}) {
   );
 }
 
+// Bars as long as their `total`, {line, name, text, stages, total}, and what hides some of
+// them: the lines that the view does not show.
+function costRows(view, bars, names) {
+  const most = Math.max(...bars.map((bar) => bar.total));
+  const rows = bars.map((bar) => {
+    const length = bar.total / most;
+    const whole = stageBar(bar, names, length);
+    whole.style.width = `${length * 100}%`;
+    return stageRow(bar.line, bar.text, whole, { "data-line": bar.line.index });
+  });
+  view.shown.listen((shown) =>
+    rows.forEach((row) => {
+      row.hidden = !shown.has(Number(row.dataset.line));
+    }),
+  );
+  return [stageLegend(names), el("div.stage-rows", rows)];
+}
+
 function stagesSection(view) {
   const names = stageNames(view);
   if (names.length === 0) {

@@ -83,18 +83,10 @@ function measureRows(view, host, choice, lines, { measure, include }) {
   const log = measure === "efficiency";
   const scale = whiskerScale([...rows.map(({ y }) => y), ...include], log, log ? [1] : [0]);
   const row = ({ line, point, y }) =>
-    withTip(
-      el("div.rate-row",
-        el("span.rate-name", swatch(line.style), point.name),
-        whisker(y, scale, { style: line.style, width: 180, marks: log ? [1] : [] }),
-        el("span.rate-value", twoLines(texts(y))),
-      ),
-      () => describeGroup(choice, measure, line, point),
+    withTip(rateRow(line.style, point.name, y, texts, scale, log ? [1] : []), () =>
+      describeGroup(choice, measure, line, point),
     );
-  const axis = el("div.rate-row",
-    el("span"),
-    scale && whiskerAxis(scale, { width: 180, format: tick, most: 4 }),
-  );
+  const axis = rateAxis(scale, "", tick);
   const draw = () =>
     host.replaceChildren(
       axis,
