@@ -14,8 +14,7 @@ function benchLines() {
     lines.get(name).push(row);
   }
   return [...lines].map(([name, rows], index) => ({
-    index,
-    name,
+    index, name,
     status: "ok",
     style: strategyStyle(index),
     rows: [...rows].sort((a, b) => a.threads - b.threads),
@@ -62,11 +61,11 @@ function efficiencyFigure(view, lines) {
         format: errorTick,
       },
       include: [0.5, 1],
-      describe: (line, point) => [
-        el("b", line.name),
-        el("div", threadsText(point.x)),
-        el("div", `efficiency ${joined(intervalTexts(point.interval))}`),
-      ],
+      describe: (line, point) => noteOf(
+        line.name,
+        threadsText(point.x),
+        `efficiency ${joined(intervalTexts(point.interval))}`,
+      ),
     }),
   );
   return figure;

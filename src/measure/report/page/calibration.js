@@ -25,14 +25,14 @@ function truthGuide(frame, ratio) {
 }
 
 function describeCalibration(line, { level }) {
-  return [
-    el("b", line.name),
-    el("div", `${fmtCount(level.spp)} spp`),
-    el("div", `true ${joined(intervalTexts(level.relmse))}`),
-    el("div", `estimated ${joined(intervalTexts(level.self.relmse))}`),
-    el("div", `interval held in ${level.self.inside} of ${level.self.total} renders`),
-    level.self.refused > 0 && el("div", `${level.self.refused} renders stated none`),
-  ];
+  return noteOf(
+    line.name,
+    `${fmtCount(level.spp)} spp`,
+    `true ${joined(intervalTexts(level.relmse))}`,
+    `estimated ${joined(intervalTexts(level.self.relmse))}`,
+    `interval held in ${level.self.inside} of ${level.self.total} renders`,
+    level.self.refused > 0 && `${level.self.refused} renders stated none`,
+  );
 }
 
 // Their samples could not tell how large it is.

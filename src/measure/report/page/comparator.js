@@ -23,8 +23,7 @@ function makeComparison(view, choices, kinds) {
     there.find((choice) => choice !== reference && choice.group !== "") || reference;
   const sized = findImage(first.name);
   return {
-    view,
-    choices,
+    view, choices,
     names: { a: first.name, b: reference.name },
     mode: "side",
     kinds, // of differences
@@ -90,8 +89,7 @@ function comparatorSection(view, choices, kinds) {
   };
   comparison.box = el("div.comparator",
     comparatorControls(comparison, rebuild),
-    stage,
-    readout,
+    stage, readout,
   );
   hover(null);
   rebuild();

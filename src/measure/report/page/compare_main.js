@@ -10,9 +10,7 @@ function programMap(key, a, b) {
 
 function mapKind(key, label, title, options = {}) {
   return {
-    key,
-    label,
-    title,
+    key, label, title,
     signed: false,
     percent: false,
     ...options,

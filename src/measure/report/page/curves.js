@@ -30,14 +30,12 @@ function curvePoint(level, measure, xOf) {
 }
 
 function describePoint(measure, line, { level }) {
-  return [
-    el("b", line.name),
-    el("div",
-      `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
-    ),
-    el("div", `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
-    level.reference_limited && el("div", "limited by the reference's own error"),
-  ];
+  return noteOf(
+    line.name,
+    `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
+    `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`,
+    level.reference_limited && "limited by the reference's own error",
+  );
 }
 
 function curvePlot(view, host, measure, xAxis, xOf, more = {}) {

@@ -81,14 +81,13 @@ function insetColumn(view, image, shown, inset) {
 }
 
 function figureCaption(view, strategy, level, meaning, compare) {
+  const of = (interval, text) => valueOf(interval) !== null && text(interval);
   const numbers = [
     level && `${fmtCount(level.spp)} spp`,
-    level && valueOf(level.cpu_seconds) !== null && fmtSeconds(valueOf(level.cpu_seconds)),
-    level &&
-      valueOf(level.relmse) !== null &&
-      `relative MSE ${joined(intervalTexts(level.relmse))}`,
-    valueOf(strategy.efficiency) !== null &&
-      `efficiency at ${fmtCount(strategy.at_spp)} spp ${joined(intervalTexts(strategy.efficiency))}`,
+    level && of(level.cpu_seconds, ({ value }) => fmtSeconds(value)),
+    level && of(level.relmse, (x) => `relative MSE ${joined(intervalTexts(x))}`),
+    of(strategy.efficiency, (x) =>
+      `efficiency at ${fmtCount(strategy.at_spp)} spp ${joined(intervalTexts(x))}`),
   ]
     .filter(Boolean)
     .join("; ");
@@ -125,8 +124,7 @@ function convergenceFigure(view, strategies) {
     curvePlot(own, host, "rmse", counts, (level) => level.spp, { ghosts: false, beside }),
   );
   return figureBox(
-    8,
-    title,
+    8, title,
     el("div.convergence", figure, orderRows(measured)),
     "Beside the curves the fitted slope of log RMSE over log samples. The line at −½ is " +
       "where independent samples fall; further left converges faster.",
@@ -193,7 +191,8 @@ function sampledFigures(view, compare) {
 
 function paperStrategies(view) {
   const of = view.ranked.filter((s) => s.figure || s === view.baseline);
-  return of.some((s) => s.figure) ? of : view.ranked.filter((s) => view.shown.value.has(s.index));
+  if (of.some((s) => s.figure)) return of;
+  return view.ranked.filter((s) => view.shown.value.has(s.index));
 }
 
 function figuresSection(view, compare) {

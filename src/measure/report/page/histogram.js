@@ -13,9 +13,10 @@ function histogramPoints(image, at, { from, to }, bins) {
   }
   const total = Math.max(1, counts.reduce((sum, count) => sum + count));
   const edge = (i) => from + (i / bins) * (to - from);
-  return [...counts].flatMap((count, i) =>
-    [i, i + 1].map((end) => ({ x: edge(end), y: count / total, low: edge(i), high: edge(i + 1) })),
-  );
+  return [...counts].flatMap((count, i) => {
+    const [low, high] = [edge(i), edge(i + 1)];
+    return [low, high].map((x) => ({ x, y: count / total, low, high }));
+  });
 }
 
 // lines: {index, name, style, image}. axis: of x.
@@ -33,10 +34,10 @@ function histogramFigure(view, name, title, lines, { at, range, bins, axis }) {
         const y = { from: 0, to: 1.05 * Math.max(...shares, 1e-9), log: false };
         return { x: range, y };
       },
-      describe: (line, { y, low, high }) => [
-        el("b", line.name),
-        el("div", `${fmtPercent(y)} in ${axis.format(low)} to ${axis.format(high)}`),
-      ],
+      describe: (line, { y, low, high }) => noteOf(
+        line.name,
+        `${fmtPercent(y)} in ${axis.format(low)} to ${axis.format(high)}`,
+      ),
     }),
   );
   return figure;

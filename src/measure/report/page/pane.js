@@ -6,7 +6,8 @@ const MISSING_IMAGE = "This image is not in the report.";
 // Draws the visible part of source; clip: [from, to] as shares of the pane's width.
 function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
   const context = canvas.getContext("2d");
-  const scale = paneScale(canvas, comparison.size, comparison.place) * devicePixelRatio;
+  const { size, place } = comparison;
+  const scale = paneScale(boxOf(canvas), size, place) * devicePixelRatio;
   context.save();
   context.beginPath();
   context.rect(from * canvas.width, 0, (to - from) * canvas.width, canvas.height);
@@ -41,7 +42,7 @@ function fitBacking(canvas) {
 function paintAll(comparison) {
   comparison.panes.forEach(({ canvas, show }) => {
     if (canvas.clientWidth === 0) return;
-    comparison.place = clampPlace(canvas, comparison.size, comparison.place);
+    comparison.place = clampPlace(boxOf(canvas), comparison.size, comparison.place);
     fitBacking(canvas);
     if (show === "split") {
       paintPane(comparison, canvas, comparisonSource(comparison, "a"), [
@@ -71,8 +72,7 @@ function paneTitle(comparison, show) {
   const a = `A  ${labelOf(comparison, "a")}`,
     b = `B  ${labelOf(comparison, "b")}`;
   return {
-    a,
-    b,
+    a, b,
     split: `${a}  |  ${b}`,
     flip: comparison.flipped ? b : a,
     difference: `${comparison.kind.title}, of ${a} and ${b}`,
@@ -99,11 +99,11 @@ function makePane(comparison, show, repaint, hover) {
     retitle();
     repaint();
   };
-  bindPane(comparison.view, canvas, {
+  bindPane(canvas, {
     size: () => comparison.size,
     place: () => comparison.place,
     move: (place) => {
-      comparison.place = clampPlace(canvas, comparison.size, place);
+      comparison.place = clampPlace(boxOf(canvas), comparison.size, place);
       repaint();
     },
     hover,
@@ -122,8 +122,7 @@ function makePane(comparison, show, repaint, hover) {
   // No higher than most of the window.
   const box = el("div.pane-box",
     { style: { "max-width": `calc(78vh * ${width / height})` } },
-    title,
-    frame,
+    title, frame,
   );
   return { canvas, show, retitle, flip, node: box };
 }
@@ -145,7 +144,7 @@ function splitHandle(comparison, canvas, repaint) {
   );
   handle.addEventListener("pointermove", (event) => {
     if (!handle.hasPointerCapture(event.pointerId)) return;
-    const box = canvas.getBoundingClientRect();
+    const box = boxOf(canvas);
     set((event.clientX - box.left) / box.width);
   });
   handle.addEventListener("keydown", (event) => {

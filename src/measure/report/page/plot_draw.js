@@ -5,8 +5,8 @@
 // that are not shown stay, thin and grey; under(frame), guides(frame),
 // over(frame, lines): what else is drawn}
 // axis: {label, ticks(scale, most), format(value), quiet: without its label}
-// line: {index, name, style, bars, steps: it has no markers, points: [{x, y, low, high, hollow, bad, limit}]}, x
-// ascending; limit: where a point would be bad.
+// line: {index, name, style, bars, steps: it has no markers, points: [{x, y, low, high,
+// hollow, bad, limit}]}, x ascending; limit: where a point would be bad.
 
 function plotFrame({ width, height }, { x, y }, named) {
   const left = named ? 80 : 58,
@@ -44,7 +44,8 @@ function plotAxes(frame, { xAxis, yAxis }) {
     }),
     text({ class: "axis-name", x: across, y: bottom + 38 }, xAxis.label),
     !yAxis.quiet &&
-      text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` }, yAxis.label),
+      text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` },
+        yAxis.label),
   ];
 }
 
@@ -104,7 +105,10 @@ function drawPlot(size, options, lines = options.lines, scales = null) {
   const box = { x, y, width: frame.right - x, height: frame.bottom - y };
   const others = options.ghosts ? options.lines.filter((line) => !lines.includes(line)) : [];
   const node = svg("svg.curves",
-    { ...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img", "aria-label": options.label, class: options.kind },
+    {
+      ...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img",
+      "aria-label": options.label, class: options.kind,
+    },
     options.under && options.under(frame),
     plotAxes(frame, options),
     // An SVG within an SVG cuts off what is outside of it.

@@ -19,15 +19,15 @@ function stageColor(index) {
 }
 
 function stageTip(strategy, stage) {
-  const line = (name, text) => text !== UNKNOWN && el("div", `${name} ${text}`);
-  return [
-    el("b", `${stage.name}: ${fmtPercent(stage.share)}`),
-    el("div", strategy.name),
+  const line = (name, text) => text !== UNKNOWN && `${name} ${text}`;
+  return noteOf(
+    `${stage.name}: ${fmtPercent(stage.share)}`,
+    strategy.name,
     line("time", fmtSeconds(stage.seconds)),
     line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
     line("items", fmtCount(stage.items)),
     line("lanes full", fmtPercent(stage.occupancy)),
-  ];
+  );
 }
 
 // length: of the bar, in relation to the widest one.
@@ -86,24 +86,6 @@ function stageLegend(names) {
   );
 }
 
-function stagesTable(view, names) {
-  const shareOf = (s, name) => {
-    const stage = (s.stages || []).find((candidate) => candidate.name === name);
-    return stage ? fmtPercent(stage.share) : UNKNOWN;
-  };
-  return el("details",
-    el("summary", "The same as a table"),
-    plainTable("Share of each stage in the time of each strategy",
-      ["Strategy", "All stages", ...names],
-      view.ranked.map((s) => [
-        s.name,
-        fmtSeconds(stageSeconds(s)),
-        ...names.map((name) => shareOf(s, name)),
-      ]),
-    ),
-  );
-}
-
 // A bar with its name, and a few words on the whole.
 function stageRow(strategy, text, bar, attributes = {}) {
   return el("div.stage-row", { ...attributes },
@@ -147,6 +129,5 @@ function stagesSection(view) {
     ),
     stageLegend(names),
     el("div.stage-rows", rows),
-    stagesTable(view, names),
   );
 }

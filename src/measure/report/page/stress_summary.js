@@ -38,12 +38,12 @@ function chips() {
   return el("div.chips",
     el("span.note", "Of a single point each:"),
     single.map((c) =>
-      withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => [
-        el("b", `${c.name}: ${WORDS[c.outcome]}`),
-        el("div", c.extreme),
-        el("div", `must: ${c.must}`),
-        c.why && el("div", c.why),
-      ]),
+      withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => noteOf(
+        `${c.name}: ${WORDS[c.outcome]}`,
+        c.extreme,
+        `must: ${c.must}`,
+        c.why && c.why,
+      )),
     ),
   );
 }

@@ -29,13 +29,13 @@ function describeGroup(choice, measure, line, point) {
   const { label, texts } = SWEEP_MEASURES[measure];
   const seeds = point.group.cells.length;
   const seconds = intervalOf(point.group, "cpu_seconds").value;
-  return [
-    el("b", choice.lines ? line.name : point.name),
-    choice.lines && choice.along && el("div", point.name),
-    el("div", `${label} ${joined(texts(intervalOf(point.group, measure)))}`),
-    el("div", `processor time ${fmtSeconds(seconds)}`),
-    el("div", seeds > 1 ? `${seeds} seeds` : "one seed"),
-  ];
+  return noteOf(
+    choice.lines ? line.name : point.name,
+    choice.lines && choice.along && point.name,
+    `${label} ${joined(texts(intervalOf(point.group, measure)))}`,
+    `processor time ${fmtSeconds(seconds)}`,
+    seeds > 1 ? `${seeds} seeds` : "one seed",
+  );
 }
 
 function alongAxis(axis) {
