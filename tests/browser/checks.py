@@ -38,7 +38,7 @@ def require(condition, *what):
 
 
 def plot(page, name):
-    return page.find(f'[data-plot="{name}"] svg')
+    return page.find(f'[data-plot="{name}"] > .curves')
 
 
 def markers(page, name):

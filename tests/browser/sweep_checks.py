@@ -120,7 +120,7 @@ def any_two_axes_can_be_chosen(page):
 def axes_without_positions_get_rows(page):
     choose(page, "along", "scene")
     show(page, "samples_per_second")
-    require(page.find("#plots canvas") is None, "a canvas for scenes")
+    require(page.find("#plots .curves") is None, "curves of scenes")
     rows = page.js("return [...document.querySelectorAll('.rate-row')].slice(1).map((r) =>"
                    "r.querySelector('path:last-of-type') && [r.textContent,"
                    "r.querySelector('.whisker path').getBoundingClientRect().x])")

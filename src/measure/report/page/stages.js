@@ -46,12 +46,13 @@ function stageBar(strategy, names, length = 1) {
       const index = rank.get(stage.name);
       const text = `${stage.name} ${fmtPercent(stage.share)}`;
       return withTip(
-        el("div",
+        el("div.bar-part",
           {
-            class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part",
-            role: "listitem", tabindex: share >= SMALL_STAGE ? 0 : null,
-            "aria-label": text,
-            style: { width: `${share * 100}%`, "background-color": stageColor(index) },
+            role: "listitem", tabindex: share >= SMALL_STAGE ? 0 : null, "aria-label": text,
+            style: {
+              width: `${share * 100}%`, "background-color": stageColor(index),
+              color: index < COLOR_COUNT ? `var(--on-s${index})` : "inherit",
+            },
           },
           share * length > 0.06 &&
             el("span",
