@@ -50,7 +50,6 @@ def nothing_is_wider_than_the_window(page):
             require(full <= width, "at", width, "state", number, "is", full, "wide:", wide)
             if width > 360:  # the narrowest says most
                 break
-    page.resize(1280, 900)
 
 
 @check
@@ -87,8 +86,6 @@ def screenshots(page):
         page.prefer(scheme)
         for number in states(page):
             page.screenshot(f"{width}-{scheme}-{number}", "body")
-    page.resize(1280, 900)
-    page.prefer("light")
 
 
 @check

@@ -2,6 +2,8 @@
 
 from checks import check, data, pick, plot, require
 
+WIDTHS = ("const b = document.querySelector('#ranking .scroll');"
+          "return [b.scrollWidth, b.clientWidth]")
 CROWD = 4  # index of the scene of many strategies
 
 
@@ -11,13 +13,7 @@ def scene(page, index):
 
 def open_crowd(page):
     page.open()
-    page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", CROWD)
-    page.settle()
-
-
-def box(page, selector):
-    return page.js("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
-                   "return [b.left, b.top, b.right, b.bottom]", selector)
+    page.click("#scenes a", CROWD)
 
 
 @check
@@ -37,8 +33,7 @@ def the_first_screen_answers_with_a_picture(page):
         require(abs(float(numbers[0].rstrip("×")) / value - 1) < 0.01, numbers, value)
         ink = page.ink(plot(page, "hero"))
         require(ink["coloured"] > 800, "no curves:", ink)
-        require(box(page, '[data-plot="hero"]')[3] < height, "below the first screen")
-    page.resize(1280, 900)
+        require(page.box('[data-plot="hero"]')[3] < height, "below the first screen")
     page.open()
 
 
@@ -61,8 +56,7 @@ def the_ranking_fits(page):
         page.resize(width, 1000)
         open_crowd(page)
         page.show("#ranking")
-        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
-                               "return [b.scrollWidth, b.clientWidth]")
+        inner, outer = page.js(WIDTHS)
         require(inner <= outer, "main columns clipped at", width, inner, outer)
         tall = page.js("return Math.max(...[...document.querySelectorAll("
                        "'#ranking tbody tr:not(.not-run)')].map((r) => r.offsetHeight))")
@@ -74,10 +68,8 @@ def the_ranking_fits(page):
                 "the page scrolls sideways at", width)
         if width < 1900:
             continue
-        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
-                               "return [b.scrollWidth, b.clientWidth]")
+        inner, outer = page.js(WIDTHS)
         require(inner <= outer, "all columns clipped at", width, inner, outer)
-    page.resize(1280, 900)
     page.open()
 
 

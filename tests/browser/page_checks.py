@@ -5,12 +5,7 @@ from checks import NAMES, STATES, check, require
 NAMES += ["</script><b>\"bold\""]
 
 
-def show_scene(page, index):
-    page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", index)
-    page.settle()
-
-
-STATES += [lambda page, index=index: show_scene(page, index) for index in range(5)]
+STATES += [lambda page, index=index: page.click("#scenes a", index) for index in range(5)]
 
 
 @check
@@ -18,7 +13,7 @@ def scenes_switch(page):
     names = [tab.text for tab in page.all("#scenes a")]
     require(len(names) == 5, "tabs:", names)
     for index, name in enumerate(names):
-        show_scene(page, index)
+        page.click("#scenes a", index)
         require(page.find("#content").get_attribute("data-scene") == name, "not", name)
         require(page.find("h1").text == name, "wrong title for", name)
         page.driver.refresh()
@@ -31,7 +26,7 @@ def scenes_switch(page):
 def machines_are_named(page):
     text = page.find("#summary").text
     require("<b>Synthetic</b> 1000, 4 cores, 8.0 GiB, load 1.50; unknown" in text, text)
-    show_scene(page, 1)
+    page.click("#scenes a", 1)
     require("Synthetic 2000, 2 cores" in page.find("#summary").text, "not the writer's")
     page.open()
 

@@ -11,6 +11,8 @@ import checks
 def run(page, function):
     """Whether the check has failed."""
     try:
+        page.resize(1280, 900)
+        page.prefer("light")
         function(page)
     except Exception as error:  # one failed check must not hide the others
         print("FAILED", function.__name__)
@@ -30,7 +32,6 @@ def main(driver, path, folder, modules, chosen=()):
               and (not chosen or function.__name__ in chosen)]
     try:
         page = browser.Page(driver, path, folder)
-        page.prefer("light")
         page.open()
         failed = sum(run(page, function) for function in wanted)
         for message in page.console() if failed else []:

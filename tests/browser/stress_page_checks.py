@@ -52,7 +52,6 @@ def the_picture_is_on_the_first_screen(page):
         last = page.js("return Math.max(...[...document.querySelectorAll('.tile')]"
                        ".map((t) => t.getBoundingClientRect().bottom))")
         require(last < height, "tiles end at", last, "of", height)
-    page.resize(1280, 900)
 
 
 @check
