@@ -6,7 +6,7 @@ function imageChoices(view) {
   const add = (group, label, name) => {
     if (name) choices.push({ group, label, name, there: hasImage(name) });
   };
-  add("", "Reference", view.scene.reference && view.scene.reference.image);
+  add("", "Reference", view.scene.reference?.image);
   for (const s of view.ranked) {
     const images = s.images || {};
     add(s.name, `${s.name}: one repetition`, images.one);

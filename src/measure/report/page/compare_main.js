@@ -8,21 +8,13 @@ function programMap(key, a, b) {
   return comparison ? findImage(comparison.maps[key]) : null;
 }
 
-function mapKind(key, label, title, options = {}) {
-  return {
-    key, label, title,
-    signed: false,
-    percent: false,
-    ...options,
-    values: (a, b) => {
-      const map = programMap(key, a, b);
-      return map
-        ? { width: map.width, height: map.height, at: (i) => channelAt(map, i, 0) }
-        : options.otherwise
-          ? options.otherwise(a, b)
-          : null;
-    },
+function mapKind(key, label, title, { otherwise = () => null, ...more } = {}) {
+  const values = (a, b) => {
+    const map = programMap(key, a, b);
+    if (!map) return otherwise(a, b);
+    return { width: map.width, height: map.height, at: (i) => channelAt(map, i, 0) };
   };
+  return { key, label, title, signed: false, percent: false, ...more, values };
 }
 
 function differenceKinds() {

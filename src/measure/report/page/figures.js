@@ -67,7 +67,7 @@ function insetColumn(view, image, shown, inset) {
   const { scene } = view;
   const sources = [["this", image]];
   if (shown !== image) sources.push(["baseline", shown]);
-  sources.push(["reference", findImage(scene.reference && scene.reference.image)]);
+  sources.push(["reference", findImage(scene.reference?.image)]);
   return el("div.insets",
     sources
       .filter(([, source]) => sizesEqual(source, image))
@@ -91,7 +91,7 @@ function figureCaption(view, strategy, level, meaning, compare) {
   ]
     .filter(Boolean)
     .join("; ");
-  const reference = view.scene.reference && view.scene.reference.image;
+  const reference = view.scene.reference?.image;
   return [
     meaning,
     ` ${strategy.name}: ${numbers || "no numbers"}. `,
@@ -170,7 +170,7 @@ function sampledFigures(view, compare) {
   const hosts = new Map(figures.map(({ number }) => [number, el("div")]));
   const candidates = [view.baseline, ...figures.map(({ strategy }) => strategy)];
   const baseline = candidates.find((s) => s && picturedLevels(s).length > 0);
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const reference = findImage(view.scene.reference?.image);
   const draw = (base, equal) => {
     const chosen = figures.map(({ number, strategy }) => {
       const level = base && levelBeside(strategy, base, equal);

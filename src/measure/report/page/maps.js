@@ -23,8 +23,8 @@ function sameSize(image, reference) {
 
 // One kind of map for all strategies: {title, legend, cell(strategy)}.
 function imageMap(view, { title, key, table, signed, valueAt }) {
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
-  const imageOf = (s) => findImage(s.images && s.images[key]);
+  const reference = findImage(view.scene.reference?.image);
+  const imageOf = (s) => findImage(s.images?.[key]);
   const at = (image, i) => valueAt(image, sameSize(image, reference), i);
   const top = scaleTop(view.ran.map(imageOf).filter(Boolean), at);
   const toShare = signed ? (x) => 0.5 + (0.5 * x) / top : (x) => x / top;
@@ -51,7 +51,7 @@ function noMapText(strategy) {
 const TILE_TOP = 5; // |z| at the ends of the colour scale
 
 function tileMap(view) {
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const reference = findImage(view.scene.reference?.image);
   const cell = (s) => {
     if (!s.tiles) return missingPicture("Needs two repetitions.");
     return tilePicture(view, s, reference);
