@@ -92,9 +92,12 @@ function measureRows(view, host, choice, lines, { measure, include }) {
       axis,
       ...rows.filter(({ line }) => view.shown.value.has(line.index)).map(row),
     );
-  view.shown.listen(draw);
+  const stop = view.shown.listen(draw);
   draw();
-  return () => host.replaceChildren();
+  return () => {
+    stop();
+    host.replaceChildren();
+  };
 }
 
 // One figure for each panel; all show what is chosen. Returns the figures and show().
