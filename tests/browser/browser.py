@@ -142,9 +142,14 @@ class Page:
         self.js("scrollTo(0, 0)")
         self.settle()
 
-    def click(self, selector):
-        self.js("document.querySelector(arguments[0]).click()", selector)
+    def click(self, selector, index=0):
+        self.js("document.querySelectorAll(arguments[0])[arguments[1]].click()", selector, index)
         self.settle()
+
+    def box(self, selector):
+        """Left, top, right, bottom in the window."""
+        return self.js("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
+                       "return [b.left, b.top, b.right, b.bottom]", selector)
 
     def ink(self, canvas):
         return self.js(PLOT_INK, canvas)
@@ -158,11 +163,10 @@ class Page:
     def screenshot(self, name, selector=None):
         clip = {}
         if selector:
-            box = self.js("const b = document.querySelector(arguments[0])"
-                          ".getBoundingClientRect(); return [b.x + scrollX,"
-                          "b.y + scrollY, b.width, b.height]", selector)
-            clip = {"clip": {"x": max(0, box[0] - 12), "y": max(0, box[1] - 8),
-                             "width": box[2] + 24, "height": box[3] + 16, "scale": 1}}
+            x, y = self.js("return [scrollX, scrollY]")
+            left, top, right, bottom = self.box(selector)
+            clip = {"clip": {"x": max(0, left + x - 12), "y": max(0, top + y - 8), "scale": 1,
+                             "width": right - left + 24, "height": bottom - top + 16}}
         image = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
             "format": "png", "captureBeyondViewport": bool(selector), **clip})
         (self.folder / f"{name}.png").write_bytes(base64.b64decode(image["data"]))

@@ -1,8 +1,25 @@
 """What all checks of the report share."""
 
+import json
 import os
 
 CHECKS = []  # in the order in which they run
+STATES = []  # functions of the page: the ways in which common_checks look at it
+NAMES = []  # texts that could be taken for markup, which some state shows
+
+
+def data(page):
+    """The numbers that the page holds."""
+    return json.loads(page.js("return document.getElementById('study').textContent"))
+
+
+def pick(page, selector, value):
+    """Chooses in a menu or types into a field."""
+    page.js("""const field = document.querySelector(arguments[0]);
+      field.value = arguments[1];
+      field.dispatchEvent(new Event('input'));
+      field.dispatchEvent(new Event('change'));""", selector, value)
+    page.settle()
 
 
 def check(function):
@@ -21,7 +38,7 @@ def require(condition, *what):
 
 
 def plot(page, name):
-    return page.find(f'[data-plot="{name}"] svg')
+    return page.find(f'[data-plot="{name}"] > .curves')
 
 
 def markers(page, name):

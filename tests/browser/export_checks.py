@@ -60,7 +60,7 @@ def names_do_not_break_within_words(page):
 @check
 def the_winner_and_its_rivals_are_told_apart(page):
     for index in (0, 4):
-        page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", index)
+        page.click("#scenes a", index)
         page.settle(10)
         colors = page.js("return [...document.querySelectorAll('.hero-legend line')]"
                          ".map((l) => getComputedStyle(l).stroke)")

@@ -1,26 +1,19 @@
 """Checks of the first screen, and of a study of many strategies."""
 
-import json
+from checks import check, data, pick, plot, require
 
-from checks import check, plot, require
-
+WIDTHS = ("const b = document.querySelector('#ranking .scroll');"
+          "return [b.scrollWidth, b.clientWidth]")
 CROWD = 4  # index of the scene of many strategies
 
 
 def scene(page, index):
-    study = json.loads(page.js("return document.getElementById('study').textContent"))
-    return study["scenes"][index]
+    return data(page)["scenes"][index]
 
 
 def open_crowd(page):
     page.open()
-    page.js("document.querySelectorAll('#scenes a')[arguments[0]].click()", CROWD)
-    page.settle()
-
-
-def box(page, selector):
-    return page.js("const b = document.querySelector(arguments[0]).getBoundingClientRect();"
-                   "return [b.left, b.top, b.right, b.bottom]", selector)
+    page.click("#scenes a", CROWD)
 
 
 @check
@@ -40,8 +33,7 @@ def the_first_screen_answers_with_a_picture(page):
         require(abs(float(numbers[0].rstrip("×")) / value - 1) < 0.01, numbers, value)
         ink = page.ink(plot(page, "hero"))
         require(ink["coloured"] > 800, "no curves:", ink)
-        require(box(page, '[data-plot="hero"]')[3] < height, "below the first screen")
-    page.resize(1280, 900)
+        require(page.box('[data-plot="hero"]')[3] < height, "below the first screen")
     page.open()
 
 
@@ -64,8 +56,7 @@ def the_ranking_fits(page):
         page.resize(width, 1000)
         open_crowd(page)
         page.show("#ranking")
-        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
-                               "return [b.scrollWidth, b.clientWidth]")
+        inner, outer = page.js(WIDTHS)
         require(inner <= outer, "main columns clipped at", width, inner, outer)
         tall = page.js("return Math.max(...[...document.querySelectorAll("
                        "'#ranking tbody tr:not(.not-run)')].map((r) => r.offsetHeight))")
@@ -77,10 +68,8 @@ def the_ranking_fits(page):
                 "the page scrolls sideways at", width)
         if width < 1900:
             continue
-        inner, outer = page.js("const b = document.querySelector('#ranking .scroll');"
-                               "return [b.scrollWidth, b.clientWidth]")
+        inner, outer = page.js(WIDTHS)
         require(inner <= outer, "all columns clipped at", width, inner, outer)
-    page.resize(1280, 900)
     page.open()
 
 
@@ -111,15 +100,11 @@ def many_curves_fade_and_filter(page):
     leading = pressed()
     require(4 <= len(leading) <= 8, "curves in colour:", leading)
     first = page.ink(plot(page, "spp"))
-    page.js("""const f = document.querySelector('[data-control="filter"]');
-      f.value = 'pmj02'; f.dispatchEvent(new Event('input'));""")
-    page.settle()
+    pick(page, '[data-control="filter"]', "pmj02")
     found = [scene(page, CROWD)["strategies"][int(i)]["name"] for i in pressed()]
     require(len(found) == 4 and all("pmj02" in name for name in found), found)
     require(page.ink(plot(page, "spp"))["hash"] != first["hash"], "the plot is as before")
-    page.js("""const f = document.querySelector('[data-control="filter"]');
-      f.value = ''; f.dispatchEvent(new Event('input'));""")
-    page.settle()
+    pick(page, '[data-control="filter"]', "")
     require(pressed() == leading, "not as before", pressed())
     page.click('[data-show="all"]')
     every = page.ink(plot(page, "spp"))

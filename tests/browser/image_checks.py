@@ -2,7 +2,7 @@
 
 import re
 
-from checks import check, require
+from checks import check, pick, require
 
 
 @check
@@ -17,12 +17,8 @@ def other_canvases_are_drawn(page):
 
 
 def choose_images(page, a, b):
-    page.js("""for (const [slot, value] of [['a', arguments[0]], ['b', arguments[1]]]) {
-      const select = document.querySelector(`[data-slot="${slot}"]`);
-      select.value = value;
-      select.dispatchEvent(new Event('change'));
-    }""", a, b)
-    page.settle()
+    pick(page, '[data-slot="a"]', a)
+    pick(page, '[data-slot="b"]', b)
 
 
 @check
@@ -86,14 +82,10 @@ def zoom_is_in_sync(page):
 def exposure_and_tone_change_pixels(page):
     page.show("#compare")
     seen = [page.ink(page.find("#compare canvas.pane"))["hash"]]
-    page.js("""const e = document.querySelector('[data-control="exposure"]');
-      e.value = 1.5; e.dispatchEvent(new Event('input'));""")
-    page.settle()
+    pick(page, '[data-control="exposure"]', 1.5)
     seen.append(page.ink(page.find("#compare canvas.pane"))["hash"])
     for tone in ("reinhard", "filmic", "false"):
-        page.js("""const t = document.querySelector('[data-control="tone"]');
-          t.value = arguments[0]; t.dispatchEvent(new Event('change'));""", tone)
-        page.settle()
+        pick(page, '[data-control="tone"]', tone)
         seen.append(page.ink(page.find("#compare canvas.pane"))["hash"])
     require(len(set(seen)) == 5, "some looks are equal:", seen)
     page.screenshot("comparator-false-colour", "#compare")

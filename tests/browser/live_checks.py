@@ -3,7 +3,7 @@
 import time
 
 import browser
-from checks import check, require
+from checks import check, pick, require
 
 
 def until(page, script, *what, seconds=60):
@@ -38,12 +38,6 @@ def choose(page, selector, value):
     page.settle()
 
 
-def slide(page, selector, value):
-    page.js("const i = document.querySelector(arguments[0]); i.value = arguments[1];"
-            "i.dispatchEvent(new Event('input'))", selector, value)
-    page.settle()
-
-
 def spp(page, slot=0):
     return page.js("return page.state?.slots[arguments[0]].spp || 0", slot)
 
@@ -74,7 +68,8 @@ def errors_are_told_with_intervals(page):
     until(page, "return page.state.slots[0].looks.length > 2", "no errors")
     text = page.text('#card-0 [data-fact="relmse"]')
     require("[" in text and "]" in text, text)
-    require(page.find("#error-plot .bars").get_attribute("d"), "no whiskers")
+    require(page.js("return document.querySelector('#error-plot .bars').getAttribute('d')"),
+            "no whiskers")
 
 
 @check
@@ -84,7 +79,7 @@ def exposure_and_curves_are_the_pages_own(page):
     time.sleep(0.5)
     seen = {ink(page)["hash"]}
     samples = spp(page)
-    slide(page, "#exposure", 2)
+    pick(page, "#exposure", 2)
     seen.add(ink(page)["hash"])
     for curve in ("filmic", "reinhard", "false"):
         choose(page, "#curve", curve)
@@ -143,7 +138,7 @@ def the_wheel_keys_and_sliders_move_it(page):
     until(page, "return page.state.moved", "keys do not move the camera")
     page.click("#home")
     until(page, "return !page.state.moved", "the button does not go back")
-    slide(page, "#fov", 60)
+    pick(page, "#fov", 60)
     until(page, "return page.state.eye.fov === 60", "the field of view is not 60")
     page.click("#home")
 

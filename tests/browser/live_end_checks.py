@@ -77,7 +77,6 @@ def every_width_holds_the_page(page):
                   .map((e) => e.tagName + '.' + e.className).slice(0, 5)""")
             require(not outside, f"at {width} cut off:", outside)
     page.prefer("light")
-    page.resize(1280, 900)
 
 
 @check
@@ -104,7 +103,6 @@ def as_it_looks(page):
             page.settle(4, 300)
             page.screenshot(f"live-{width}-{scheme}")
     page.prefer("light")
-    page.resize(1280, 900)
 
 
 @check

@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
 """Uses the page of a running `lanelight live`: live_test.py LANELIGHT FOLDER
 
-With real clicks, drags and keys in a headless Chromium; as report_test.py for the rest.
+With real clicks, drags and keys in a headless Chromium; as page_test.py for the rest.
 """
 
 import sys
 
 import browser
-import live_checks  # noqa: F401, these two register their checks
-import live_end_checks  # noqa: F401
 import live_program
 import run_checks
 
 # The log of what goes over the network would have all pictures in it.
 chromium = browser.start(browser.WEBGL_FLAGS, ("browser",))
 with live_program.running(sys.argv[1], "--resolution", "160x120") as program:
-    run_checks.main(program.address, chromium)
+    run_checks.main(chromium, program.address, sys.argv[2], ["live_checks", "live_end_checks"],
+                    sys.argv[3:])

@@ -2,7 +2,7 @@
 
 import re
 
-from checks import check, pictures, plot, require
+from checks import check, pick, plot, require
 
 
 def part(page, number):
@@ -25,8 +25,6 @@ def every_figure_has_picture_number_and_sentences(page):
         require(ink["ink"] > 0.01 * ink["pixels"], number, "is blank", ink)
         if number > 1:
             require(page.find(f"#part-{number} .hero-number .number"), number, "no number")
-    require(not re.search(r"\b(NaN|undefined|null|Infinity)\b|\[object", page.text()),
-            "unknown values are spelled out")
 
 
 @check
@@ -36,8 +34,8 @@ def the_slider_changes_the_figures(page):
 
     page.show("#part-2")
     first = seen()
-    page.js("const s = document.querySelector('[data-control=\"figure-spp\"]');"
-            "s.value = s.value === '0' ? 1 : 0; s.dispatchEvent(new Event('input'));")
+    at = page.find('[data-control="figure-spp"]').get_attribute("value")
+    pick(page, '[data-control="figure-spp"]', 1 if at == "0" else 0)
     page.show("#part-2")
     page.settle(20)
     other = seen()
@@ -49,31 +47,3 @@ def figure_8_has_curves_and_slopes(page):
     page.show("#part-8")
     require(page.ink(plot(page, "convergence"))["coloured"] > 800, "no curves")
     require(len(page.all("#part-8 .orders .whisker")) == 7, "not seven slopes")
-
-
-@check
-def it_scrolls_down_only(page):
-    for width in (390, 1440, 1920):
-        page.resize(width, 900, mobile=width < 500)
-        page.open()
-        page.scroll_through()
-        require(page.js("return document.documentElement.scrollWidth") <= width,
-                "scrolls sideways at", width)
-    page.resize(1280, 900)
-    page.open()
-
-
-@check
-def console_is_silent(page):
-    require(not page.console(), "\n".join(page.console()))
-
-
-@pictures
-def screenshots(page):
-    for width, scheme in ((390, "light"), (1440, "light"), (1920, "dark")):
-        page.resize(width, 900, mobile=width < 500)
-        page.prefer(scheme)
-        page.open()
-        page.scroll_through()
-        page.screenshot(f"{width}-{scheme}", "body")
-    page.prefer("light")

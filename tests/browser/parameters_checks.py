@@ -1,7 +1,7 @@
 """Checks of the page of a sweep over a number of strategies, with ten seeds."""
 
-from checks import check, markers, plot, require
-from sweep_checks import close, data, show
+from checks import check, data, markers, pick, require
+from sweep_checks import choose, close, show
 
 
 def group(page, **wanted):
@@ -43,9 +43,7 @@ def bars_are_the_intervals(page):
 
 @check
 def choices_of_an_axis_are_rows(page):
-    page.js("const s = document.querySelector('[data-menu=along]'); s.value = 'points';"
-            "s.dispatchEvent(new Event('change'))")
-    page.settle()
+    choose(page, "along", "points")
     show(page, "efficiency")
     page.show("#plots")
     text = page.find('[data-plot="panel-0"]').text
@@ -67,8 +65,7 @@ def the_slider_changes_the_pictures(page):
     require(len(last) == 12, "pictures:", [name for name, _ in last])
     require(last[1][0] == "kitchen, roulette=throughput:0.05", last[1][0])
     require(page.find("#images output").text == "16 spp", "the slider says nothing")
-    page.js("const s = document.querySelector('[data-control=amount]'); s.value = 0;"
-            "s.dispatchEvent(new Event('input'))")
+    pick(page, "[data-control=amount]", 0)
     page.scroll_through()
     first = pictures()
     require([name for name, _ in first] == [name for name, _ in last], "other names")
@@ -83,20 +80,3 @@ def one_sentence_says_what_was_found(page):
                  for l in leaders)
     require(f"On {better or 'none'} it is certainly better than default" in text, text)
     require(leaders[0]["best"] in text, text)
-
-
-@check
-def a_phone_scrolls_down_only(page):
-    page.resize(390, 740, mobile=True)
-    page.open()
-    page.scroll_through()
-    width = page.js("return document.documentElement.scrollWidth")
-    require(width <= 390, "width", width)
-    page.resize(1280, 900)
-    page.open()
-
-
-@check
-def nothing_is_missing_or_said_in_vain(page):
-    require(plot(page, "panel-0"), "no plot")
-    require(not page.console(), "\n".join(page.console()))

@@ -1,5 +1,6 @@
-"""Runs the checks that the modules of a test have registered."""
+"""Runs the checks of modules on a page."""
 
+import importlib
 import sys
 import traceback
 
@@ -7,33 +8,35 @@ import browser
 import checks
 
 
-def main(path=None, driver=None):
-    """Of the page that the first argument names, and the checks that follow the second;
-    `path` and `driver`: of another page, by a driver of its own."""
-    folder = sys.argv[2]
-    driver = driver or browser.start()
-    ran = failed = 0
+def run(page, function):
+    """Whether the check has failed."""
     try:
-        page = browser.Page(driver, path or sys.argv[1], folder)
+        page.resize(1280, 900)
         page.prefer("light")
+        function(page)
+    except Exception as error:  # one failed check must not hide the others
+        print("FAILED", function.__name__)
+        print("       ", str(error).strip().replace("\n", "\n        "))
+        if not isinstance(error, AssertionError):
+            traceback.print_exc()
+        return True
+    print("ok    ", function.__name__)
+    return False
+
+
+def main(driver, path, folder, modules, chosen=()):
+    """Of all checks of these modules, or those that are chosen by name. Ends the process."""
+    for module in modules:
+        importlib.import_module(module)
+    wanted = [function for function in checks.CHECKS if function.__module__ in modules
+              and (not chosen or function.__name__ in chosen)]
+    try:
+        page = browser.Page(driver, path, folder)
         page.open()
-        chosen = sys.argv[3:]
-        for function in checks.CHECKS:
-            if chosen and function.__name__ not in chosen:
-                continue
-            ran += 1
-            try:
-                function(page)
-                print("ok    ", function.__name__)
-            except Exception as error:  # one failed check must not hide the others
-                failed += 1
-                print("FAILED", function.__name__)
-                print("       ", str(error).strip().replace("\n", "\n        "))
-                if not isinstance(error, AssertionError):
-                    traceback.print_exc()
+        failed = sum(run(page, function) for function in wanted)
         for message in page.console() if failed else []:
             print("console:", message)
     finally:
         driver.quit()
-    print(f"{ran} checks, {failed} failed; screenshots: {folder}")
-    sys.exit(1 if failed or ran == 0 else 0)
+    print(f"{len(wanted)} checks, {failed} failed; screenshots: {folder}")
+    sys.exit(1 if failed or not wanted else 0)

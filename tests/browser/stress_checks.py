@@ -1,13 +1,8 @@
 """Checks of what the page of stress cases draws, against the numbers that it holds."""
 
-import json
 import math
 
-from checks import check, note_of, require
-
-
-def data(page):
-    return json.loads(page.js("return document.getElementById('study').textContent"))
+from checks import check, data, note_of, require
 
 
 def case(page, name):
@@ -20,13 +15,13 @@ def choose(page, name):
     page.settle(30)
 
 
-def points(page, name, target="AVX3", series=None):
+SERIES = ("points=cmj", "points=sobol", "roulette=none")
+
+
+def points(page, name, target="AVX3", series=None, drawn_only=False):
     return [p for p in case(page, name)["points"] if p["target"] == target and
-            (series is None or p["series"] == series)]
-
-
-def is_drawn(point):
-    return not point["refused"] and not point["not_measured"]
+            (series is None or p["series"] == series) and
+            not (drawn_only and (p["refused"] or p["not_measured"]))]
 
 
 def drawn(page, plot):
@@ -103,9 +98,8 @@ def the_four_plots_draw_the_numbers(page):
         curves = drawn(page, plot)
         require(len(curves) == 3, plot, "has", len(curves), "curves")
         xs, ys = [], []
-        for curve, series in zip(curves, ("points=cmj", "points=sobol", "roulette=none")):
-            numbers = [p for p in points(page, "strategies", series=series)
-                       if is_drawn(p)]
+        for curve, series in zip(curves, SERIES):
+            numbers = points(page, "strategies", series=series, drawn_only=True)
             wanted = 7 if series == "roulette=none" else 8
             require(len(curve) == len(numbers) == wanted, plot, series, len(curve))
             xs += [(math.log10(p["parameter"]), c[0]) for p, c in zip(numbers, curve)]
@@ -116,10 +110,8 @@ def the_four_plots_draw_the_numbers(page):
             require_linear(ys, plot)
     page.click('#map [data-value="rays"]')
     rays = [(math.log10(p["rays"] / p["samples"]), c[1])
-            for curve, series in zip(drawn(page, "cost"),
-                                     ("points=cmj", "points=sobol", "roulette=none"))
-            for p, c in zip([p for p in points(page, "strategies", series=series)
-                             if is_drawn(p)], curve)]
+            for curve, series in zip(drawn(page, "cost"), SERIES)
+            for p, c in zip(points(page, "strategies", series=series, drawn_only=True), curve)]
     require_linear(rays, "rays")
 
 
@@ -168,10 +160,8 @@ def targets_change_everything(page):
     page.click('[data-target="EMU128"]')
     page.settle(30)
     require("on EMU128" in page.find("#map h2").text, page.find("#map h2").text)
-    numbers = points(page, "strategies", target="EMU128", series="points=sobol")
-    ys = [(math.log10(p["seconds"]), c[1])
-          for p, c in zip([p for p in numbers if not p["refused"]],
-                          drawn(page, "cost")[1])]
+    numbers = points(page, "strategies", "EMU128", "points=sobol", drawn_only=True)
+    ys = [(math.log10(p["seconds"]), c[1]) for p, c in zip(numbers, drawn(page, "cost")[1])]
     require_linear(ys, "cost on EMU128")
     require(len(before) == len(drawn(page, "cost")), "other curves")
     page.open()
@@ -182,8 +172,7 @@ def the_heat_map_tells_efficiencies(page):
     rows = page.js("""
       return [...document.querySelectorAll('#strategies tbody tr')].map((r) =>
         [...r.cells].map((c) => c.textContent))""")
-    require([row[0] for row in rows] == ["points=cmj", "points=sobol", "roulette=none"],
-            rows)
+    require(tuple(row[0] for row in rows) == SERIES, rows)
     for row in rows:
         require(row[1] == "refused", row)
         numbers = points(page, "strategies", series=row[0])

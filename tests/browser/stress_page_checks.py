@@ -2,13 +2,15 @@
 
 import csv
 import io
-import json
-import re
 import xml.etree.ElementTree as xml
 
-from checks import check, pictures, require, theme
+from checks import NAMES, STATES, check, data, pick, require
 from saved import saved
-from stress_checks import choose, data
+from stress_checks import choose
+
+NAMES += ["<b>odd</b>"]
+STATES += [lambda page, name=name: choose(page, name)
+           for name in ("strategies", "noisy", "rare", "angle", "wrong-inside", "shapes")]
 
 
 def rows(page):
@@ -17,9 +19,7 @@ def rows(page):
 
 
 def filter_by(page, key, value):
-    page.js("const s = document.querySelector(`[data-filter=\"${arguments[0]}\"]`);"
-            "s.value = arguments[1]; s.dispatchEvent(new Event('change'))", key, value)
-    page.settle()
+    pick(page, f'[data-filter="{key}"]', value)
 
 
 @check
@@ -45,60 +45,6 @@ def the_machine_is_named(page):
 
 
 @check
-def hostile_names_are_text(page):
-    require(not page.all("main b b, main script, .tile b"), "markup from a name")
-    choose(page, "shapes")
-    require("<b>odd</b>" in page.find("#map").text, "the name is not shown")
-    page.open()
-
-
-@check
-def nothing_unknown_is_spelled_out(page):
-    for name in ("strategies", "noisy", "rare", "angle", "wrong-inside"):
-        choose(page, name)
-        text = page.text() + " ".join(page.js(
-            "return [...document.querySelectorAll('[aria-label], [title]')].map((e) =>"
-            "(e.getAttribute('aria-label') || '') + ' ' + (e.title || ''))"))
-        words = r"\b(NaN|undefined|null|Infinity)\b"
-        found = re.search(rf".{{0,40}}{words}.{{0,40}}|\[object", text)
-        require(not found, name, "says", found and found[0])
-        wrong = page.js("return [...document.querySelectorAll('svg *')].filter((e) =>"
-                        "[...e.attributes].some((a) =>"
-                        "/NaN|undefined|null/.test(a.value)))"
-                        ".slice(0, 3).map((e) => e.outerHTML)")
-        require(not wrong, name, "draws", wrong)
-    page.open()
-
-
-@check
-def dark_changes_colours(page):
-    colour = ("return getComputedStyle(document.querySelector('.tile .curve')).stroke +"
-              "getComputedStyle(document.body).backgroundColor")
-    before = page.js(colour)
-    page.click("#theme")
-    require(theme(page) == "dark" and page.js(colour) != before, "the page stayed light")
-    page.click("#theme")
-    page.js("localStorage.clear()")
-    page.open()
-
-
-@check
-def nothing_is_cut_off(page):
-    for width, height in ((1920, 1080), (1280, 800), (360, 740)):
-        page.resize(width, height, mobile=width < 500)
-        page.open()
-        page.scroll_through()
-        wide = page.js("return [...document.querySelectorAll('main *')].filter((e) =>"
-                       "e.getBoundingClientRect().right > innerWidth + 1 &&"
-                       "!e.closest('.scroll') && !e.closest('svg'))"
-                       ".slice(0, 3).map((e) => e.className || e.tagName)")
-        full = page.js("return document.documentElement.scrollWidth")
-        require(full <= width, "at", width, "it is", full, "wide:", wide)
-    page.resize(1280, 900)
-    page.open()
-
-
-@check
 def the_picture_is_on_the_first_screen(page):
     for width, height in ((1920, 1080), (1280, 800)):
         page.resize(width, height)
@@ -106,38 +52,6 @@ def the_picture_is_on_the_first_screen(page):
         last = page.js("return Math.max(...[...document.querySelectorAll('.tile')]"
                        ".map((t) => t.getBoundingClientRect().bottom))")
         require(last < height, "tiles end at", last, "of", height)
-    page.resize(1280, 900)
-
-
-@pictures
-def screenshots(page):
-    for name, width, height, scheme in (("desktop-light", 1920, 1080, "light"),
-                                        ("desktop-dark", 1280, 800, "dark"),
-                                        ("phone-light", 360, 740, "light")):
-        page.resize(width, height, mobile=width < 500)
-        page.prefer(scheme)
-        page.open()
-        page.screenshot(name)
-        for part in ("map", "strategies", "cases"):
-            page.screenshot(f"{name}-{part}", f"#{part}")
-    page.resize(1280, 900)
-    page.prefer("light")
-    page.open()
-
-
-@check
-def nothing_is_fetched(page):
-    for entry in page.driver.get_log("performance"):
-        message = json.loads(entry["message"])["message"]
-        if message["method"] != "Network.requestWillBeSent":
-            continue
-        url = message["params"]["request"]["url"]
-        require(url.startswith(("file:", "data:", "about:")), "fetches", url)
-
-
-@check
-def console_is_silent(page):
-    require(not page.console(), "\n".join(page.console()))
 
 
 @check

@@ -1,19 +1,12 @@
 """Checks of what the page of a sweep draws, against the numbers that it holds."""
 
-import json
 import math
 
-from checks import check, markers, note_of, plot, require
-
-
-def data(page):
-    return json.loads(page.js("return document.getElementById('study').textContent"))
+from checks import check, data, markers, note_of, pick, plot, require
 
 
 def choose(page, name, value):
-    page.js("const s = document.querySelector(`[data-menu=\"${arguments[0]}\"]`);"
-            "s.value = arguments[1]; s.dispatchEvent(new Event('change'))", name, value)
-    page.settle()
+    pick(page, f'[data-menu="{name}"]', value)
 
 
 def mean(cells, name):
@@ -127,7 +120,7 @@ def any_two_axes_can_be_chosen(page):
 def axes_without_positions_get_rows(page):
     choose(page, "along", "scene")
     show(page, "samples_per_second")
-    require(page.find("#plots canvas") is None, "a canvas for scenes")
+    require(page.find("#plots .curves") is None, "curves of scenes")
     rows = page.js("return [...document.querySelectorAll('.rate-row')].slice(1).map((r) =>"
                    "r.querySelector('path:last-of-type') && [r.textContent,"
                    "r.querySelector('.whisker path').getBoundingClientRect().x])")

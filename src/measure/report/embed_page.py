@@ -17,7 +17,7 @@ COMMON = "dom page inputs format"
 REPORT = f"{COMMON} data view strategies table"
 PLOTS = "whisker scale plot_draw plot plot_save plot_legend"
 CURVES = f"{REPORT} {PLOTS} guides curves"
-IMAGES = "tone picture pan pane difference comparator controls readout"
+IMAGES = "tone picture place pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts.
 PAGES = {
@@ -31,7 +31,7 @@ PAGES = {
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
-                    f"""{REPORT} {IMAGES} maps histogram compare_tiles compare_numbers
+                    f"""{REPORT} {PLOTS} {IMAGES} maps histogram compare_tiles compare_numbers
                     compare_main"""),
     "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
@@ -45,7 +45,7 @@ PAGES = {
                    stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
-                 f"""{COMMON} strategies whisker scale plot_draw tone live_socket live_camera
+                 f"""{COMMON} strategies whisker scale plot_draw tone place live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save
                  live_main"""),

@@ -69,7 +69,7 @@ function benchSections(lines) {
     section("groups", "Where the time of a sample goes",
       el("p.lead", "All threads together, of the last repeat: one " +
         "measurement, without an interval."),
-      groupBars(lines)),
+      groupBars(view)),
     section("rows", "All rows", benchTable()),
   ];
 }

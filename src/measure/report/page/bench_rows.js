@@ -14,8 +14,7 @@ function benchLines() {
     lines.get(name).push(row);
   }
   return [...lines].map(([name, rows], index) => ({
-    index,
-    name,
+    index, name,
     status: "ok",
     style: strategyStyle(index),
     rows: [...rows].sort((a, b) => a.threads - b.threads),
@@ -29,18 +28,14 @@ function threadsText(n) {
 function rateRows(lines) {
   const rates = study.rows.map((row) => row.samples_per_second);
   const scale = whiskerScale(rates, true);
-  const row = (line, { threads, samples_per_second: rate }) =>
-    el("div.rate-row",
-      el("span.rate-name", swatch(line.style), `${line.name}, ${threadsText(threads)}`),
-      whisker(rate, scale, { style: line.style, width: 180 }),
-      el("span.rate-value", twoLines(rateTexts(rate))),
-    );
+  const name = (line, { threads }) => `${line.name}, ${threadsText(threads)}`;
   return el("div.plot-figure",
-    el("div.rate-row",
-      el("span", "Samples per second"),
-      whiskerAxis(scale, { width: 180, format: rateTick, most: 4 }),
+    rateAxis(scale, "Samples per second", rateTick),
+    lines.flatMap((line) =>
+      line.rows.map((row) =>
+        rateRow(line.style, name(line, row), row.samples_per_second, rateTexts, scale),
+      ),
     ),
-    lines.flatMap((line) => line.rows.map((r) => row(line, r))),
   );
 }
 
@@ -66,11 +61,11 @@ function efficiencyFigure(view, lines) {
         format: errorTick,
       },
       include: [0.5, 1],
-      describe: (line, point) => [
-        el("b", line.name),
-        el("div", threadsText(point.x)),
-        el("div", `efficiency ${joined(intervalTexts(point.interval))}`),
-      ],
+      describe: (line, point) => noteOf(
+        line.name,
+        threadsText(point.x),
+        `efficiency ${joined(intervalTexts(point.interval))}`,
+      ),
     }),
   );
   return figure;
@@ -80,14 +75,12 @@ const REST = "all else";
 
 // One bar for each line, of its fewest threads: where the time of a sample goes is the same
 // on several, but for the machine.
-function groupBars(lines) {
-  const bars = lines.map((line) => {
+function groupBars(view) {
+  const bars = view.ran.map((line) => {
     const stages = line.rows[0].groups.filter((group) => group.ns_per_sample > 0);
     const total = stages.reduce((sum, group) => sum + group.ns_per_sample, 0);
     return {
-      line,
-      name: line.name,
-      total,
+      line, name: line.name, total, text: `${fmt(total)} ns per sample`,
       stages: stages.map(({ name, ns_per_sample: ns, lanes }) => ({
         name: name === "other" ? REST : name,
         share: ns / total,
@@ -97,14 +90,5 @@ function groupBars(lines) {
     };
   });
   const found = stageNames({ ranked: bars });
-  const names = [...found.filter((name) => name !== REST), REST];
-  const most = Math.max(...bars.map((bar) => bar.total));
-  return [
-    stageLegend(names),
-    bars.map((bar) => {
-      const whole = stageBar(bar, names, bar.total / most);
-      whole.style.width = `${(bar.total / most) * 100}%`;
-      return stageRow(bar.line, `${fmt(bar.total)} ns per sample`, whole);
-    }),
-  ];
+  return costRows(view, bars, [...found.filter((name) => name !== REST), REST]);
 }

@@ -2,17 +2,7 @@
 // What renders say of their own error against what it is.
 
 function calibrationLines(view, ratio) {
-  return view.ran
-    .map((s) => ({
-      index: s.index,
-      name: s.name,
-      style: s.style,
-      points: (s.levels || [])
-        .map((level) => calibrationPoint(level, ratio))
-        .filter(Boolean)
-        .sort((a, b) => a.x - b.x),
-    }))
-    .filter((line) => line.points.length > 0);
+  return levelLines(view, (level) => calibrationPoint(level, ratio));
 }
 
 function calibrationPoint(level, ratio) {
@@ -22,14 +12,9 @@ function calibrationPoint(level, ratio) {
   if (!known(x) || x <= 0 || !known(y) || y <= 0) return null;
   const unit = ratio ? x : 1;
   const scaled = (bound) => (known(bound) ? bound / unit : null);
-  return {
-    x,
-    y: y / unit,
-    low: scaled(estimate.low),
-    high: scaled(estimate.high),
-    level,
-    hollow: Boolean(level.reference_limited),
-  };
+  const { low, high } = estimate;
+  const hollow = Boolean(level.reference_limited);
+  return { x, y: y / unit, low: scaled(low), high: scaled(high), level, hollow };
 }
 
 // Where the estimate is right.
@@ -40,14 +25,14 @@ function truthGuide(frame, ratio) {
 }
 
 function describeCalibration(line, { level }) {
-  return [
-    el("b", line.name),
-    el("div", `${fmtCount(level.spp)} spp`),
-    el("div", `true ${joined(intervalTexts(level.relmse))}`),
-    el("div", `estimated ${joined(intervalTexts(level.self.relmse))}`),
-    el("div", `interval held in ${level.self.inside} of ${level.self.total} renders`),
-    level.self.refused > 0 && el("div", `${level.self.refused} renders stated none`),
-  ];
+  return noteOf(
+    line.name,
+    `${fmtCount(level.spp)} spp`,
+    `true ${joined(intervalTexts(level.relmse))}`,
+    `estimated ${joined(intervalTexts(level.self.relmse))}`,
+    `interval held in ${level.self.inside} of ${level.self.total} renders`,
+    level.self.refused > 0 && `${level.self.refused} renders stated none`,
+  );
 }
 
 // Their samples could not tell how large it is.

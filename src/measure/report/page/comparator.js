@@ -6,7 +6,7 @@ function imageChoices(view) {
   const add = (group, label, name) => {
     if (name) choices.push({ group, label, name, there: hasImage(name) });
   };
-  add("", "Reference", view.scene.reference && view.scene.reference.image);
+  add("", "Reference", view.scene.reference?.image);
   for (const s of view.ranked) {
     const images = s.images || {};
     add(s.name, `${s.name}: one repetition`, images.one);
@@ -23,8 +23,7 @@ function makeComparison(view, choices, kinds) {
     there.find((choice) => choice !== reference && choice.group !== "") || reference;
   const sized = findImage(first.name);
   return {
-    view,
-    choices,
+    view, choices,
     names: { a: first.name, b: reference.name },
     mode: "side",
     kinds, // of differences
@@ -90,8 +89,7 @@ function comparatorSection(view, choices, kinds) {
   };
   comparison.box = el("div.comparator",
     comparatorControls(comparison, rebuild),
-    stage,
-    readout,
+    stage, readout,
   );
   hover(null);
   rebuild();

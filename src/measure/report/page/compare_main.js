@@ -8,23 +8,13 @@ function programMap(key, a, b) {
   return comparison ? findImage(comparison.maps[key]) : null;
 }
 
-function mapKind(key, label, title, options = {}) {
-  return {
-    key,
-    label,
-    title,
-    signed: false,
-    percent: false,
-    ...options,
-    values: (a, b) => {
-      const map = programMap(key, a, b);
-      return map
-        ? { width: map.width, height: map.height, at: (i) => channelAt(map, i, 0) }
-        : options.otherwise
-          ? options.otherwise(a, b)
-          : null;
-    },
+function mapKind(key, label, title, { otherwise = () => null, ...more } = {}) {
+  const values = (a, b) => {
+    const map = programMap(key, a, b);
+    if (!map) return otherwise(a, b);
+    return { width: map.width, height: map.height, at: (i) => channelAt(map, i, 0) };
   };
+  return { key, label, title, signed: false, percent: false, ...more, values };
 }
 
 function differenceKinds() {
@@ -85,32 +75,22 @@ function verdictSection() {
 }
 
 function histogramSection() {
-  const all = study.comparisons.map((c, i) => ({
-    name: c.test,
-    color: `var(${strategyStyle(i).variable})`,
-    image: findImage(c.image),
-    map: findImage(c.maps.difference),
+  const { comparisons, reference } = study;
+  const lines = comparisons.map((c, index) => ({
+    index, name: c.test, style: strategyStyle(index), status: "ok",
+    image: findImage(c.image), map: findImage(c.maps.difference),
   }));
-  const reference = {
-    name: `${study.reference.name} (reference)`,
-    color: "var(--text)",
-    image: findImage(study.reference.image),
+  const own = {
+    index: lines.length, name: `${reference.name} (reference)`, status: "ok",
+    style: { variable: "--text", dash: [], marker: "plus" },
+    image: findImage(reference.image),
   };
-  const key = ({ name, color }) =>
-    el("span", el("i.swatch-line", { style: { background: color } }), name);
-  const figure = (drawing, caption) =>
-    el("figure.paper", drawing, el("figcaption", caption));
+  const view = linesView([...lines, own]);
   return section("histograms", "Histograms",
-    el("div.histogram-key", [reference, ...all].map(key)),
-    el("div.histograms",
-      figure(
-        luminanceHistogram([reference, ...all]),
-        "Luminance of the pixels; black ones are in the first bin.",
-      ),
-      figure(
-        differenceHistogram(all.map((one) => ({ ...one, image: one.map }))),
-        "Signed relative difference of the pixels; beyond the ends in the last bins.",
-      ),
+    strategyLegend(view, "Images shown"),
+    el("div.plots.many",
+      luminanceHistogram(view, [own, ...lines]),
+      differenceHistogram(view, lines.map((line) => ({ ...line, image: line.map }))),
     ),
   );
 }

@@ -15,11 +15,6 @@ function cropAround(tile, image) {
   return { x, y, width, height };
 }
 
-function cropPicture(view, label, image, crop, makePixels) {
-  const { width, height } = image;
-  return picture(view, { label, width, height, crop, makePixels, redrawOn: view.tone });
-}
-
 function worstTile(view, comparison, tile, show) {
   const image = findImage(comparison.image),
     reference = findImage(study.reference.image),
@@ -39,12 +34,11 @@ function worstTile(view, comparison, tile, show) {
       DIVERGING_TABLE,
       (i) => 0.5 + (0.5 * channelAt(map, i, 0) * 2 ** view.tone.value.exposure) / top,
     );
-  const toned = (one) => () => tonedPixels(one, view.tone.value);
   return el("figure.worst-tile",
     el("div.worst-crops",
-      cropPicture(view, `${comparison.test} at ${at}`, image, crop, toned(image)),
-      cropPicture(view, `Reference at ${at}`, reference, crop, toned(reference)),
-      cropPicture(view, `Difference at ${at}`, map, crop, difference),
+      tonedPicture(view, image, `${comparison.test} at ${at}`, { crop }),
+      tonedPicture(view, reference, `Reference at ${at}`, { crop }),
+      picture(view, `Difference at ${at}`, map, difference, { crop, redrawOn: view.tone }),
     ),
     el("figcaption",
       el("b", fmtPercent(tile.share)),

@@ -104,7 +104,7 @@ function flipButton(comparison) {
 
 function zoomButtons(comparison) {
   const move = (change) => {
-    const pane = comparison.panes[0].canvas;
+    const pane = boxOf(comparison.panes[0].canvas);
     comparison.place = clampPlace(pane, comparison.size, {
       ...comparison.place,
       ...change(pane, comparison.place),
@@ -129,7 +129,7 @@ function zoomButtons(comparison) {
 }
 
 function showZoom(comparison) {
-  const pane = comparison.panes[0].canvas;
+  const pane = boxOf(comparison.panes[0].canvas);
   const percent = 100 * paneScale(pane, comparison.size, comparison.place);
   comparison.zoomText.textContent = `${Math.round(percent)} %`;
 }

@@ -7,18 +7,18 @@ const MEASURES = {
   relmse_trimmed: { label: "Relative MSE, trimmed", power: 2 },
 };
 
-function curveLines(view, measure, xOf) {
+// A line for each strategy, of the levels for which pointOf(level) knows a point.
+function levelLines(view, pointOf) {
   return view.ran
-    .map((s) => ({
-      index: s.index,
-      name: s.name,
-      style: s.style,
-      points: (s.levels || [])
-        .map((level) => curvePoint(level, measure, xOf))
-        .filter(Boolean)
-        .sort((a, b) => a.x - b.x),
+    .map(({ index, name, style, levels }) => ({
+      index, name, style,
+      points: (levels || []).map(pointOf).filter(Boolean).sort((a, b) => a.x - b.x),
     }))
     .filter((line) => line.points.length > 0);
+}
+
+function curveLines(view, measure, xOf) {
+  return levelLines(view, (level) => curvePoint(level, measure, xOf));
 }
 
 function curvePoint(level, measure, xOf) {
@@ -30,14 +30,12 @@ function curvePoint(level, measure, xOf) {
 }
 
 function describePoint(measure, line, { level }) {
-  return [
-    el("b", line.name),
-    el("div",
-      `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
-    ),
-    el("div", `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`),
-    level.reference_limited && el("div", "limited by the reference's own error"),
-  ];
+  return noteOf(
+    line.name,
+    `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
+    `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`,
+    level.reference_limited && "limited by the reference's own error",
+  );
 }
 
 function curvePlot(view, host, measure, xAxis, xOf, more = {}) {

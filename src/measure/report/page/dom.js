@@ -87,6 +87,11 @@ const tip = {
   },
 };
 
+// What a floating note says: a title, and lines, of which what is false is left out.
+function noteOf(title, ...lines) {
+  return [el("b", title), lines.filter(Boolean).map((line) => el("div", line))];
+}
+
 // A note for the pointer and for the keyboard's focus.
 function withTip(node, content) {
   node.addEventListener("pointermove", (event) =>

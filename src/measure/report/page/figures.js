@@ -17,26 +17,11 @@ function figureBox(number, title, body, caption) {
   );
 }
 
-function tonedPicture(view, image, label, options = {}) {
-  return picture(view, {
-    label,
-    width: image.width,
-    height: image.height,
-    ...options,
-    makePixels: () => tonedPixels(image, view.tone.value),
-    redrawOn: view.tone,
-  });
-}
-
 function diffuseFigure(view) {
   const models = view.scene.diffuse || [];
   if (models.length === 0) {
-    return figureBox(
-      1,
-      "Diffuse models",
-      missingPicture("Not rendered: the scene has no diffuse surfaces."),
-      null,
-    );
+    const why = "Not rendered: the scene has no diffuse surfaces.";
+    return figureBox(1, "Diffuse models", missingPicture(why), null);
   }
   const cells = models.map((model) => {
     const image = findImage(model.image);
@@ -52,12 +37,8 @@ function diffuseFigure(view) {
       ),
     );
   });
-  return figureBox(
-    1,
-    "Diffuse models",
-    el("div.models", cells),
-    "The same scene with each model of diffuse scattering.",
-  );
+  const caption = "The same scene with each model of diffuse scattering.";
+  return figureBox(1, "Diffuse models", el("div.models", cells), caption);
 }
 
 // The strategy's image at `level` with a magnified part, beside the same of the baseline,
@@ -86,7 +67,7 @@ function insetColumn(view, image, shown, inset) {
   const { scene } = view;
   const sources = [["this", image]];
   if (shown !== image) sources.push(["baseline", shown]);
-  sources.push(["reference", findImage(scene.reference && scene.reference.image)]);
+  sources.push(["reference", findImage(scene.reference?.image)]);
   return el("div.insets",
     sources
       .filter(([, source]) => sizesEqual(source, image))
@@ -100,18 +81,17 @@ function insetColumn(view, image, shown, inset) {
 }
 
 function figureCaption(view, strategy, level, meaning, compare) {
+  const of = (interval, text) => valueOf(interval) !== null && text(interval);
   const numbers = [
     level && `${fmtCount(level.spp)} spp`,
-    level && valueOf(level.cpu_seconds) !== null && fmtSeconds(valueOf(level.cpu_seconds)),
-    level &&
-      valueOf(level.relmse) !== null &&
-      `relative MSE ${joined(intervalTexts(level.relmse))}`,
-    valueOf(strategy.efficiency) !== null &&
-      `efficiency at ${fmtCount(strategy.at_spp)} spp ${joined(intervalTexts(strategy.efficiency))}`,
+    level && of(level.cpu_seconds, ({ value }) => fmtSeconds(value)),
+    level && of(level.relmse, (x) => `relative MSE ${joined(intervalTexts(x))}`),
+    of(strategy.efficiency, (x) =>
+      `efficiency at ${fmtCount(strategy.at_spp)} spp ${joined(intervalTexts(x))}`),
   ]
     .filter(Boolean)
     .join("; ");
-  const reference = view.scene.reference && view.scene.reference.image;
+  const reference = view.scene.reference?.image;
   return [
     meaning,
     ` ${strategy.name}: ${numbers || "no numbers"}. `,
@@ -144,8 +124,7 @@ function convergenceFigure(view, strategies) {
     curvePlot(own, host, "rmse", counts, (level) => level.spp, { ghosts: false, beside }),
   );
   return figureBox(
-    8,
-    title,
+    8, title,
     el("div.convergence", figure, orderRows(measured)),
     "Beside the curves the fitted slope of log RMSE over log samples. The line at −½ is " +
       "where independent samples fall; further left converges faster.",
@@ -191,7 +170,7 @@ function sampledFigures(view, compare) {
   const hosts = new Map(figures.map(({ number }) => [number, el("div")]));
   const candidates = [view.baseline, ...figures.map(({ strategy }) => strategy)];
   const baseline = candidates.find((s) => s && picturedLevels(s).length > 0);
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const reference = findImage(view.scene.reference?.image);
   const draw = (base, equal) => {
     const chosen = figures.map(({ number, strategy }) => {
       const level = base && levelBeside(strategy, base, equal);
@@ -212,7 +191,8 @@ function sampledFigures(view, compare) {
 
 function paperStrategies(view) {
   const of = view.ranked.filter((s) => s.figure || s === view.baseline);
-  return of.some((s) => s.figure) ? of : view.ranked.filter((s) => view.shown.value.has(s.index));
+  if (of.some((s) => s.figure)) return of;
+  return view.ranked.filter((s) => view.shown.value.has(s.index));
 }
 
 function figuresSection(view, compare) {

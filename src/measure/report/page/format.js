@@ -21,9 +21,12 @@ function typographic(text) {
   return text.replace("-", MINUS);
 }
 
+function superscript(whole) {
+  return [...String(Math.abs(whole))].map((d) => SUPERSCRIPTS[d]).join("");
+}
+
 function powerOfTen(exponent) {
-  const digits = [...String(Math.abs(exponent))].map((d) => SUPERSCRIPTS[d]).join("");
-  return `10${exponent < 0 ? "⁻" : ""}${digits}`;
+  return `10${exponent < 0 ? "⁻" : ""}${superscript(exponent)}`;
 }
 
 function exponentOf(x) {

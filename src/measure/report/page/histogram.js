@@ -1,103 +1,71 @@
 "use strict";
 // How often values occur: steps over bins, several sorts in one plot.
 
-// Shares of the values of at(0 ... count - 1) in equal bins of [low, high], with those
-// beyond in the bins at the ends; what is not a number is left out.
-function histogramShares(at, count, { low, high, bins }) {
-  const shares = new Float64Array(bins);
-  let total = 0;
-  for (let i = 0; i < count; ++i) {
-    const x = at(i);
+// Steps of the shares of values in equal bins of {from, to}, with those beyond in the bins at
+// the ends; what is not a number is left out. at(i): value of the pixel i of an image.
+function histogramPoints(image, at, { from, to }, bins) {
+  const counts = new Float64Array(bins);
+  for (let i = 0; i < image.width * image.height; ++i) {
+    const x = at(image, i);
     if (Number.isNaN(x)) continue;
-    const bin = Math.floor(((x - low) / (high - low)) * bins);
-    shares[Math.max(0, Math.min(bins - 1, bin))] += 1;
-    ++total;
+    const bin = Math.floor(((x - from) / (to - from)) * bins);
+    counts[Math.max(0, Math.min(bins - 1, bin))] += 1;
   }
-  return shares.map((x) => x / Math.max(1, total));
+  const total = Math.max(1, counts.reduce((sum, count) => sum + count));
+  const edge = (i) => from + (i / bins) * (to - from);
+  return [...counts].flatMap((count, i) => {
+    const [low, high] = [edge(i), edge(i + 1)];
+    return [low, high].map((x) => ({ x, y: count / total, low, high }));
+  });
 }
 
-const HISTOGRAM_WIDTH = 560,
-  HISTOGRAM_HEIGHT = 170,
-  HISTOGRAM_FOOT = 22;
-
-function histogramLine(shares, top) {
-  const x = (i) => ((i / shares.length) * HISTOGRAM_WIDTH).toFixed(1);
-  const y = (share) => (HISTOGRAM_HEIGHT * (1 - share / top)).toFixed(1);
-  const steps = [...shares].map((share, i) => `V${y(share)}H${x(i + 1)}`);
-  return `M0,${HISTOGRAM_HEIGHT}${steps.join("")}V${HISTOGRAM_HEIGHT}`;
-}
-
-// series: [{name, color, shares}]; marks: [[position from 0 to 1, text]].
-function histogram(label, series, marks) {
-  const top = Math.max(...series.flatMap((s) => [...s.shares]), 1e-9);
-  const line = (at) =>
-    svg("line.tick", { x1: at, x2: at, y1: 0, y2: HISTOGRAM_HEIGHT + 4 });
-  const anchor = (at) => (at < 0.05 ? "start" : at > 0.95 ? "end" : "middle");
-  return svg("svg.histogram",
-    {
-      role: "img", "aria-label": label,
-      viewBox: `0 0 ${HISTOGRAM_WIDTH} ${HISTOGRAM_HEIGHT + HISTOGRAM_FOOT}`,
-    },
-    marks.map(([at]) => line(at * HISTOGRAM_WIDTH)),
-    marks.map(([at, text]) =>
-      svg("text",
-        {
-          x: at * HISTOGRAM_WIDTH, y: HISTOGRAM_HEIGHT + HISTOGRAM_FOOT - 4,
-          "text-anchor": anchor(at),
-        },
-        text,
+// lines: {index, name, style, image}. axis: of x.
+function histogramFigure(view, name, title, lines, { at, range, bins, axis }) {
+  const { host, figure } = plotFigure(name, title);
+  const points = ({ image }) => histogramPoints(image, at, range, bins);
+  whenVisible(view, figure, () =>
+    showPlot(view, host, {
+      lines: lines.map((line) => ({ ...line, steps: true, points: points(line) })),
+      label: title,
+      xAxis: axis,
+      yAxis: { label: "share of the pixels", ticks: decadeTicks, format: fmtShortPercent },
+      scales: (some) => {
+        const shares = some.flatMap((line) => line.points.map((p) => p.y));
+        const y = { from: 0, to: 1.05 * Math.max(...shares, 1e-9), log: false };
+        return { x: range, y };
+      },
+      describe: (line, { y, low, high }) => noteOf(
+        line.name,
+        `${fmtPercent(y)} in ${axis.format(low)} to ${axis.format(high)}`,
       ),
-    ),
-    series.map(({ color, shares }) =>
-      svg("path", { d: histogramLine(shares, top), style: { stroke: color } }),
-    ),
+    }),
   );
+  return figure;
 }
 
-const LOG_RANGE = { low: -12, high: 12, bins: 96 }; // stops of luminance
-
-function luminanceHistogram(images) {
-  const series = images.map(({ name, color, image }) => ({
-    name,
-    color,
-    shares: histogramShares(
-      (i) => Math.log2(luminanceAt(image, i)),
-      image.width * image.height,
-      LOG_RANGE,
-    ),
-  }));
-  const { low, high } = LOG_RANGE;
-  const marks = [-12, -8, -4, 0, 4, 8, 12].map((stops) => [
-    (stops - low) / (high - low),
-    stops === 0 ? "luminance 1" : `2${stops < 0 ? "⁻" : ""}${superscript(stops)}`,
-  ]);
-  return histogram("Luminance of all pixels", series, marks);
-}
-
-function superscript(whole) {
-  return [...String(Math.abs(whole))].map((d) => SUPERSCRIPTS[d]).join("");
+function luminanceHistogram(view, lines) {
+  const stops = (x) => `2${x < 0 ? "⁻" : ""}${superscript(Math.round(x))}`;
+  return histogramFigure(view, "luminance",
+    "Luminance of the pixels; black ones are in the first bin", lines, {
+      at: (image, i) => Math.log2(luminanceAt(image, i)),
+      range: { from: -12, to: 12, log: false },
+      bins: 96,
+      axis: { label: "luminance", ticks: () => [-12, -8, -4, 0, 4, 8, 12], format: stops },
+    });
 }
 
 // Of signed relative differences, to the end of the scale that fits them all.
-function differenceHistogram(maps) {
-  const top = scaleTop(
-    maps.map(({ image }) => image),
-    (image, i) => channelAt(image, i, 0),
-  );
-  const range = { low: -top, high: top, bins: 81 };
-  const series = maps.map(({ name, color, image }) => ({
-    name,
-    color,
-    shares: histogramShares(
-      (i) => channelAt(image, i, 0),
-      image.width * image.height,
-      range,
-    ),
-  }));
-  const end = fmtShortPercent(top);
-  return histogram("Signed relative differences of all pixels", series, [
-    [0, `${MINUS}${end}`],
-    [0.5, "0"],
-    [1, `+${end}`],
-  ]);
+function differenceHistogram(view, lines) {
+  const at = (image, i) => channelAt(image, i, 0);
+  const top = scaleTop(lines.map(({ image }) => image), at);
+  return histogramFigure(view, "difference",
+    "Signed relative difference of the pixels; beyond the ends in the last bins", lines, {
+      at,
+      range: { from: -top, to: top, log: false },
+      bins: 81,
+      axis: {
+        label: "relative difference", ticks: roundTicks,
+        format: (x) => (x > 0 ? "+" : "") + fmtShortPercent(x),
+      },
+    });
 }

@@ -2,7 +2,6 @@
 // Choosing the strategies of A and B from the lists that the program has.
 
 const STYLES = [strategyStyle(0), strategyStyle(1)];
-const OWN = "own";
 
 // "key=value,..." as an object.
 function choicesOf(text) {

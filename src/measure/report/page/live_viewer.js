@@ -47,13 +47,13 @@ class Viewer {
       const pixels = Math.round(box[name] * ratio);
       if (this.canvas[name] !== pixels) this.canvas[name] = pixels;
     }
-    look.place = heldPlace(look, box, size);
-    const panes = panesOf(look, box.width);
+    const panes = panesOf(look, box);
+    look.place = clampPlace(panes[0], size, look.place);
     const height = box.height * ratio;
-    const zoom = fitOf(panes[0], box.height, size) * look.place.zoom * ratio;
+    const zoom = paneScale(panes[0], size, look.place) * ratio;
     const parts = panes.map((p) => ({
       slot: p.slot,
-      pane: [p.x * ratio, 0, p.width * ratio, height],
+      pane: [p.left * ratio, 0, p.width * ratio, height],
       clip: [p.from * ratio, 0, (p.to - p.from) * ratio, height],
     }));
     const place = { ...look.place, zoom };
@@ -69,7 +69,8 @@ class Viewer {
 
   below(event) {
     const { x, y } = this.pointOf(event);
-    return pointBelow(this.page.look, this.box(), this.page.size, x, y);
+    const { look, size } = this.page;
+    return imagePoint(paneBelow(look, this.box(), x), size, look.place, x, y);
   }
 
   // The line between two pictures is dragged, too.
@@ -106,8 +107,8 @@ class Viewer {
     const { page } = this;
     const { width, height } = this.box();
     if (page.tool === "pan") {
-      const { zoom } = pointBelow(page.look, this.box(), page.size, 0, 0);
       const { place } = page.look;
+      const zoom = paneScale(panesOf(page.look, this.box())[0], page.size, place);
       page.look.place = { ...place, x: place.x - dx / zoom, y: place.y - dy / zoom };
       return this.redraw();
     }
@@ -121,7 +122,8 @@ class Viewer {
   zoom(factor, x, y) {
     const { page } = this;
     if (page.tool === "pan") {
-      page.look.place = zoomedPlace(page.look, this.box(), page.size, factor, x, y);
+      const pane = paneBelow(page.look, this.box(), x);
+      page.look.place = zoomAbout(pane, page.size, page.look.place, factor, x, y);
       this.redraw();
     } else {
       page.onEye(dollied(page.eye, 1 / factor));

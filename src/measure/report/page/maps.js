@@ -23,21 +23,18 @@ function sameSize(image, reference) {
 
 // One kind of map for all strategies: {title, legend, cell(strategy)}.
 function imageMap(view, { title, key, table, signed, valueAt }) {
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
-  const imageOf = (s) => findImage(s.images && s.images[key]);
+  const reference = findImage(view.scene.reference?.image);
+  const imageOf = (s) => findImage(s.images?.[key]);
   const at = (image, i) => valueAt(image, sameSize(image, reference), i);
   const top = scaleTop(view.ran.map(imageOf).filter(Boolean), at);
   const toShare = signed ? (x) => 0.5 + (0.5 * x) / top : (x) => x / top;
   const cell = (s) => {
     const image = imageOf(s);
     if (!image) return missingPicture(noMapText(s));
-    return picture(view, {
-      label: `${title} of ${s.name}`,
-      width: image.width,
-      height: image.height,
-      makePixels: () =>
-        rampPixels(image.width, image.height, table, (i) => toShare(at(image, i))),
-    });
+    const { width, height } = image;
+    return picture(view, `${title} of ${s.name}`, image, () =>
+      rampPixels(width, height, table, (i) => toShare(at(image, i))),
+    );
   };
   const ends = signed
     ? [`${MINUS}${fmtShortPercent(top)}`, "0", `+${fmtShortPercent(top)}`]
@@ -54,7 +51,7 @@ function noMapText(strategy) {
 const TILE_TOP = 5; // |z| at the ends of the colour scale
 
 function tileMap(view) {
-  const reference = findImage(view.scene.reference && view.scene.reference.image);
+  const reference = findImage(view.scene.reference?.image);
   const cell = (s) => {
     if (!s.tiles) return missingPicture("Needs two repetitions.");
     return tilePicture(view, s, reference);
@@ -91,20 +88,11 @@ function tilePicture(view, s, reference) {
       );
     }
   };
+  const pixels = () =>
+    rampPixels(width, height, DIVERGING_TABLE, (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP);
+  const label = `Equality test of ${s.name} by tile, ${failed.size} failed`;
   return el("div",
-    picture(view, {
-      label: `Equality test of ${s.name} by tile, ${failed.size} failed`,
-      width,
-      height,
-      overlay,
-      makePixels: () =>
-        rampPixels(
-          width,
-          height,
-          DIVERGING_TABLE,
-          (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP,
-        ),
-    }),
+    picture(view, label, { width, height }, pixels, { overlay }),
     el("div.inset-name",
       failed.size === 0
         ? "no tile fails"

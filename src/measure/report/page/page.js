@@ -45,10 +45,12 @@ function warningBox(title, texts) {
   );
 }
 
-// terms: [[term, what it means], ...]
+// terms: {term: what it means}
 function readingSection(terms) {
   return section("reading", "How to read this",
-    el("dl.glossary", terms.map(([term, text]) => el("div", el("dt", term), el("dd", text)))),
+    el("dl.glossary",
+      Object.entries(terms).map(([term, text]) => el("div", el("dt", term), el("dd", text))),
+    ),
   );
 }
 

@@ -1,57 +1,9 @@
 "use strict";
-// Zoom and pan for panes that show the same part of images of one size.
-//
-// place: {zoom, x, y}; zoom 1 fits the image into the pane; (x, y) is the image point in
-// the middle of the pane, in pixels.
-
-const MAX_ZOOM = 64;
-
-function fitScale(pane, size) {
-  return Math.min(pane.clientWidth / size.width, pane.clientHeight / size.height) || 1;
-}
-
-function paneScale(pane, size, place) {
-  return fitScale(pane, size) * place.zoom;
-}
-
-// The image point below a point of the pane, both fractional.
-function imagePoint(pane, size, place, clientX, clientY) {
-  const box = pane.getBoundingClientRect();
-  const scale = paneScale(pane, size, place);
-  return {
-    x: place.x + (clientX - box.left - box.width / 2) / scale,
-    y: place.y + (clientY - box.top - box.height / 2) / scale,
-  };
-}
-
-function clampPlace(pane, size, place) {
-  const zoom = Math.max(1, Math.min(MAX_ZOOM, place.zoom));
-  const scale = fitScale(pane, size) * zoom;
-  const clampAxis = (centre, extent, available) => {
-    const half = Math.min(extent / 2, available / scale / 2);
-    return Math.max(half, Math.min(extent - half, centre));
-  };
-  return {
-    zoom,
-    x: clampAxis(place.x, size.width, pane.clientWidth),
-    y: clampAxis(place.y, size.height, pane.clientHeight),
-  };
-}
-
-// The place after zooming by `factor` about a point of the pane, which stays where it is.
-function zoomAbout(pane, size, place, factor, clientX, clientY) {
-  const before = imagePoint(pane, size, place, clientX, clientY);
-  const zoomed = { ...place, zoom: Math.max(1, Math.min(MAX_ZOOM, place.zoom * factor)) };
-  const after = imagePoint(pane, size, zoomed, clientX, clientY);
-  return {
-    zoom: zoomed.zoom,
-    x: place.x + before.x - after.x,
-    y: place.y + before.y - after.y,
-  };
-}
+// Zoom and pan for panes that show the same part of images of one size, by wheel, pointers
+// and keys.
 
 // handlers: {size(), place(), move(place), hover(point or null), key(name) -> bool}.
-function bindPane(view, pane, handlers) {
+function bindPane(pane, handlers) {
   bindWheel(pane, handlers);
   bindPointers(pane, handlers);
   bindKeys(pane, handlers);
@@ -78,7 +30,8 @@ function bindWheel(pane, { size, place, move }) {
       event.preventDefault();
       const step = event.deltaMode === 1 ? event.deltaY * 30 : event.deltaY;
       const factor = 2 ** Math.max(-1, Math.min(1, -step / 250));
-      move(zoomAbout(pane, size(), place(), factor, event.clientX, event.clientY));
+      const { clientX, clientY } = event;
+      move(zoomAbout(boxOf(pane), size(), place(), factor, clientX, clientY));
     },
     { passive: false },
   );
@@ -94,7 +47,7 @@ function bindPointers(pane, { size, place, move, hover }) {
     pane.setPointerCapture(event.pointerId);
   });
   pane.addEventListener("pointermove", (event) => {
-    hover(imagePoint(pane, size(), place(), event.clientX, event.clientY));
+    hover(imagePoint(boxOf(pane), size(), place(), event.clientX, event.clientY));
     if (!down.has(event.pointerId)) return;
     const before = [...down.values()].map((p) => ({ ...p }));
     Object.assign(down.get(event.pointerId), { x: event.clientX, y: event.clientY });
@@ -116,19 +69,20 @@ function dragged(pane, size, place, before, after) {
       : Math.max(8, Math.hypot(points[0].x - points[1].x, points[0].y - points[1].y));
   const from = middle(before),
     to = middle(after);
-  const scale = paneScale(pane, size, place);
+  const scale = paneScale(boxOf(pane), size, place);
   const moved = {
     ...place,
     x: place.x - (to.x - from.x) / scale,
     y: place.y - (to.y - from.y) / scale,
   };
-  return zoomAbout(pane, size, moved, spread(after) / spread(before), to.x, to.y);
+  const factor = spread(after) / spread(before);
+  return zoomAbout(boxOf(pane), size, moved, factor, to.x, to.y);
 }
 
 function bindKeys(pane, { size, place, move, key }) {
   pane.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = 40 / paneScale(pane, size(), place());
+    const step = 40 / paneScale(boxOf(pane), size(), place());
     const p = place();
     const moves = {
       ArrowLeft: { x: p.x - step },

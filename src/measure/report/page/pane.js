@@ -4,9 +4,10 @@
 const MISSING_IMAGE = "This image is not in the report.";
 
 // Draws the visible part of source; clip: [from, to] as shares of the pane's width.
-function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
+function paintPane(comparison, canvas, source, [from, to]) {
   const context = canvas.getContext("2d");
-  const scale = paneScale(canvas, comparison.size, comparison.place) * devicePixelRatio;
+  const { size, place } = comparison;
+  const scale = paneScale(boxOf(canvas), size, place) * devicePixelRatio;
   context.save();
   context.beginPath();
   context.rect(from * canvas.width, 0, (to - from) * canvas.width, canvas.height);
@@ -14,13 +15,9 @@ function paintPane(comparison, canvas, source, [from, to] = [0, 1]) {
   if (source) {
     context.imageSmoothingEnabled = scale < 1;
     context.imageSmoothingQuality = "high";
-    context.drawImage(
-      source,
-      canvas.width / 2 - comparison.place.x * scale,
-      canvas.height / 2 - comparison.place.y * scale,
-      source.width * scale,
-      source.height * scale,
-    );
+    const x = canvas.width / 2 - comparison.place.x * scale,
+      y = canvas.height / 2 - comparison.place.y * scale;
+    context.drawImage(source, x, y, source.width * scale, source.height * scale);
   } else {
     context.fillStyle = theme.color("--muted");
     context.font = `${14 * devicePixelRatio}px system-ui, sans-serif`;
@@ -38,41 +35,31 @@ function fitBacking(canvas) {
   canvas.getContext("2d").clearRect(0, 0, width, height);
 }
 
+// What is in a pane: [slot, from, to] as shares of its width.
+function paneParts({ split, flipped }, show) {
+  if (show === "split") return [["a", 0, split], ["b", split, 1]];
+  return [[show === "flip" ? (flipped ? "b" : "a") : show, 0, 1]];
+}
+
 function paintAll(comparison) {
-  comparison.panes.forEach(({ canvas, show }) => {
-    if (canvas.clientWidth === 0) return;
-    comparison.place = clampPlace(canvas, comparison.size, comparison.place);
+  for (const { canvas, show } of comparison.panes) {
+    if (canvas.clientWidth === 0) continue;
+    comparison.place = clampPlace(boxOf(canvas), comparison.size, comparison.place);
     fitBacking(canvas);
-    if (show === "split") {
-      paintPane(comparison, canvas, comparisonSource(comparison, "a"), [
-        0,
-        comparison.split,
-      ]);
-      paintPane(comparison, canvas, comparisonSource(comparison, "b"), [
-        comparison.split,
-        1,
-      ]);
-    } else {
-      const slot = show === "flip" ? (comparison.flipped ? "b" : "a") : show;
-      paintPane(comparison, canvas, comparisonSource(comparison, slot));
+    for (const [slot, from, to] of paneParts(comparison, show)) {
+      paintPane(comparison, canvas, comparisonSource(comparison, slot), [from, to]);
     }
-  });
+  }
   if (comparison.box) comparison.box.dataset.zoom = comparison.place.zoom.toFixed(4);
 }
 
-const PANES = {
-  side: ["a", "b"],
-  slider: ["split"],
-  flip: ["flip"],
-  difference: ["difference"],
-};
+const PANES = { side: ["a", "b"], slider: ["split"], flip: ["flip"], difference: ["difference"] };
 
 function paneTitle(comparison, show) {
   const a = `A  ${labelOf(comparison, "a")}`,
     b = `B  ${labelOf(comparison, "b")}`;
   return {
-    a,
-    b,
+    a, b,
     split: `${a}  |  ${b}`,
     flip: comparison.flipped ? b : a,
     difference: `${comparison.kind.title}, of ${a} and ${b}`,
@@ -89,21 +76,19 @@ function makePane(comparison, show, repaint, hover) {
   const title = el("div.pane-title");
   const retitle = () => {
     title.textContent = paneTitle(comparison, show);
-    canvas.setAttribute(
-      "aria-label",
-      `${title.textContent}. Arrow keys move, plus and ` + "minus zoom, 0 shows all.",
-    );
+    const keys = "Arrow keys move, plus and minus zoom, 0 shows all.";
+    canvas.setAttribute("aria-label", `${title.textContent}. ${keys}`);
   };
   const flip = () => {
     comparison.flipped = !comparison.flipped;
     retitle();
     repaint();
   };
-  bindPane(comparison.view, canvas, {
+  bindPane(canvas, {
     size: () => comparison.size,
     place: () => comparison.place,
     move: (place) => {
-      comparison.place = clampPlace(canvas, comparison.size, place);
+      comparison.place = clampPlace(boxOf(canvas), comparison.size, place);
       repaint();
     },
     hover,
@@ -122,8 +107,7 @@ function makePane(comparison, show, repaint, hover) {
   // No higher than most of the window.
   const box = el("div.pane-box",
     { style: { "max-width": `calc(78vh * ${width / height})` } },
-    title,
-    frame,
+    title, frame,
   );
   return { canvas, show, retitle, flip, node: box };
 }
@@ -140,12 +124,11 @@ function splitHandle(comparison, canvas, repaint) {
     handle.setAttribute("aria-valuenow", Math.round(comparison.split * 100));
     repaint();
   };
-  handle.addEventListener("pointerdown", (event) =>
-    handle.setPointerCapture(event.pointerId),
-  );
+  const hold = (event) => handle.setPointerCapture(event.pointerId);
+  handle.addEventListener("pointerdown", hold);
   handle.addEventListener("pointermove", (event) => {
     if (!handle.hasPointerCapture(event.pointerId)) return;
-    const box = canvas.getBoundingClientRect();
+    const box = boxOf(canvas);
     set((event.clientX - box.left) / box.width);
   });
   handle.addEventListener("keydown", (event) => {

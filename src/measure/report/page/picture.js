@@ -9,54 +9,39 @@ function sourceCanvas(pixels) {
   return canvas;
 }
 
-// A picture that fills its place's width. makePixels() returns ImageData; crop: {x, y,
-// width, height} in pixels or null; frame: the same, outlined.
-function picture(
-  view,
-  {
-    label,
-    width,
-    height,
-    makePixels,
-    crop = null,
-    frame = null,
-    overlay = null,
-    redrawOn = null,
-  },
-) {
-  const shown = crop || { x: 0, y: 0, width, height };
+// A picture that fills its place's width. size: {width, height}; makePixels() returns
+// ImageData; crop: {x, y, width, height} in pixels; frame: the same, outlined; overlay(context,
+// ratio) draws over it.
+function picture(view, label, size, makePixels, { crop, frame, overlay, redrawOn } = {}) {
+  const { x, y, width, height } = crop || { x: 0, y: 0, ...size };
   const canvas = el("canvas.picture", {
-    role: "img", "aria-label": label, width: shown.width, height: shown.height,
-    style: { "aspect-ratio": `${shown.width} / ${shown.height}` },
+    role: "img", "aria-label": label, width, height,
+    style: { "aspect-ratio": `${width} / ${height}` },
   });
   if (crop) canvas.classList.add("crop");
   const draw = () => {
     const source = sourceCanvas(makePixels());
     const box = canvas.getBoundingClientRect();
-    const ratio = Math.max(1, (box.width * devicePixelRatio) / shown.width);
-    canvas.width = Math.round(shown.width * ratio);
-    canvas.height = Math.round(shown.height * ratio);
+    const ratio = Math.max(1, (box.width * devicePixelRatio) / width);
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
     const context = canvas.getContext("2d");
     context.imageSmoothingEnabled = false;
-    context.drawImage(
-      source,
-      shown.x,
-      shown.y,
-      shown.width,
-      shown.height,
-      0,
-      0,
-      canvas.width,
-      canvas.height,
-    );
+    context.drawImage(source, x, y, width, height, 0, 0, canvas.width, canvas.height);
     if (frame) strokeFrame(context, frame, ratio);
-    if (overlay) overlay(context, canvas.width / shown.width);
+    if (overlay) overlay(context, canvas.width / width);
   };
   whenVisible(view, canvas, () => {
     draw();
     if (redrawOn) redrawOn.listen(debounced(draw));
   });
   return canvas;
+}
+
+// Of an image as the reader wants to see it.
+function tonedPicture(view, image, label, options) {
+  const pixels = () => tonedPixels(image, view.tone.value);
+  return picture(view, label, image, pixels, { redrawOn: view.tone, ...options });
 }
 
 // White within black, so that it shows on anything.

@@ -5,8 +5,8 @@
 // that are not shown stay, thin and grey; under(frame), guides(frame),
 // over(frame, lines): what else is drawn}
 // axis: {label, ticks(scale, most), format(value), quiet: without its label}
-// line: {index, name, style, bars, points: [{x, y, low, high, hollow, bad, limit}]}, x
-// ascending; limit: where a point would be bad.
+// line: {index, name, style, bars, steps: it has no markers, points: [{x, y, low, high,
+// hollow, bad, limit}]}, x ascending; limit: where a point would be bad.
 
 function plotFrame({ width, height }, { x, y }, named) {
   const left = named ? 80 : 58,
@@ -44,7 +44,8 @@ function plotAxes(frame, { xAxis, yAxis }) {
     }),
     text({ class: "axis-name", x: across, y: bottom + 38 }, xAxis.label),
     !yAxis.quiet &&
-      text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` }, yAxis.label),
+      text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` },
+        yAxis.label),
   ];
 }
 
@@ -58,6 +59,7 @@ function pathOf(places) {
 function curveBounds(frame, line) {
   const points = line.points.filter((p) => known(p.low) && known(p.high) && p.high > 0);
   const color = `var(${line.style.variable})`;
+  if (line.steps) return null;
   if (line.bars || points.length === 1) {
     const bars = points.map((p) => [
       [frame.x(p.x), frame.y(p.low)],
@@ -84,7 +86,7 @@ function plotCurve(frame, line) {
       d: pathOf(line.points.map((p) => [frame.x(p.x), frame.y(p.y)])),
       "stroke-dasharray": line.style.dash.join(" ") || null, style: { stroke },
     }),
-    line.points.map((p) => [
+    !line.steps && line.points.map((p) => [
       p.bad && svg("circle.bad", { cx: frame.x(p.x), cy: frame.y(p.y), r: 8 }),
       svg("path.marker", {
         d: markerPath(line.style.marker, frame.x(p.x), frame.y(p.y), 4),
@@ -103,7 +105,10 @@ function drawPlot(size, options, lines = options.lines, scales = null) {
   const box = { x, y, width: frame.right - x, height: frame.bottom - y };
   const others = options.ghosts ? options.lines.filter((line) => !lines.includes(line)) : [];
   const node = svg("svg.curves",
-    { ...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img", "aria-label": options.label, class: options.kind },
+    {
+      ...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img",
+      "aria-label": options.label, class: options.kind,
+    },
     options.under && options.under(frame),
     plotAxes(frame, options),
     // An SVG within an SVG cuts off what is outside of it.

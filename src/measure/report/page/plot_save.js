@@ -5,7 +5,7 @@
 const PAPER = { width: 960, height: 540 },
   DRAWING = { width: 640, height: 452, top: 46 };
 const COPIED = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray",
-                "opacity", "display", "font-size", "font-weight"];
+                "opacity", "display", "overflow", "font-size", "font-weight"];
 
 // Where the numbers are from.
 function sourceLine() {

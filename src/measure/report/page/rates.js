@@ -15,3 +15,17 @@ function rateTexts(interval) {
     : "";
   return { value: rateTick(interval.value), bounds };
 }
+
+// A row with an interval on an axis; and the axis above such rows.
+function rateRow(style, name, interval, texts, scale, marks = []) {
+  return el("div.rate-row",
+    el("span.rate-name", swatch(style), name),
+    whisker(interval, scale, { style, width: 180, marks }),
+    el("span.rate-value", twoLines(texts(interval))),
+  );
+}
+
+function rateAxis(scale, text, format) {
+  const axis = scale && whiskerAxis(scale, { width: 180, format, most: 4 });
+  return el("div.rate-row", el("span", text), axis);
+}

@@ -51,7 +51,10 @@ function showPixel(comparison, readout, point) {
     ["Pixel", inside ? `${x}, ${y}` : UNKNOWN],
     ["A", inside ? pixelText(a, x, y) : UNKNOWN],
     ["B", inside ? pixelText(b, x, y) : UNKNOWN],
-    [kind.signed ? "(A − B) / B" : kind.label, values ? format(values.at(y * width + x)) : UNKNOWN],
+    [
+      kind.signed ? "(A − B) / B" : kind.label,
+      values ? format(values.at(y * width + x)) : UNKNOWN,
+    ],
   ];
   readout.replaceChildren(
     ...cells.map(([name, text]) => el("span", el("b", name), ` ${text}`)),

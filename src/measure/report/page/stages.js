@@ -19,15 +19,15 @@ function stageColor(index) {
 }
 
 function stageTip(strategy, stage) {
-  const line = (name, text) => text !== UNKNOWN && el("div", `${name} ${text}`);
-  return [
-    el("b", `${stage.name}: ${fmtPercent(stage.share)}`),
-    el("div", strategy.name),
+  const line = (name, text) => text !== UNKNOWN && `${name} ${text}`;
+  return noteOf(
+    `${stage.name}: ${fmtPercent(stage.share)}`,
+    strategy.name,
     line("time", fmtSeconds(stage.seconds)),
     line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
     line("items", fmtCount(stage.items)),
     line("lanes full", fmtPercent(stage.occupancy)),
-  ];
+  );
 }
 
 // length: of the bar, in relation to the widest one.
@@ -46,12 +46,13 @@ function stageBar(strategy, names, length = 1) {
       const index = rank.get(stage.name);
       const text = `${stage.name} ${fmtPercent(stage.share)}`;
       return withTip(
-        el("div",
+        el("div.bar-part",
           {
-            class: index < COLOR_COUNT ? `bar-part on-s${index}` : "bar-part",
-            role: "listitem", tabindex: share >= SMALL_STAGE ? 0 : null,
-            "aria-label": text,
-            style: { width: `${share * 100}%`, "background-color": stageColor(index) },
+            role: "listitem", tabindex: share >= SMALL_STAGE ? 0 : null, "aria-label": text,
+            style: {
+              width: `${share * 100}%`, "background-color": stageColor(index),
+              color: index < COLOR_COUNT ? `var(--on-s${index})` : "inherit",
+            },
           },
           share * length > 0.06 &&
             el("span",
@@ -86,30 +87,30 @@ function stageLegend(names) {
   );
 }
 
-function stagesTable(view, names) {
-  const shareOf = (s, name) => {
-    const stage = (s.stages || []).find((candidate) => candidate.name === name);
-    return stage ? fmtPercent(stage.share) : UNKNOWN;
-  };
-  return el("details",
-    el("summary", "The same as a table"),
-    plainTable("Share of each stage in the time of each strategy",
-      ["Strategy", "All stages", ...names],
-      view.ranked.map((s) => [
-        s.name,
-        fmtSeconds(stageSeconds(s)),
-        ...names.map((name) => shareOf(s, name)),
-      ]),
-    ),
-  );
-}
-
 // A bar with its name, and a few words on the whole.
 function stageRow(strategy, text, bar, attributes = {}) {
   return el("div.stage-row", { ...attributes },
     el("div.stage-name", strategyLabel(strategy), el("span.bounds", text)),
     bar,
   );
+}
+
+// Bars as long as their `total`, {line, name, text, stages, total}, and what hides some of
+// them: the lines that the view does not show.
+function costRows(view, bars, names) {
+  const most = Math.max(...bars.map((bar) => bar.total));
+  const rows = bars.map((bar) => {
+    const length = bar.total / most;
+    const whole = stageBar(bar, names, length);
+    whole.style.width = `${length * 100}%`;
+    return stageRow(bar.line, bar.text, whole, { "data-line": bar.line.index });
+  });
+  view.shown.listen((shown) =>
+    rows.forEach((row) => {
+      row.hidden = !shown.has(Number(row.dataset.line));
+    }),
+  );
+  return [stageLegend(names), el("div.stage-rows", rows)];
 }
 
 function stagesSection(view) {
@@ -129,6 +130,5 @@ function stagesSection(view) {
     ),
     stageLegend(names),
     el("div.stage-rows", rows),
-    stagesTable(view, names),
   );
 }

@@ -25,11 +25,11 @@ function pointRows(aCase, point) {
 }
 
 function describePoint(aCase) {
-  return (line, { point }) => [
-    el("b", line.name === "all" ? aCase.name : line.name),
-    el("div", `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`),
-    pointRows(aCase, point).map(([name, text]) => el("div", `${name}: ${text}`)),
-  ];
+  return (line, { point }) => noteOf(
+    line.name === "all" ? aCase.name : line.name,
+    `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`,
+    ...pointRows(aCase, point).map(([name, text]) => `${name}: ${text}`),
+  );
 }
 
 const perSample = (point, key) =>

@@ -75,7 +75,7 @@ function heatHead(blocks) {
       el("th.first.map-title", { scope: "colgroup", colspan: values.length },
         aCase.name.replace(/^strateg(y|ies)-/, ""),
       ),
-      () => [el("b", aCase.name), el("div", aCase.extreme)],
+      () => noteOf(aCase.name, aCase.extreme),
     ),
   );
   const parameters = blocks.flatMap(({ aCase, values }) =>

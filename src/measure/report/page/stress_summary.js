@@ -38,12 +38,12 @@ function chips() {
   return el("div.chips",
     el("span.note", "Of a single point each:"),
     single.map((c) =>
-      withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => [
-        el("b", `${c.name}: ${WORDS[c.outcome]}`),
-        el("div", c.extreme),
-        el("div", `must: ${c.must}`),
-        c.why && el("div", c.why),
-      ]),
+      withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => noteOf(
+        `${c.name}: ${WORDS[c.outcome]}`,
+        c.extreme,
+        `must: ${c.must}`,
+        c.why && c.why,
+      )),
     ),
   );
 }
@@ -59,35 +59,23 @@ function stressSummary(target, onChoose) {
   return first;
 }
 
-const STRESS_TERMS = [
-  [
-    "Promised",
+const STRESS_TERMS = {
+  Promised:
     "The range in which the documentation says that results are right. A point in it " +
       "that is not right, or is refused, fails its case; outside, the map shows what happens.",
-  ],
-  [
-    "Noise",
+  Noise:
     "Standard errors times the quantile of Student's t at the level of a single point. " +
       "The levels of all promised points together make the false-alarm probability.",
-  ],
-  [
-    "Weak",
+  Weak:
     "A promised point could not have seen an error of 10 %. It passed, but that says " +
       "little; a full run has more samples.",
-  ],
-  [
-    "Finds",
+  Finds:
     "The relative error that the worst promised point would have found with a " +
       "probability of 90 %; of a rate, the rate.",
-  ],
-  [
-    "First breaks",
+  "First breaks":
     "On the way out of the promised range, the first value at which a point is not " +
       "good: wrong, or refused with a message.",
-  ],
-  [
-    "Time and rays",
+  "Time and rays":
     "Processor time of all points of a case, building their scenes included; rays per " +
       "camera sample. Lanes: how full the vectors of all stages were.",
-  ],
-];
+};

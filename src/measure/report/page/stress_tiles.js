@@ -100,14 +100,12 @@ function tile(aCase, target, onChoose) {
       tileDrawing(aCase, target),
       el("span.tile-ends", el("span", low), el("span", high)),
     ),
-    () => [
-      el("b", aCase.name),
-      el("div", aCase.extreme),
-      el("div", `${WORDS[outcome]}; promised ${promiseText(aCase)}`),
-      nearestBreaks(aCase, target).map((b) =>
-        el("div", `breaks at ${breakText(aCase, b)}`),
-      ),
-    ],
+    () => noteOf(
+      aCase.name,
+      aCase.extreme,
+      `${WORDS[outcome]}; promised ${promiseText(aCase)}`,
+      ...nearestBreaks(aCase, target).map((b) => `breaks at ${breakText(aCase, b)}`),
+    ),
   );
 }
 

@@ -34,9 +34,7 @@ function completed({ along, lines, fixed }) {
   const left = varyingAxes.filter((axis) => axis !== along && axis !== lines);
   const panels = left.find((axis) => axis.name === "scene") || null;
   return {
-    along,
-    lines,
-    panels,
+    along, lines, panels,
     fixed: new Map(
       left
         .filter((axis) => axis !== panels)

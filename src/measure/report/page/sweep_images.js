@@ -7,14 +7,7 @@ function groupPicture(view, group, label) {
   const { name } = study.cells[group.cells[0]];
   const image = findImage(name);
   return el("figure.thumbnail",
-    image
-      ? picture(view, {
-          label,
-          width: image.width,
-          height: image.height,
-          makePixels: () => tonedPixels(image, view.tone.value),
-        })
-      : missingPicture("no picture of it"),
+    image ? tonedPicture(view, image, label) : missingPicture("no picture of it"),
     el("figcaption", label),
   );
 }

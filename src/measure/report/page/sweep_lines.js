@@ -23,8 +23,7 @@ function groupLines(choice, groups) {
   const values = choice.lines ? axisValues(choice.lines) : [null];
   return values
     .map((value, index) => ({
-      index,
-      value,
+      index, value,
       name: value === null ? allName(choice) : valueLabel(choice.lines, value),
       style: strategyStyle(index),
       status: "ok",

@@ -29,13 +29,13 @@ function describeGroup(choice, measure, line, point) {
   const { label, texts } = SWEEP_MEASURES[measure];
   const seeds = point.group.cells.length;
   const seconds = intervalOf(point.group, "cpu_seconds").value;
-  return [
-    el("b", choice.lines ? line.name : point.name),
-    choice.lines && choice.along && el("div", point.name),
-    el("div", `${label} ${joined(texts(intervalOf(point.group, measure)))}`),
-    el("div", `processor time ${fmtSeconds(seconds)}`),
-    el("div", seeds > 1 ? `${seeds} seeds` : "one seed"),
-  ];
+  return noteOf(
+    choice.lines ? line.name : point.name,
+    choice.lines && choice.along && point.name,
+    `${label} ${joined(texts(intervalOf(point.group, measure)))}`,
+    `processor time ${fmtSeconds(seconds)}`,
+    seeds > 1 ? `${seeds} seeds` : "one seed",
+  );
 }
 
 function alongAxis(axis) {
@@ -83,26 +83,21 @@ function measureRows(view, host, choice, lines, { measure, include }) {
   const log = measure === "efficiency";
   const scale = whiskerScale([...rows.map(({ y }) => y), ...include], log, log ? [1] : [0]);
   const row = ({ line, point, y }) =>
-    withTip(
-      el("div.rate-row",
-        el("span.rate-name", swatch(line.style), point.name),
-        whisker(y, scale, { style: line.style, width: 180, marks: log ? [1] : [] }),
-        el("span.rate-value", twoLines(texts(y))),
-      ),
-      () => describeGroup(choice, measure, line, point),
+    withTip(rateRow(line.style, point.name, y, texts, scale, log ? [1] : []), () =>
+      describeGroup(choice, measure, line, point),
     );
-  const axis = el("div.rate-row",
-    el("span"),
-    scale && whiskerAxis(scale, { width: 180, format: tick, most: 4 }),
-  );
+  const axis = rateAxis(scale, "", tick);
   const draw = () =>
     host.replaceChildren(
       axis,
       ...rows.filter(({ line }) => view.shown.value.has(line.index)).map(row),
     );
-  view.shown.listen(draw);
+  const stop = view.shown.listen(draw);
   draw();
-  return () => host.replaceChildren();
+  return () => {
+    stop();
+    host.replaceChildren();
+  };
 }
 
 // One figure for each panel; all show what is chosen. Returns the figures and show().

@@ -38,11 +38,7 @@ function makeView(scene) {
   const baseline = strategies[scene.baseline] || null;
   giveStyles(strategies, leading(ranked, baseline));
   return {
-    scene,
-    strategies,
-    ran,
-    ranked,
-    baseline,
+    scene, strategies, ran, ranked, baseline,
     shown: makeSignal(leading(ranked, baseline)), // in colour in the plots
     focus: makeSignal(null), // index of a strategy, or null
     compare: makeSignal(null), // {a, b}: names that the comparator is asked to show

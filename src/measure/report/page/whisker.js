@@ -28,8 +28,7 @@ function whiskerScale(intervals, log, include = []) {
 
 // The drawing of one interval. marks: values with a vertical line.
 function whisker(
-  interval,
-  scale,
+  interval, scale,
   { style, width = 150, height = 26, marks = [], label },
 ) {
   const x = valueOf(interval);

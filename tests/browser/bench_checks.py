@@ -1,17 +1,8 @@
-#!/usr/bin/env python3
-"""Looks at the page of a small benchmark in Chromium: bench_test.py PAGE FOLDER
-
-As report_test.py.
-"""
+"""Checks of the page of a small benchmark."""
 
 import math
 
-import run_checks
-from checks import check, markers, plot, require
-
-
-def data(page):
-    return page.js("return JSON.parse(document.getElementById('study').textContent)")
+from checks import check, data, markers, plot, require
 
 
 @check
@@ -59,17 +50,3 @@ def bars_are_the_groups(page):
         own = next(g["ns_per_sample"] for g in groups if g["name"] == name)
         require(abs(share - own / total) < 0.02, label, share, own / total)
     require(len(parts) == sum(g["ns_per_sample"] > 0 for g in groups), "parts:", parts)
-
-
-@check
-def nothing_unknown_is_spelled_out(page):
-    for word in ("NaN", "undefined", "null", "Infinity", "[object"):
-        require(word not in page.text(), word)
-    page.resize(360, 740, mobile=True)
-    page.open()
-    page.scroll_through()
-    require(page.js("return document.documentElement.scrollWidth") <= 360, "too wide")
-    require(not page.console(), "\n".join(page.console()))
-
-
-run_checks.main()
