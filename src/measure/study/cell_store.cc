@@ -111,19 +111,4 @@ void CellStore::Save(const std::string& strategy, std::uint64_t spp,
   WriteState(content, Path(strategy, spp));
 }
 
-void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum) {
-  for (const StageProfile& m : more) {
-    const auto same = [&](const StageProfile& s) { return s.name == m.name; };
-    const auto found = std::find_if(sum.begin(), sum.end(), same);
-    if (found == sum.end()) {
-      sum.push_back(m);
-      continue;
-    }
-    found->calls += m.calls;
-    found->items += m.items;
-    found->lane_slots += m.lane_slots;
-    found->seconds += m.seconds;
-  }
-}
-
 }  // namespace lanelight
