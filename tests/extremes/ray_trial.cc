@@ -114,9 +114,7 @@ Point BoundPoint(double worst, double bound) {
 
 Point NoFailures(std::uint64_t failures, std::uint64_t trials) {
   Point point;
-  point.failures = failures;
-  point.trials = trials;
-  point.measured = trials > 0 ? double(failures) / double(trials) : 0;
+  point.measured = trials > 0 ? double(failures) / double(trials) : 1;
   return point;
 }
 

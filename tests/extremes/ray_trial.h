@@ -63,7 +63,7 @@ std::vector<Point> ExpectBothWays(double expected, const std::string& text,
                                   Quality quality, const Effort& effort);
 /// The largest of errors, which must not exceed the bound.
 Point BoundPoint(double worst, double bound);
-/// Failures among trials, of which none is promised.
+/// Failures among trials, of which there must be some and no failure.
 Point NoFailures(std::uint64_t failures, std::uint64_t trials);
 
 /// A ray in the coordinates of the scene file; `direction` is of unit length.

@@ -26,17 +26,6 @@ std::vector<double> Decades(double first, double last, double step = 1);
 Axis LogAxis(std::string name, std::string unit, Promise promise,
              std::vector<double> quick, std::vector<double> full = {});
 
-struct Exponents {
-  int low, high, step = 1;
-};
-/// 10^low to 10^high, every `step` decades; three values a decade with full effort.
-/// `promise`: exponents too.
-Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
-                 Promise promise);
-
-/// A case that is not a map.
-inline Axis Single() { return {}; }
-
 /// A case but for its group and its truth.
 struct CaseText {
   std::string name, extreme, must;
