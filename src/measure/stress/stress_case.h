@@ -82,15 +82,15 @@ struct Axis {
 /// One case: a line of a table in src/measure/stress/cases/.
 struct Case {
   std::string name;     // unique, lower case with hyphens: "ggx-alpha"
-  std::string group;    // "geometry", "transport", "materials", "lights", "sampling", ...
   std::string extreme;  // what is extreme, and its range, as a sentence
   std::string must;     // what must be true
-  std::string source;   // where it is known to break renderers; empty: our own
-  Truth truth = Truth::kClosedForm;
   Axis axis;
   /// Measures at one value of the axis (NaN for a single point); one Point per series.
   /// Deterministic for a seed. Throws InputError only if the scene is to be refused.
   std::function<std::vector<Point>(double parameter, const Effort& effort)> measure;
+  std::string source = {};  // where it is known to break renderers; empty: our own
+  std::string group = {};   // "materials", "lights", "strategies", ...
+  Truth truth = Truth::kClosedForm;
 };
 
 }  // namespace lanelight::stress
