@@ -29,7 +29,7 @@ set(long
   kernels/roulette/single_path_test scenes/closed_form_scenes_test scenes/scenes_test
   kernels/shade/coat_medium_test kernels/shade/limits_test kernels/shade/reference_test base/stat/convergence_test
   base/stat/efficiency_test base/stat/interval_test base/state/integrity_test vocabulary/strategy/unbiased_test
-  extremes/materials_test extremes/round_test extremes/scenes_test extremes/triangles_test
+  extremes/materials_test extremes/media_test extremes/paths_test extremes/round_test extremes/scenes_test extremes/triangles_test
   extremes/views_test measure/stress/suite_test
   measure/study/calibration_test measure/study/render_reference_test measure/study/shared_bias_test
   measure/study/study_test measure/sweep/again_test measure/sweep/parts_test measure/sweep/ten_thousand_test

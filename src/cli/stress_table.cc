@@ -26,7 +26,6 @@ std::string Significant(double x, int digits) {
 std::string Measured(const JudgedPoint& judged) {
   const Point& p = judged.point;
   if (!p.refused.empty() || !judged.crash.empty()) return "-";
-  if (p.trials > 0) return fmt::format("{} of {}", p.failures, p.trials);
   if (!(p.standard_error > 0)) return Significant(p.measured, 7);
   const double half = judged.verdict.allowance - p.tolerance;
   const double ratio = std::abs(p.measured) / half;

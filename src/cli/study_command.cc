@@ -20,7 +20,6 @@ namespace {
 
 struct StudyCommandOptions {
   StudyOptions study;
-  std::string strategies;
   bool quiet = false;
 };
 
@@ -48,7 +47,6 @@ WorkStep StepOf(const StudyProgress& p) {
 }
 
 int RunStudyCommand(StudyCommandOptions& options) {
-  options.study.strategies = SplitStrategies(options.strategies);
   CheckCombination(options.study);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
@@ -87,10 +85,18 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   StudyOptions& s = options.study;
   CLI::Option* list =
       command
-          .add_option("--strategies", options.strategies,
+          .add_option("--strategies", s.strategies,
                       "'A;B;...': presets, key=value,... (changes of the default), "
                       "'default', or 'scene' (its own); the first is the baseline; "
                       "default: the paper's presets, 'default' and 'scene'")
+          ->delimiter(';')
+          ->allow_extra_args(false)
+          ->transform(CLI::Validator(
+              [](std::string& text) {
+                CLI::detail::trim(text);
+                return std::string();
+              },
+              ""))
           ->type_name("LIST");
   command
       .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")

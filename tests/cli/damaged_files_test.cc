@@ -163,17 +163,4 @@ TEST_CASE("an empty name of a checkpoint is refused", "[cli]") {
   CHECK_THAT(r.err, Contains("empty"));
 }
 
-TEST_CASE("merge does not write over what it reads", "[cli]") {
-  TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), state = directory / "p1.state";
-  REQUIRE(RunLanelight(
-              {"render", scene, "--spp", "2", "--part", "1/2", "--checkpoint", state})
-              .exit_code == kExitGood);
-  const std::string before = DamagedBytes(state);
-  const ProcessResult r = RunLanelight({"merge", state, "--partial", "--state", state});
-  CHECK(r.exit_code == kExitBadInput);
-  CHECK_THAT(r.err, Contains("would overwrite"));
-  CHECK(DamagedBytes(state) == before);
-}
-
 }  // namespace lanelight

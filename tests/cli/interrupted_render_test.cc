@@ -91,6 +91,8 @@ TEST_CASE("an interruption after the first pass leaves an image without holes", 
       {"render", scene, "-o", exr, "--spp", "100000", "--strategy", "decide=none"});
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
+  CHECK_THAT(r.err, Contains("finishing the samples in flight"));
+  CHECK_THAT(r.out, Contains("stopped early"));
   const Image image = ReadExr(exr);
   const int samples = image.FindChannel("samples");
   REQUIRE(samples >= 0);

@@ -95,7 +95,7 @@ TEST_CASE("reports on scenes with names that are not UTF-8", "[cli][names]") {
   Run({"profile", strange.Scene(), "--spp", "1", "--json", strange.File("p\xff"),
        "--trace", strange.File("t\xff")});
   CHECK_THAT(test::ReadJson(strange.File("t\xff")).dump(), Contains("profile"));
-  Run({"stress", "diffuse-transmission", "--out", strange.File("x\xff"), "--quiet"});
+  Run({"stress", "unit-of-length", "--out", strange.File("x\xff"), "--quiet"});
   CHECK(fs::exists(strange.File("x\xff/stress.json")));
 }
 

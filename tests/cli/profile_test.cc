@@ -235,39 +235,6 @@ TEST_CASE("a full trace buffer says what is missing", "[cli]") {
              Contains(std::to_string(dropped)));
 }
 
-TEST_CASE("profile checks its files before it renders", "[cli]") {
-  TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory);
-  const auto refused = [&](std::vector<std::string> arguments, const char* reason) {
-    arguments.insert(arguments.begin(), {"profile", scene});
-    const ProcessResult r = RunLanelight(arguments);
-    CHECK(r.exit_code == kExitBadInput);
-    CHECK_THAT(r.err, Contains(reason) && !Contains("rendering"));
-    CHECK(r.out.empty());
-  };
-  refused({"--trace", directory / "none/t.json"}, "there is no directory");
-  refused({"--json", directory.path()}, "it is a directory");
-  refused({"--trace", "/dev/full"}, "not a regular file");
-  refused({"--trace", scene}, "would overwrite");
-  refused({"--json", directory / "x", "--trace", directory / "x"}, "two outputs");
-}
-
-TEST_CASE("profile refuses wrong flags", "[cli]") {
-  for (const auto& [flag, value] :
-       std::map<std::string, std::string>{{"--spp", "0"},
-                                          {"--trace-events", "0"},
-                                          {"--trace-events", "many"},
-                                          {"--trace", "-"},
-                                          {"--threads", "-1"},
-                                          {"--strategy", "points=none"}}) {
-    const ProcessResult r = RunLanelight({"profile", "x.pbrt", flag, value});
-    INFO(flag << " " << value);
-    CHECK(r.exit_code == kExitUsage);
-    CHECK_THAT(r.err, Contains(flag));
-  }
-  CHECK(RunLanelight({"profile"}).exit_code == kExitUsage);
-}
-
 TEST_CASE("a disk that fills up loses the trace, not the table", "[cli]") {
   TempDirectory directory, temporary;
   ProcessOptions options;
@@ -281,21 +248,6 @@ TEST_CASE("a disk that fills up loses the trace, not the table", "[cli]") {
   CHECK_THAT(r.out, Contains("other stages / intersect"));
   CHECK(directory.Files() == std::vector<std::string>{"sphere.pbrt"});
   CHECK(temporary.Files().empty());
-}
-
-TEST_CASE("a profile whose reader goes away, or has no room", "[cli]") {
-  TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory);
-  ProcessOptions closed;
-  closed.close_stdout_reader = true;
-  const ProcessResult gone = RunLanelight({"profile", scene, "--quiet"}, closed);
-  CHECK(gone.signal == 0);
-  CHECK(gone.exit_code == kExitGood);
-  ProcessOptions full;
-  full.stdout_path = "/dev/full";
-  const ProcessResult disk = RunLanelight({"profile", scene, "--quiet"}, full);
-  CHECK(disk.exit_code == kExitBadInput);
-  CHECK_THAT(disk.err, Contains("No space left on device"));
 }
 
 TEST_CASE("Ctrl-C keeps what a profile has measured", "[cli]") {

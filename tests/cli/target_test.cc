@@ -120,6 +120,8 @@ TEST_CASE("a time budget is named where it ends a render", "[cli]") {
   CHECK(o.report.at("stop_reason") == "time");
   CHECK(o.report.at("settings").at("time_budget") == 0.1);
   CHECK(o.report.at("settings").at("spp").is_null());
+  CHECK(o.report.at("samples") > 32 * 24);
+  CHECK_FALSE(o.report.at("error").is_null());
 }
 
 }  // namespace lanelight

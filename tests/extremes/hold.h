@@ -10,16 +10,14 @@
 
 namespace lanelight::stress {
 
-/// Measures at each value of a parameter and checks all points: no failure among trials,
-/// or a mean that is off by its tolerance and five standard errors at most. With all
-/// points of these files a test fails in fewer than 1 of 1000 seeds without a fault.
+/// Measures at each value of a parameter and checks that all points are off by their
+/// tolerance and five standard errors at most. With all points of these files a test
+/// fails in fewer than 1 of 1000 seeds without a fault.
 template <class Measure>
 void Hold(const std::vector<double>& values, const Measure& measure) {
   for (const double value : values) {
     for (const Point& p : measure(value, Effort{})) {
-      CAPTURE(value, p.series, p.expected, p.measured, p.standard_error, p.tolerance,
-              p.failures, p.trials);
-      CHECK(p.failures == 0);
+      CAPTURE(value, p.series, p.expected, p.measured, p.standard_error, p.tolerance);
       CHECK(std::abs(p.measured - p.expected) <= p.tolerance + 5 * p.standard_error);
       CHECK(p.invalid == 0);
     }

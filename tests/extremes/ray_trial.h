@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
 #include "src/render/job/job.h"
 #include "tests/extremes/hold.h"
+#include "tests/support/wave_fixture.h"
 
 namespace lanelight::stress {
 
@@ -63,7 +64,7 @@ std::vector<Point> ExpectBothWays(double expected, const std::string& text,
                                   Quality quality, const Effort& effort);
 /// The largest of errors, which must not exceed the bound.
 Point BoundPoint(double worst, double bound);
-/// Failures among trials, of which none is promised.
+/// Failures among trials, of which there must be some and no failure.
 Point NoFailures(std::uint64_t failures, std::uint64_t trials);
 
 /// A ray in the coordinates of the scene file; `direction` is of unit length.
@@ -100,16 +101,11 @@ class RayTracer {
   const CompiledScene& scene() const { return *job_.scene.compiled; }
 
  private:
-  void Allocate(std::size_t rays);
   void RunStages(const char* prefix);
-  void PutRay(std::uint32_t slot, const WorldRay& ray);
   WorldHit HitOf(std::uint32_t slot) const;
 
   Job job_;
-  RunParameters run_;
-  Wave wave_;
-  std::uint32_t rays_ = 0;  // of the last Trace
-  std::vector<AlignedVector<std::uint32_t>> storage_;
+  std::optional<WaveFixture> fixture_;  // of the last Trace
 };
 
 /// Rays into a scene, and what becomes of them.

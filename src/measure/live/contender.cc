@@ -8,6 +8,7 @@
 #include "src/base/core/stopwatch.h"
 #include "src/render/run/run.h"
 #include "src/render/wave/partition.h"
+#include "src/render/wave/profile.h"
 
 namespace lanelight::live {
 namespace {
@@ -100,7 +101,8 @@ void Contender::Pass(std::uint64_t spp, Attendant& attendant,
   const std::uint64_t samples_before = record_.counts.samples;
   const RunResult result = Run(job_.scene, job_.plan, options, film_);
   record_.training.note = result.training.note;
-  AddStages(result);
+  AddStages(result.stages, stages_);
+  AddStages(result.parts, stages_);
   const double samples = double(record_.counts.samples - samples_before);
   const double seconds = record_.counts.seconds - seconds_before;
   if (samples > 0 && seconds > 0)
@@ -127,23 +129,6 @@ void Contender::LookIfDue(const std::atomic<bool>& stop) {
   ErrorEstimate error = EstimateError(film_, &stop);
   look_seconds_ = watch.CpuSeconds();
   if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
-}
-
-void Contender::AddStages(const RunResult& result) {
-  for (const auto* list : {&result.stages, &result.parts}) {
-    for (const StageProfile& stage : *list) {
-      const auto same = [&](const StageProfile& s) { return s.name == stage.name; };
-      const auto known = std::find_if(stages_.begin(), stages_.end(), same);
-      if (known == stages_.end()) {
-        stages_.push_back(stage);
-        continue;
-      }
-      known->calls += stage.calls;
-      known->items += stage.items;
-      known->lane_slots += stage.lane_slots;
-      known->seconds += stage.seconds;
-    }
-  }
 }
 
 std::size_t Contender::Bytes() const {

@@ -65,7 +65,6 @@ class Contender {
  private:
   class Keeper;
 
-  void AddStages(const RunResult& result);
   void LookIfDue(const std::atomic<bool>& stop);
 
   View view_;

@@ -49,7 +49,7 @@ int Laboratory::Enter(Send send) {
 
 void Laboratory::Receive(int session, const std::string& message) {
   try {
-    Push({session, nullptr, ParseCommand(message)});
+    Push({session, nullptr, ParseMessage(message)});
   } catch (const InputError& error) {
     Tell(session, error.message());
   }

@@ -36,8 +36,8 @@ class Laboratory : private Attendant {
  private:
   struct Wish {
     int session = 0;
-    std::shared_ptr<Send> enter;     // a new session
-    std::optional<Command> command;  // neither: it leaves
+    std::shared_ptr<Send> enter;            // a new session
+    std::optional<nlohmann::json> command;  // neither: it leaves
 
     bool IsUrgent() const { return command ? ChangesWork(*command) : enter == nullptr; }
   };

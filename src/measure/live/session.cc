@@ -1,8 +1,11 @@
 #include "src/measure/live/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "src/base/core/suggest.h"
+#include "src/base/image/image.h"
 #include "src/measure/live/state_json.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 
@@ -10,11 +13,27 @@ namespace lanelight::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using nlohmann::json;
 
 // Without a move for so long, the camera stands.
 constexpr auto kSettles = std::chrono::milliseconds(120);
 // Of strategies that have been left, so that coming back renders nothing again.
 constexpr std::size_t kMostBytesAside = std::size_t{256} << 20;
+
+int IndexOf(const json& message, const char* member, int most) {
+  const double value = message.at(member).get<double>();
+  if (!(value >= 0 && value <= most) || value != std::floor(value)) {
+    throw InputError(fmt::format("\"{}\" is {}; it must be a number from 0 to {}", member,
+                                 value, most));
+  }
+  return static_cast<int>(value);
+}
+
+Pace PaceOf(const std::string& name) {
+  if (name == "time") return Pace::kTime;
+  if (name == "samples") return Pace::kSamples;
+  ThrowUnknown({}, "pace", name, {"time", "samples"});
+}
 
 }  // namespace
 
@@ -28,23 +47,39 @@ Session::Session(const Stage& stage, std::string command, Send send)
   send_(HelloText(stage_), false);
 }
 
-void Session::Do(const Command& command) {
-  if (const auto* move = std::get_if<MoveEye>(&command)) Move(move->eye);
-  if (const auto* choice = std::get_if<ChooseStrategy>(&command)) Choose(*choice);
-  if (const auto* pace = std::get_if<ChoosePace>(&command)) pace_ = pace->pace;
-  if (const auto* pause = std::get_if<Pause>(&command)) paused_ = pause->on;
-  if (const auto* layer = std::get_if<ChooseLayer>(&command)) {
-    layer_ = layer->layer;
+void Session::Do(const json& message) {
+  try {
+    Obey(message.at("do"), message);
+  } catch (const json::exception& error) {
+    throw NotUnderstood(error);
+  }
+}
+
+void Session::Obey(const std::string& what, const json& m) {
+  if (what == "camera") return Move(EyeFromJson(m.at("eye")));
+  if (what == "strategy") return Choose(IndexOf(m, "slot", kSlots - 1), m.at("name"));
+  if (what == "exr") return SendExr(IndexOf(m, "slot", kSlots - 1));
+  if (what == "ask") {
+    return SendPixel(IndexOf(m, "x", kMaxImageSide - 1),
+                     IndexOf(m, "y", kMaxImageSide - 1));
+  }
+  if (what == "camera-text") {
+    return SendText("camera-text", PbrtText(MakeView(stage_, eye_, 1).described));
+  }
+  if (what == "pace") {
+    pace_ = PaceOf(m.at("by"));
+  } else if (what == "pause") {
+    paused_ = m.at("on").get<bool>();
+  } else if (what == "layer") {
+    layer_ = LayerNamed(m.at("name"));
     for (Slot& slot : slots_) slot.sent = {};
-  }
-  if (const auto* ask = std::get_if<Ask>(&command)) SendPixel(*ask);
-  if (const auto* seen = std::get_if<Seen>(&command)) {
-    (seen->what < kSlots ? slots_[static_cast<std::size_t>(seen->what)].drawn
-                         : state_drawn_) = true;
-  }
-  if (const auto* save = std::get_if<SaveExr>(&command)) SendExr(save->slot);
-  if (std::holds_alternative<TellCamera>(command)) {
-    SendText("camera-text", PbrtText(MakeView(stage_, eye_, 1).described));
+  } else if (what == "seen") {
+    const auto seen = static_cast<std::size_t>(IndexOf(m, "what", kSlots));
+    (seen < kSlots ? slots_[seen].drawn : state_drawn_) = true;
+  } else {
+    ThrowUnknown({}, "command", what,
+                 {"camera", "strategy", "pace", "pause", "layer", "ask", "seen", "exr",
+                  "camera-text"});
   }
 }
 
@@ -62,22 +97,22 @@ void Session::Move(const Eye& eye) {
   settled_ = began_ + kSettles;
 }
 
-void Session::Choose(const ChooseStrategy& choice) {
-  Slot& slot = slots_[static_cast<std::size_t>(choice.slot)];
+void Session::Choose(int index, const std::string& name) {
+  Slot& slot = slots_[static_cast<std::size_t>(index)];
   if (slot.contender) others_.push_back(std::move(slot.contender));
   KeepFew();
   const double rate = slot.preview_rate;
   slot = {};
   slot.preview_rate = rate;
-  slot.name = choice.name;
+  slot.name = name;
   began_ = Clock::now();
-  if (choice.name.empty()) return;
+  if (name.empty()) return;
   try {
     const Strategy own = stage_.job.loaded->description.strategy;
-    slot.strategy = StrategyNamed(choice.name, {}, own);
-    slot.contender = Make(choice.slot);
+    slot.strategy = StrategyNamed(name, {}, own);
+    slot.contender = Make(index);
   } catch (const InputError& error) {
-    Refuse(choice.slot, error.message());
+    Refuse(index, error.message());
   }
 }
 

@@ -12,6 +12,8 @@
 
 #include "src/measure/live/commands.h"
 #include "src/measure/live/contender.h"
+#include "src/measure/live/picture.h"
+#include "src/measure/live/score.h"
 
 namespace lanelight::live {
 
@@ -32,8 +34,13 @@ class Session {
   /// with what strategy.
   Session(const Stage& stage, std::string command, Send send);
 
-  /// Does what the page asks for. A strategy that is refused is told as such.
-  void Do(const Command& command);
+  /// Does what the page asks for (docs/live.md): {"do": "camera", "eye": {...}};
+  /// "strategy" with "slot" and "name", as --strategies takes it or empty; "pace" by
+  /// "time" or "samples"; "pause" on true; "layer" with a name of LayersJson; "ask" for
+  /// the pixel "x", "y"; "seen" of the slot "what", or 2 for the state: the next may
+  /// come; "exr" of a "slot"; "camera-text". A strategy that is refused is told as such.
+  /// Throws InputError that says what is wrong and what would be right.
+  void Do(const nlohmann::json& message);
 
   /// What to render now; nothing if the page waits for nothing, or not before When().
   std::optional<Work> Next();
@@ -61,7 +68,8 @@ class Session {
     double preview_rate = 0;  // samples per second of previews
   };
 
-  void Choose(const ChooseStrategy& choice);
+  void Obey(const std::string& what, const nlohmann::json& message);
+  void Choose(int slot, const std::string& name);
   void Move(const Eye& eye);
   void KeepFew();
   std::shared_ptr<Contender> Make(int slot);
@@ -71,7 +79,7 @@ class Session {
   void SendPreview(const Work& work);
   void SendPicture(int slot, const Contender& contender, SentPicture& sent);
   void SendState();
-  void SendPixel(const Ask& ask);
+  void SendPixel(int x, int y);
   void SendExr(int slot);
   void SendText(const char* kind, const std::string& text);
 

@@ -63,14 +63,12 @@ void Session::SendState() {
   last_state_ = std::chrono::steady_clock::now();
 }
 
-void Session::SendPixel(const Ask& ask) {
+void Session::SendPixel(int x, int y) {
   nlohmann::json slots = nlohmann::json::array();
   for (const Slot& slot : slots_) {
-    slots.push_back(slot.contender ? PixelJson(*slot.contender, ask.x, ask.y)
-                                   : nlohmann::json());
+    slots.push_back(slot.contender ? PixelJson(*slot.contender, x, y) : nlohmann::json());
   }
-  send_(DumpJson({{"kind", "pixel"}, {"x", ask.x}, {"y", ask.y}, {"slots", slots}}),
-        false);
+  send_(DumpJson({{"kind", "pixel"}, {"x", x}, {"y", y}, {"slots", slots}}), false);
 }
 
 void Session::SendExr(int index) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/measure/live/commands.h"
+#include "src/measure/live/score.h"
 #include "src/measure/live/contender.h"
 
 namespace lanelight::live {

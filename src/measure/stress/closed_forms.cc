@@ -81,27 +81,4 @@ double CoatFurnace(const Coat& coat, double cosine) {
          Passes(cosine, coat.eta, coat.thickness, false) * coat.albedo * series * exit;
 }
 
-double LayersAtNormal(std::span<const double> index, int depth) {
-  const int faces = static_cast<int>(index.size()) - 1;
-  // Importance that heads down to face i, and up to it.
-  std::vector<double> down(faces + 1), up(faces + 1);
-  down[0] = 1;
-  double arrived = 0;
-  for (int event = 0; event < depth; ++event) {
-    std::vector<double> next_down(faces + 1), next_up(faces + 1);
-    for (int i = 0; i < faces; ++i) {
-      const double a = index[i], b = index[i + 1];
-      const double amplitude = (a - b) / (a + b), r = amplitude * amplitude;
-      // Radiance is spread by the square of the index: to go from a to b, (a / b)^2.
-      const double below = down[i] * (1 - r) * (a / b) * (a / b) + up[i] * r;
-      const double above = up[i] * (1 - r) * (b / a) * (b / a) + down[i] * r;
-      (i + 1 < faces ? next_down[i + 1] : arrived) += below;
-      (i > 0 ? next_up[i - 1] : arrived) += above;
-    }
-    down = std::move(next_down);
-    up = std::move(next_up);
-  }
-  return arrived;
-}
-
 }  // namespace lanelight::stress

@@ -60,9 +60,4 @@ struct Coat {
 /// the squared cosine, in 1e5: error below 1e-6.
 double CoatFurnace(const Coat& coat, double cosine);
 
-/// Radiance 1 from above or below that a stack of parallel faces returns at normal
-/// incidence: `index[i]` lies between face i-1 and face i (index[0] above all). Traces
-/// all paths of at most `depth` faces as a walk over the layers.
-double LayersAtNormal(std::span<const double> index, int depth);
-
 }  // namespace lanelight::stress

@@ -8,9 +8,9 @@
 namespace lanelight::stress {
 namespace {
 
-PointVerdict VerdictOf(const Case& about, const JudgedPoint& judged, double level) {
+PointVerdict VerdictOf(const JudgedPoint& judged, double level) {
   if (!judged.point.not_measured.empty()) return {};
-  if (judged.crash.empty()) return Judge(about.truth, judged.point, level);
+  if (judged.crash.empty()) return Judge(judged.point, level);
   PointVerdict verdict;
   verdict.fault = Fault::kCrashed;
   verdict.why = judged.crash;
@@ -18,11 +18,9 @@ PointVerdict VerdictOf(const Case& about, const JudgedPoint& judged, double leve
 }
 
 // How much of what a point may be off it is off; above 1: it fails.
-double Used(const Case& about, const JudgedPoint& judged) {
+double Used(const JudgedPoint& judged) {
   if (!judged.verdict.good()) return std::numeric_limits<double>::infinity();
-  const double error = judged.point.measured - judged.point.expected;
-  const bool one_sided = about.truth == Truth::kRate;
-  const double off = one_sided ? std::max(0.0, error) : std::abs(error);
+  const double off = std::abs(judged.point.measured - judged.point.expected);
   return judged.verdict.allowance > 0 ? off / judged.verdict.allowance : 0;
 }
 
@@ -36,7 +34,7 @@ void CountPromised(CaseResult& result) {
     result.failed += !judged.verdict.good();
     result.weak += judged.verdict.weak;
     result.detectable = std::max(result.detectable, judged.verdict.detectable);
-    const double used = Used(result.about, judged);
+    const double used = Used(judged);
     if (used <= most) continue;
     most = used;
     result.worst = static_cast<int>(i);
@@ -100,7 +98,7 @@ Outcome OutcomeOf(const CaseResult& result) {
 
 void JudgeCase(const SuiteResult& suite, CaseResult& result) {
   for (JudgedPoint& judged : result.points) {
-    judged.verdict = VerdictOf(result.about, judged, suite.level);
+    judged.verdict = VerdictOf(judged, suite.level);
   }
   result.worst = -1;
   result.promised = result.failed = result.weak = result.not_measured = 0;

@@ -18,10 +18,9 @@ enum class Truth {
   kClosedForm,  // a formula, evaluated in double precision
   kInvariance,  // the same scene told otherwise (other units, place, order)
   kTwin,        // an independent computation: scalar, double precision, by hand
-  kRate,        // failures among trials must not be more frequent than the expected rate
 };
 inline const char* Name(Truth truth) {
-  constexpr const char* kNames[] = {"closed form", "invariance", "twin", "rate"};
+  constexpr const char* kNames[] = {"closed form", "invariance", "twin"};
   return kNames[static_cast<int>(truth)];
 }
 
@@ -34,8 +33,7 @@ struct Point {
   /// What `measured` may be off by besides noise: the error bound that the documentation
   /// promises, absolute. Never made wider to pass.
   double tolerance = 0;
-  std::uint64_t failures = 0, trials = 0;  // kRate; `expected` is the promised rate
-  std::uint64_t invalid = 0;               // NaN, infinite or negative samples
+  std::uint64_t invalid = 0;  // NaN, infinite or negative samples
   std::uint64_t samples = 0, rays = 0;
   std::uint64_t lanes_used = 0, lane_slots = 0;  // of all stages
   double seconds = 0;                            // of processor time
@@ -84,15 +82,15 @@ struct Axis {
 /// One case: a line of a table in src/measure/stress/cases/.
 struct Case {
   std::string name;     // unique, lower case with hyphens: "ggx-alpha"
-  std::string group;    // "geometry", "transport", "materials", "lights", "sampling", ...
   std::string extreme;  // what is extreme, and its range, as a sentence
   std::string must;     // what must be true
-  std::string source;   // where it is known to break renderers; empty: our own
-  Truth truth = Truth::kClosedForm;
   Axis axis;
   /// Measures at one value of the axis (NaN for a single point); one Point per series.
   /// Deterministic for a seed. Throws InputError only if the scene is to be refused.
   std::function<std::vector<Point>(double parameter, const Effort& effort)> measure;
+  std::string source = {};  // where it is known to break renderers; empty: our own
+  std::string group = {};   // "materials", "lights", "strategies", ...
+  Truth truth = Truth::kClosedForm;
 };
 
 }  // namespace lanelight::stress

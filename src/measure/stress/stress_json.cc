@@ -44,8 +44,6 @@ Json PointJson(const JudgedPoint& judged) {
           {"degrees_of_freedom", NumberJson(p.degrees_of_freedom)},
           {"tolerance", NumberJson(p.tolerance)},
           {"scale", NumberJson(ScaleOf(p))},
-          {"failures", p.failures},
-          {"trials", p.trials},
           {"invalid", p.invalid},
           {"samples", p.samples},
           {"rays", p.rays},
@@ -117,7 +115,7 @@ Json CaseJson(const CaseResult& result) {
 
 Json ToJson(const SuiteResult& result) {
   const SuiteOptions& options = result.options;
-  Json json = {{"schema", 1},
+  Json json = {{"schema", 2},
                {"kind", "lanelight-stress"},
                {"version", FullVersion()},
                {"machine", lanelight::ToJson(result.machine)},

@@ -25,9 +25,6 @@ std::vector<JudgedPoint> Try(const Case& about, double parameter, const Effort& 
     std::vector<JudgedPoint> points;
     for (Point& point : about.measure(parameter, effort)) {
       point.parameter = parameter;
-      if (about.truth == Truth::kRate && point.trials > 0) {
-        point.measured = double(point.failures) / double(point.trials);
-      }
       points.emplace_back().point = std::move(point);
     }
     if (!points.empty()) return points;

@@ -13,56 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// P(X >= count) of a binomial.
-double AtLeast(double count, double trials, double rate) {
-  if (count <= 0) return 1;
-  if (count > trials || rate <= 0) return 0;
-  return rate >= 1 ? 1 : stat::BetaI(count, trials - count + 1, rate);
-}
-
-// The least count that the test rejects; trials + 1 if it rejects none.
-double FirstRejected(double trials, double rate, double level) {
-  double accepted = 0, rejected = trials + 1;
-  while (rejected - accepted > 1) {
-    const double middle = std::floor((accepted + rejected) / 2);
-    (AtLeast(middle, trials, rate) <= level ? rejected : accepted) = middle;
-  }
-  return rejected;
-}
-
-// The rate that gives `count` or more with probability kPower.
-double RateFound(double count, double trials) {
-  if (count > trials) return kInfinity;
-  double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (AtLeast(count, trials, middle) < kPower ? low : high) = middle;
-  }
-  return high;
-}
-
 PointVerdict Faulty(PointVerdict verdict, Fault fault, std::string why) {
   verdict.fault = fault;
   verdict.why = std::move(why);
   return verdict;
-}
-
-PointVerdict JudgeRate(const Point& point, double level) {
-  PointVerdict verdict;
-  if (point.trials == 0 || point.failures > point.trials || !(point.expected >= 0)) {
-    return Faulty(verdict, Fault::kNotNumber, "a rate without trials");
-  }
-  const double trials = double(point.trials), failures = double(point.failures);
-  const double p = AtLeast(failures, trials, point.expected);
-  const double rejected = FirstRejected(trials, point.expected, level);
-  verdict.z = p <= 0 ? kInfinity : p >= 0.5 ? 0 : -stat::NormalQuantile(p);
-  verdict.allowance = std::max(0.0, (rejected - 1) / trials - point.expected);
-  verdict.detectable = RateFound(rejected, trials);
-  verdict.weak = verdict.detectable > kWeakFrom;
-  if (p > level) return verdict;
-  return Faulty(verdict, Fault::kTooOften,
-                fmt::format("{} of {} failed, {:.3g} promised", point.failures,
-                            point.trials, point.expected));
 }
 
 std::string OffText(const Point& point, double error) {
@@ -125,9 +79,8 @@ double ScaleOf(const Point& point) {
   return expected > 0 ? expected : point.scale;
 }
 
-PointVerdict Judge(Truth truth, const Point& point, double level) {
+PointVerdict Judge(const Point& point, double level) {
   if (!point.refused.empty()) return Faulty({}, Fault::kRefused, point.refused);
-  if (truth == Truth::kRate) return JudgeRate(point, level);
   const PointVerdict verdict = JudgeValue(point, level);
   if (!verdict.good() || point.invalid == 0) return verdict;
   return Faulty(verdict, Fault::kInvalid,

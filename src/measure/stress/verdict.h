@@ -23,25 +23,24 @@ double LevelOf(double family, std::size_t points);
 enum class Fault {
   kNone,
   kOff,        // further from the expected value than tolerance and noise allow
-  kTooOften,   // failures are more frequent than promised
   kInvalid,    // NaN, infinite or negative samples
-  kNotNumber,  // the mean or its error is no number, or there was no trial
+  kNotNumber,  // the mean or its error is no number
   kRefused,    // a message instead of a number
   kCrashed,    // an exception that is no InputError
 };
-/// "", "off", "too often", "invalid samples", "not a number", "refused", "crashed".
+/// "", "off", "invalid samples", "not a number", "refused", "crashed".
 const char* Name(Fault fault);
 
 struct PointVerdict {
   Fault fault = Fault::kNone;
   std::string why;  // a few words; empty if there is no fault
   /// Standard errors by which the error exceeds the tolerance: 0 within it, infinite
-  /// where there is no noise. Of a rate: the normal deviate of its p-value.
+  /// where there is no noise.
   double z = 0;
-  /// How far `measured` may be from `expected`, noise included; of a rate, how far above.
+  /// How far `measured` may be from `expected`, noise included.
   double allowance = 0;
   /// Error, relative to the expected value, that would be found with a probability of
-  /// kPower; of a rate, the rate itself. Infinite: nothing would be.
+  /// kPower. Infinite: nothing would be.
   double detectable = 0;
   /// The detectable error is above kWeakFrom: passing says little.
   bool weak = false;
@@ -51,13 +50,11 @@ struct PointVerdict {
 
 /// Judges a point by a test of this `level`.
 ///
-/// Values: |measured - expected| may be the tolerance and as many standard errors as
+/// |measured - expected| may be the tolerance and as many standard errors as
 /// Student's t has at that level, with the degrees of freedom of the standard error. So a
 /// true value within the tolerance fails with probability `level` at most, as far as the
-/// noise is normal. Rates: the exact binomial
-/// test that the probability of failure is the promised one or less (Clopper and Pearson
-/// 1934). Invalid samples are a fault, except of a rate.
-PointVerdict Judge(Truth truth, const Point& point, double level);
+/// noise is normal. Invalid samples are a fault.
+PointVerdict Judge(const Point& point, double level);
 
 /// What errors of a point are relative to: |expected|, or its scale.
 double ScaleOf(const Point& point);

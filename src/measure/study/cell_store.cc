@@ -11,6 +11,11 @@
 #include "src/base/state/state_file.h"
 
 namespace lanelight {
+
+// What is kept of a stage.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StageProfile, name, calls, items, lane_slots, seconds,
+                                   bytes_per_item)
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,24 +27,9 @@ Json IdentityOfCells(const std::string& strategy, std::uint64_t spp) {
   return {{"format", kFormat}, {"strategy", strategy}, {"spp", spp}};
 }
 
-// Calls with_member(name, member) for what is kept of a stage, which may be const.
-template <class Stage, class Do>
-void ForEachMember(Stage& stage, const Do& with_member) {
-  with_member("name", stage.name);
-  with_member("calls", stage.calls);
-  with_member("items", stage.items);
-  with_member("lane_slots", stage.lane_slots);
-  with_member("seconds", stage.seconds);
-  with_member("bytes_per_item", stage.bytes_per_item);
-}
-
 std::string ReportOf(const Cells& cells) {
-  Json json = {{"repetitions", Json::array()}, {"stages", Json::array()}};
+  Json json = {{"repetitions", Json::array()}, {"stages", cells.stages}};
   for (const Measurement& m : cells.repetitions) json["repetitions"].push_back(ToJson(m));
-  for (const StageProfile& s : cells.stages) {
-    Json& stage = json["stages"].emplace_back();
-    ForEachMember(s, [&](const char* name, const auto& value) { stage[name] = value; });
-  }
   return DumpJson(json);
 }
 
@@ -47,10 +37,7 @@ void ReadReport(const Json& json, Cells& cells) {
   for (const Json& m : json.at("repetitions")) {
     cells.repetitions.push_back(MeasurementFromJson(m));
   }
-  for (const Json& stage : json.at("stages")) {
-    ForEachMember(cells.stages.emplace_back(),
-                  [&](const char* name, auto& value) { stage.at(name).get_to(value); });
-  }
+  json.at("stages").get_to(cells.stages);
 }
 
 constexpr char kFirst[] = "first";
@@ -109,21 +96,6 @@ void CellStore::Save(const std::string& strategy, std::uint64_t spp,
       cells.moments.Column(),
       MakeStateColumn<double>(kFirst, "the first render: R, G, B", cells.first)};
   WriteState(content, Path(strategy, spp));
-}
-
-void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum) {
-  for (const StageProfile& m : more) {
-    const auto same = [&](const StageProfile& s) { return s.name == m.name; };
-    const auto found = std::find_if(sum.begin(), sum.end(), same);
-    if (found == sum.end()) {
-      sum.push_back(m);
-      continue;
-    }
-    found->calls += m.calls;
-    found->items += m.items;
-    found->lane_slots += m.lane_slots;
-    found->seconds += m.seconds;
-  }
 }
 
 }  // namespace lanelight

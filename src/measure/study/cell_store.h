@@ -42,7 +42,4 @@ class CellStore {
   PixelRect window_;
 };
 
-/// Adds the profile of one more render.
-void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum);
-
 }  // namespace lanelight

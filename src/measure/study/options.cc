@@ -58,19 +58,6 @@ std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
   return strategies;
 }
 
-std::vector<std::string> SplitStrategies(const std::string& list) {
-  std::vector<std::string> items;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(';', begin), list.size());
-    std::size_t first = begin, last = end;
-    while (first < last && list[first] == ' ') ++first;
-    while (last > first && list[last - 1] == ' ') --last;
-    if (last > first) items.push_back(list.substr(first, last - first));
-    begin = end + 1;
-  }
-  return items;
-}
-
 int PaperFigure(const std::string& name) {
   const auto found = std::find(std::begin(kFigures), std::end(kFigures), name);
   return found == std::end(kFigures) ? 0 : 2 + static_cast<int>(found - kFigures);

@@ -50,9 +50,6 @@ struct NamedStrategy {
 std::vector<NamedStrategy> StudyStrategies(const StudyOptions& options,
                                            const Strategy& base);
 
-/// "A;B;C" without empty items.
-std::vector<std::string> SplitStrategies(const std::string& list);
-
 /// Number of the figure of the founding paper that a preset makes (2 to 7), or 0.
 int PaperFigure(const std::string& name);
 

@@ -9,22 +9,12 @@
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
 #include "src/base/image/variance_unit.h"
+#include "src/measure/compare/noisy_channels.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 
 namespace lanelight {
 namespace {
-
-// The channels of the variances of three others, which may be one.
-bool FindVariance(const Image& image, const std::array<int, 3>& of,
-                  std::array<int, 3>& channels) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    channels[c] =
-        image.FindChannel("variance." + image.names[static_cast<std::size_t>(of[c])]);
-    if (channels[c] < 0) return false;
-  }
-  return true;
-}
 
 // The window of the image in one set of channels; `offset`: of the window in the image.
 std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int x0,
@@ -64,7 +54,6 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
   const Image image = ReadImage(path);
   const auto color = ColorChannels(image);
   if (!color) throw InputError("reference '" + path + "': " + NoColorChannels(image));
-  std::array<int, 3> variance;
   const bool whole = image.width == full_width && image.height == full_height;
   if (!whole && (image.width != window.width() || image.height != window.height())) {
     throw InputError(
@@ -76,8 +65,8 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
   const int x0 = whole ? window.x0 : 0, y0 = whole ? window.y0 : 0;
   Piece piece = {Cut(image, *color, x0, y0, window), {}};
   CheckFinite(path, piece.mean);
-  if (FindVariance(image, *color, variance)) {
-    piece.variance = Cut(image, variance, x0, y0, window);
+  if (const std::vector<int> v = FindNoisyChannels(image).variances; !v.empty()) {
+    piece.variance = Cut(image, {v.front(), v[v.size() / 2], v.back()}, x0, y0, window);
     const double unit = VarianceUnit(image);
     for (Rgb& v : piece.variance) {
       v *= unit;

@@ -8,6 +8,7 @@
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/saving.h"
+#include "src/render/wave/profile.h"
 #include "src/scene/description/image_changes.h"
 
 namespace lanelight {

@@ -35,7 +35,7 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
     case RateComparison::Verdict::kNotComparable:
       break;
   }
-  std::string why = Joined(comparison.busy);
+  std::string why = fmt::format("{}", fmt::join(comparison.busy, "; "));
   if (why.empty()) {
     why = comparison.refused.empty()
               ? "no row is in both"

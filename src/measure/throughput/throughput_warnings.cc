@@ -25,18 +25,13 @@ std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
   return reasons;
 }
 
-std::string Joined(const std::vector<std::string>& reasons) {
-  std::string text;
-  for (const std::string& reason : reasons) text += (text.empty() ? "" : "; ") + reason;
-  return text;
-}
-
 std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
                                             double within) {
   std::vector<std::string> warnings;
-  if (const std::string busy = Joined(BusyReasons(rows, ThisMachine())); !busy.empty()) {
-    warnings.push_back("The machine was busy: " + busy +
-                       ". Rates per second of processor time say more.");
+  if (const auto busy = BusyReasons(rows, ThisMachine()); !busy.empty()) {
+    warnings.push_back(fmt::format(
+        "The machine was busy: {}. Rates per second of processor time say more.",
+        fmt::join(busy, "; ")));
   }
   double worst = 0;
   for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());

@@ -15,9 +15,6 @@ std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                                      const MachineInfo& machine);
 inline constexpr double kMostWaiting = 0.1;
 
-/// With "; " between them.
-std::string Joined(const std::vector<std::string>& reasons);
-
 /// What a reader of these rows has to know, one sentence each: that the machine was busy,
 /// and that medians are known less well than within `within`.
 std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,

@@ -1,5 +1,7 @@
 #include "src/render/wave/profile.h"
 
+#include <algorithm>
+
 namespace lanelight {
 namespace {
 
@@ -44,6 +46,21 @@ std::vector<StageProfile> EmptyParts() {
   std::vector<StageProfile> parts(kNumTaskParts);
   for (int i = 0; i < kNumTaskParts; ++i) parts[i].name = Name(static_cast<TaskPart>(i));
   return parts;
+}
+
+void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum) {
+  for (const StageProfile& m : more) {
+    const auto same = [&](const StageProfile& s) { return s.name == m.name; };
+    const auto found = std::find_if(sum.begin(), sum.end(), same);
+    if (found == sum.end()) {
+      sum.push_back(m);
+      continue;
+    }
+    found->calls += m.calls;
+    found->items += m.items;
+    found->lane_slots += m.lane_slots;
+    found->seconds += m.seconds;
+  }
 }
 
 void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result) {

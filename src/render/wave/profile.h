@@ -18,6 +18,9 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan);
 /// The same for the parts of a task that are no stages.
 std::vector<StageProfile> EmptyParts();
 
+/// Adds profiles of another run to those of the same names.
+void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum);
+
 /// Adds the memory of one thread's wavefront and what its clock has counted; the clock
 /// gives its trace away. `clock` may be null.
 void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& result);

@@ -56,7 +56,8 @@ int LeaksOfAll(int count_per_mesh) {
   };
   for (const Mesh& m : {Mesh{4, 6, {0, 0, 0}, 1}, Mesh{5, 6, {100, 3, -7}, 1},
                         Mesh{40, 60, {0.3f, 0.1f, 0}, 1}, Mesh{9, 300, {0, 0, 0}, 1e6f},
-                        Mesh{60, 9, {0, 1e-3f, 0}, 1e-6f}}) {
+                        Mesh{60, 9, {0, 1e-3f, 0}, 1e-6f}, Mesh{2, 10000, {0, 0, 0}, 1},
+                        Mesh{100, 100, {148, 1, -223}, 1}}) {
     const Geometry g = brute::SphereMesh(m.rings, m.segments, m.center, m.radius);
     const CompiledScene scene = MakeScene(g);
     CAPTURE(m.rings, m.segments, m.radius);

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
-#include "src/measure/live/commands.h"
-#include "src/measure/live/picture.h"
+#include "src/measure/live/session.h"
 #include "tests/measure/live/live_scene.h"
 
 namespace lanelight::live {
@@ -40,23 +39,11 @@ ReadPicture Read(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("messages are understood", "[live]") {
-  CHECK(std::get<ChooseStrategy>(
-            ParseCommand(R"({"do": "strategy", "slot": 1, "name": "points=cmj"})"))
-            .name == "points=cmj");
-  CHECK(std::get<ChoosePace>(ParseCommand(R"({"do": "pace", "by": "samples"})")).pace ==
-        Pace::kSamples);
-  CHECK(std::get<Pause>(ParseCommand(R"({"do": "pause", "on": true})")).on);
-  CHECK(std::get<ChooseLayer>(ParseCommand(R"({"do": "layer", "name": "rays"})")).layer ==
-        Layer::kRays);
-  const Ask ask = std::get<Ask>(ParseCommand(R"({"do": "ask", "x": 3, "y": 4})"));
-  CHECK((ask.x == 3 && ask.y == 4));
-  CHECK(std::get<Seen>(ParseCommand(R"({"do": "seen", "what": 2})")).what == 2);
-  CHECK(std::get<SaveExr>(ParseCommand(R"({"do": "exr", "slot": 0})")).slot == 0);
-}
-
 TEST_CASE("messages that are not understood are refused, with what would be right",
           "[live]") {
+  Stage stage = SmallStage();
+  Session session(stage, "", [](const std::string&, bool) {});
+  const auto obey = [&](const std::string& text) { session.Do(ParseMessage(text)); };
   const std::string deep(100000, '[');
   for (const std::string& text :
        {std::string(""), std::string("{"), std::string("[]"), std::string("{}"),
@@ -68,11 +55,11 @@ TEST_CASE("messages that are not understood are refused, with what would be righ
         std::string(R"({"do": "ask", "x": -1, "y": 0})"),
         std::string(R"({"do": "pause", "on": 1})"), deep, std::string("\xff\xfe")}) {
     INFO(text.substr(0, 60));
-    CHECK_THROWS_AS(ParseCommand(text), InputError);
+    CHECK_THROWS_AS(obey(text), InputError);
   }
-  CHECK_THROWS_WITH(ParseCommand(R"({"do": "camara"})"),
+  CHECK_THROWS_WITH(obey(R"({"do": "camara"})"),
                     Catch::Contains("did you mean \"camera\""));
-  CHECK_THROWS_WITH(ParseCommand(R"({"do": "layer", "name": "ray"})"),
+  CHECK_THROWS_WITH(obey(R"({"do": "layer", "name": "ray"})"),
                     Catch::Contains("\"rays\""));
 }
 

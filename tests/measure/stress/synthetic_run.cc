@@ -46,15 +46,9 @@ std::vector<Case> SyntheticCases() {
   }));
   cases.push_back(
       PlantedMap("noisy", [](double) { return std::vector{Around1(1, 0.1)}; }));
-  Case rate = PlantedMap("rare", [](double x) {
-    Point point;
-    point.expected = 1e-3;
-    point.trials = 10000;
-    point.failures = std::uint64_t(x > 1e2 ? x : x / 10);
-    return std::vector{point};
-  });
-  rate.truth = Truth::kRate;
-  cases.push_back(rate);
+  cases.push_back(PlantedMap("rare", [](double x) {
+    return std::vector{Around1(1 + (x > 1e2 ? x / 1e4 : 0), 1e-5)};
+  }));
   Case angle = PlantedMap(
       "angle", [](double x) { return std::vector{SwingingPoint("", 20 + x, 0)}; });
   angle.axis = {"angle", "degrees", false, 0, 180, {-10, 0, 45, 90, 180, 200}, {}};

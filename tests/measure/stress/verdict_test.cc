@@ -15,17 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLevel = 1e-6;  // 4.892 standard errors
 
-Fault FaultOf(const Point& point, Truth truth = Truth::kClosedForm) {
-  return Judge(truth, point, kLevel).fault;
-}
-
-Point Rate(double promised, std::uint64_t failures, std::uint64_t trials) {
-  Point point;
-  point.expected = promised;
-  point.failures = failures;
-  point.trials = trials;
-  return point;
-}
+Fault FaultOf(const Point& point) { return Judge(point, kLevel).fault; }
 
 }  // namespace
 
@@ -34,8 +24,8 @@ TEST_CASE("stress: without noise the tolerance decides", "[stress]") {
   CHECK(FaultOf(Around1(1 + 1e-15)) == Fault::kOff);
   CHECK(FaultOf(Around1(1.0009, 0, 1e-3)) == Fault::kNone);
   CHECK(FaultOf(Around1(0.9989, 0, 1e-3)) == Fault::kOff);
-  CHECK(std::isinf(Judge(Truth::kTwin, Around1(1.1), kLevel).z));
-  CHECK(Judge(Truth::kTwin, Around1(1.1), kLevel).why == "off by +10 %");
+  CHECK(std::isinf(Judge(Around1(1.1), kLevel).z));
+  CHECK(Judge(Around1(1.1), kLevel).why == "off by +10 %");
 }
 
 TEST_CASE("stress: noise is allowed for by the level", "[stress]") {
@@ -44,7 +34,7 @@ TEST_CASE("stress: noise is allowed for by the level", "[stress]") {
   CHECK(FaultOf(Around1(1 + 5 * 0.01, 0.01)) == Fault::kOff);
   // Both together, and z counts beyond the tolerance.
   CHECK(FaultOf(Around1(1.02 + 4.89 * 0.01, 0.01, 0.02)) == Fault::kNone);
-  const PointVerdict off = Judge(Truth::kTwin, Around1(1.02 + 0.05, 0.01, 0.02), kLevel);
+  const PointVerdict off = Judge(Around1(1.02 + 0.05, 0.01, 0.02), kLevel);
   CHECK(off.fault == Fault::kOff);
   CHECK(off.z == Approx(5));
   // Four estimates of the noise say less than infinitely many: Student's t.
@@ -69,31 +59,11 @@ TEST_CASE("stress: what is no number fails", "[stress]") {
   Point refused = Around1(1);
   refused.refused = "scene:1: error: too large";
   CHECK(FaultOf(refused) == Fault::kRefused);
-  CHECK(Judge(Truth::kRate, refused, kLevel).why == refused.refused);
-}
-
-TEST_CASE("stress: rates are tested exactly", "[stress]") {
-  CHECK(FaultOf(Rate(0, 0, 100), Truth::kRate) == Fault::kNone);
-  CHECK(FaultOf(Rate(0, 1, 100), Truth::kRate) == Fault::kTooOften);
-  // P(X >= 27) = 7.2e-6 and P(X >= 30) = 3.4e-7 of 1000 trials at 1 %.
-  CHECK(FaultOf(Rate(0.01, 27, 1000), Truth::kRate) == Fault::kNone);
-  CHECK(FaultOf(Rate(0.01, 30, 1000), Truth::kRate) == Fault::kTooOften);
-  CHECK(FaultOf(Rate(0.01, 0, 0), Truth::kRate) == Fault::kNotNumber);
-  CHECK(FaultOf(Rate(0.01, 3, 2), Truth::kRate) == Fault::kNotNumber);
-  CHECK(FaultOf(Rate(kNan, 0, 2), Truth::kRate) == Fault::kNotNumber);
-  Point rare = Rate(0.5, 1, 10);
-  rare.invalid = 1;  // this is what is counted
-  CHECK(FaultOf(rare, Truth::kRate) == Fault::kNone);
-  // Never in 100 trials: 1 - 0.1^(1/100) would be seen nine times in ten.
-  CHECK(Judge(Truth::kRate, Rate(0, 0, 100), kLevel).detectable ==
-        Approx(1 - std::pow(0.1, 0.01)));
-  CHECK(Judge(Truth::kRate, Rate(0, 0, 10), kLevel).weak);
-  // Ten failures of ten are not rare enough under a promise of a half: 2^-10 > 1e-6.
-  CHECK(std::isinf(Judge(Truth::kRate, Rate(0.5, 0, 10), kLevel).detectable));
+  CHECK(Judge(refused, kLevel).why == refused.refused);
 }
 
 TEST_CASE("stress: a check that cannot fail is weak", "[stress]") {
-  const auto weak = [](const Point& p) { return Judge(Truth::kTwin, p, kLevel).weak; };
+  const auto weak = [](const Point& p) { return Judge(p, kLevel).weak; };
   CHECK_FALSE(weak(Around1(1)));
   CHECK_FALSE(weak(Around1(1, 0, 0.09)));
   CHECK(weak(Around1(1, 0, 0.11)));
@@ -111,7 +81,7 @@ TEST_CASE("stress: the detectable error is found nine times in ten", "[stress]")
   constexpr int kDraws = 20000;
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.01);
-  const PointVerdict verdict = Judge(Truth::kTwin, Around1(1, 0.01, 0.004), kLevel);
+  const PointVerdict verdict = Judge(Around1(1, 0.01, 0.004), kLevel);
   int found = 0;
   for (int i = 0; i < kDraws; ++i) {
     found += FaultOf(Around1(1 + verdict.detectable + noise(random), 0.01, 0.004)) ==

@@ -8,6 +8,7 @@
 #include "src/measure/report/shrink.h"
 #include "src/measure/study/study_images.h"
 #include "src/render/films/colors.h"
+#include "src/render/wave/profile.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/measure/study/simulated.h"
 

@@ -372,7 +372,6 @@ TEST_CASE("the verdict names what rare bright samples hide", "[study]") {
 }
 
 TEST_CASE("lists of strategies", "[study]") {
-  CHECK(SplitStrategies(" a=b ;; c ;") == std::vector<std::string>{"a=b", "c"});
   StudyOptions options;
   const auto usual = StudyStrategies(options, {});
   REQUIRE(usual.size() == 9);

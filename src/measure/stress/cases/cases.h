@@ -12,9 +12,9 @@ namespace lanelight::stress {
 #define LANELIGHT_STRESS_CASES(X)                                                     \
   X(Unit)                                                                             \
   /* Materials. */                                                                    \
-  X(Roughness) X(Glass)                                                               \
+  X(Roughness)                                                                        \
   /* Lights, and the way from them. */                                                \
-  X(LightSize) X(ManyLight) X(Radiance) X(Transport) X(Reuse) X(Media)                \
+  X(LightSize) X(ManyLight) X(Radiance) X(Transport) X(Reuse)                         \
   /* Strategies. */                                                                   \
   X(Strategy)
 // clang-format on

@@ -22,20 +22,6 @@ Axis LogAxis(std::string name, std::string unit, Promise promise,
           promise.high,    std::move(quick), std::move(full)};
 }
 
-Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
-                 Promise promise) {
-  std::vector<double> quick, full;
-  for (int k = exponents.low; k <= exponents.high; k += exponents.step) {
-    quick.push_back(std::pow(10.0, k));
-  }
-  for (int k = 3 * exponents.low; k <= 3 * exponents.high; ++k) {
-    full.push_back(std::pow(10.0, k / 3.0));
-  }
-  return LogAxis(std::move(name), std::move(unit),
-                 {std::pow(10, promise.low) * 0.99, std::pow(10, promise.high) * 1.01},
-                 std::move(quick), std::move(full));
-}
-
 SceneText Setup(const std::string& text, const Quality& quality, const Effort& effort) {
   SceneText scene;
   scene.text = text;

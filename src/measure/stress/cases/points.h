@@ -26,33 +26,16 @@ std::vector<double> Decades(double first, double last, double step = 1);
 Axis LogAxis(std::string name, std::string unit, Promise promise,
              std::vector<double> quick, std::vector<double> full = {});
 
-struct Exponents {
-  int low, high, step = 1;
-};
-/// 10^low to 10^high, every `step` decades; three values a decade with full effort.
-/// `promise`: exponents too.
-Axis DecadesAxis(std::string name, std::string unit, Exponents exponents,
-                 Promise promise);
-
-/// A case that is not a map.
-inline Axis Single() { return {}; }
-
-/// A case but for its group and its truth.
-struct CaseText {
-  std::string name, extreme, must;
-  Axis axis;
-  decltype(Case::measure) measure;
-  std::string source = {};
-};
 /// Adds cases of one group and truth.
 struct CaseAdder {
   std::vector<Case>& cases;
   const char* group;
   Truth truth;
 
-  void operator()(const CaseText& text) const {
-    cases.push_back({text.name, group, text.extreme, text.must, text.source, truth,
-                     text.axis, text.measure});
+  void operator()(Case about) const {
+    about.group = group;
+    about.truth = truth;
+    cases.push_back(std::move(about));
   }
 };
 

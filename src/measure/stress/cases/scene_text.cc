@@ -61,10 +61,6 @@ std::string Glass(double eta, double alpha) {
   return fmt::format("\"dielectric\" \"float eta\" {:.17g}", eta) + Alphas(alpha, alpha);
 }
 
-std::string ThinGlass(double eta) {
-  return fmt::format("\"thindielectric\" \"float eta\" {:.17g}", eta);
-}
-
 std::string Sky(double radiance) {
   return "LightSource \"infinite\"" + Grey("L", radiance) + "\n";
 }

@@ -38,7 +38,6 @@ std::string Alphas(double alpha_x, double alpha_y);
 /// A metal of this reflectance at normal incidence.
 std::string Metal(double reflectance, double alpha_x, double alpha_y);
 std::string Glass(double eta, double alpha = 0);
-std::string ThinGlass(double eta);
 
 // Lights.
 

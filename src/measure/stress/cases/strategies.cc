@@ -119,38 +119,34 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
 }  // namespace
 
 void AddStrategyCases(std::vector<Case>& cases) {
-  const auto add = [&](const char* name, const char* extreme, const char* must, Axis axis,
-                       auto measure) {
-    cases.push_back({name, "strategies", extreme, must, "", Truth::kClosedForm,
-                     std::move(axis), measure});
-  };
-  add("strategies-light-radius", "a sphere light of radius 1e-8 to 0.5, every strategy",
-      "the plane below shows the closed form",
-      LogAxis("radius", "", {1e-8, 0.5}, {1e-8, 1e-5, 1e-3, 0.03, 0.5},
-              {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
-      ByLightRadius);
-  add("strategies-albedo", "a closed room of albedo 0.5 to 1 - 1e-5, every strategy",
-      "the room is in balance: 1",
-      LogAxis("1 - albedo", "", {1e-5, 0.5}, {1e-3, 0.01, 0.1, 0.5},
-              {1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
-      ByAlbedo);
-  add("strategies-roughness", "metal of alpha 1e-8 to 1 under a sky, every strategy",
-      "the albedo of single scattering",
-      LogAxis("GGX alpha", "", {0, 1}, {1e-8, 1e-3, 0.01, 0.1, 1}, Decades(-8, 0)),
-      ByRoughness);
-  add("strategies-radiance-ratio",
-      "a light 1 to 1e12 times as bright as the sky, every strategy",
-      "the plane shows the sum of both",
-      LogAxis("ratio", "", {1, 1e12}, Decades(0, 12, 4), Decades(0, 12)), ByRatio);
-  add("strategies-lights", "1 to 1e4 point lights over six decades, every strategy",
-      "the plane shows their sum",
-      LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4}, {1, 10, 100, 1e3, 1e4, 1e5, 1e6}),
-      ByLights);
-  add("strategies-transmittance",
-      "a sky behind sheets that let 1 to 1e-12 through, every strategy",
-      "the product of what they let through",
-      LogAxis("transmitted", "", {1e-30, 1}, {1e-12, 1e-6, 1e-3, 1}, Decades(-30, 0, 3)),
-      ByTransmittance);
+  const CaseAdder add{cases, "strategies", Truth::kClosedForm};
+  add({"strategies-light-radius", "a sphere light of radius 1e-8 to 0.5, every strategy",
+       "the plane below shows the closed form",
+       LogAxis("radius", "", {1e-8, 0.5}, {1e-8, 1e-5, 1e-3, 0.03, 0.5},
+               {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
+       ByLightRadius});
+  add({"strategies-albedo", "a closed room of albedo 0.5 to 1 - 1e-5, every strategy",
+       "the room is in balance: 1",
+       LogAxis("1 - albedo", "", {1e-5, 0.5}, {1e-3, 0.01, 0.1, 0.5},
+               {1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
+       ByAlbedo});
+  add({"strategies-roughness", "metal of alpha 1e-8 to 1 under a sky, every strategy",
+       "the albedo of single scattering",
+       LogAxis("GGX alpha", "", {0, 1}, {1e-8, 1e-3, 0.01, 0.1, 1}, Decades(-8, 0)),
+       ByRoughness});
+  add({"strategies-radiance-ratio",
+       "a light 1 to 1e12 times as bright as the sky, every strategy",
+       "the plane shows the sum of both",
+       LogAxis("ratio", "", {1, 1e12}, Decades(0, 12, 4), Decades(0, 12)), ByRatio});
+  add({"strategies-lights", "1 to 1e4 point lights over six decades, every strategy",
+       "the plane shows their sum",
+       LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4}, {1, 10, 100, 1e3, 1e4, 1e5, 1e6}),
+       ByLights});
+  add({"strategies-transmittance",
+       "a sky behind sheets that let 1 to 1e-12 through, every strategy",
+       "the product of what they let through",
+       LogAxis("transmitted", "", {1e-30, 1}, {1e-12, 1e-6, 1e-3, 1}, Decades(-30, 0, 3)),
+       ByTransmittance});
 }
 
 }  // namespace lanelight::stress

@@ -1,14 +1,11 @@
 // Participating media: optical depths, phase functions, units, grids, shells of glass.
+#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "src/base/core/pi.h"
-#include "src/measure/stress/cases/cases.h"
-#include "src/measure/stress/cases/points.h"
-#include "src/measure/stress/cases/scene_text.h"
+#include "tests/extremes/hold.h"
 
 namespace lanelight::stress {
 namespace {
@@ -52,7 +49,7 @@ std::string Ball(const std::string& medium, const std::string& outside, double r
 std::string ViewOfBall() { return ViewFrom({0, 0, 5}, 20); }
 
 // A slab that only absorbs, and one that emits too: products, without noise.
-std::vector<Point> ByDepthOfSlab(double depth, const Effort& effort) {
+std::vector<Point> SlabByDepth(double depth, const Effort& effort) {
   Point dimmed = Expect(std::exp(-depth),
                         ViewOfSlab() + Homogeneous("m", depth, 0) + Slab("m") + Sky(1),
                         {4, 64}, effort);
@@ -164,31 +161,23 @@ std::vector<Point> ByShells(double shells, const Effort& effort) {
 
 }  // namespace
 
-void AddMediaCases(std::vector<Case>& cases) {
-  const CaseAdder add{cases, "media", Truth::kClosedForm};
-  add({"slab-depth", "a slab of optical depth 1e-6 to 1e6",
-       "it lets e^-depth of the sky through and emits the rest",
-       LogAxis("optical depth", "", {1e-6, 1e6}, {1e-6, 1e-4, 0.01, 1, 10, 80, 1e3, 1e6}),
-       ByDepthOfSlab});
-  add({"slab-unit", "a slab lit by a lamp, 1e-12 to 1e12 deep",
-       "light that it scatters once is that of any other unit",
-       DecadesAxis("depth of the slab", "", {-12, 12, 6}, {-12, 12}), ByUnit});
-  add({"ball-depth", "a white ball of optical depth 1e-6 to 1e3",
-       "in front of an even sky it cannot be seen",
-       LogAxis("optical depth", "", {1e-6, 1e3}, {1e-6, 1e-3, 1, 10, 100, 1000}),
-       ByDepthOfBall});
-  add({"phase-g", "asymmetry of scattering up to 1 - 1e-3 either way",
-       "a white ball cannot be seen; what a slab scatters once is in closed form",
-       LogAxis("1 - |g|", "", {1e-3, 1}, {1e-3, 0.01, 0.1, 1}), ByPhase,
-       "Henyey and Greenstein 1941"});
-  add({"grid-contrast", "a grid with a layer up to 1e6 times as dense as the others",
-       "it lets e^-1 of the sky through",
-       LogAxis("contrast", "", {1e-6, 1e6}, Decades(-6, 6, 3), Decades(-6, 6, 1)),
-       ByContrast});
-  add({"nested-glass-media",
-       "up to 32 shells of glass of two indices, filled with white media",
-       "in front of an even sky they cannot be seen",
-       LogAxis("shells", "", {1, 32}, {1, 2, 8, 32}), ByShells});
+TEST_CASE("extremes: slabs of optical depth 1e-6 to 1e6") {
+  Hold({1e-6, 1e-4, 0.01, 1, 10, 80, 1e3, 1e6}, SlabByDepth);
+}
+TEST_CASE("extremes: a slab lit by a lamp, in units of 1e-12 to 1e12") {
+  Hold(Decades(-12, 12, 6), ByUnit);
+}
+TEST_CASE("extremes: a white ball of optical depth up to 1000 is not seen in the sky") {
+  Hold({1e-6, 1e-3, 1, 10, 100, 1000}, ByDepthOfBall);
+}
+TEST_CASE("extremes: asymmetries of scattering up to 1 - 1e-3 either way") {
+  Hold({1e-3, 0.01, 0.1, 1}, ByPhase);
+}
+TEST_CASE("extremes: a grid with a layer 1e-6 to 1e6 times as dense as the others") {
+  Hold(Decades(-6, 6, 3), ByContrast);
+}
+TEST_CASE("extremes: up to 32 shells of glass of two indices, filled with media") {
+  Hold({1, 2, 8, 32}, ByShells);
 }
 
 }  // namespace lanelight::stress
