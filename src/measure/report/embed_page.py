@@ -16,18 +16,18 @@ import sys
 COMMON = "dom page inputs format"
 REPORT = f"{COMMON} data view strategies table"
 PLOTS = "whisker scale plot_draw plot plot_save plot_legend"
-CURVES = f"{REPORT} {PLOTS} guides curves"
+CURVES = f"{REPORT} {PLOTS} guides"
 IMAGES = "tone picture place pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts.
 PAGES = {
     "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
-             f"""{CURVES} {IMAGES} hero warnings summary ranking ranking_columns calibration
+             f"""{CURVES} {IMAGES} curves hero warnings summary ranking ranking_columns calibration
              figures figures_level insets maps stages levels glossary main"""),
     "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
                   "images",
-                  f"""{CURVES} tone picture difference hero summary ranking_columns figures
+                  f"""{CURVES} tone picture difference curves hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
     "ComparePage": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
@@ -45,7 +45,7 @@ PAGES = {
                    stress_main"""),
     "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
-                 f"""{COMMON} strategies whisker scale plot_draw tone place live_socket live_camera
+                 f"""{COMMON} strategies scale plot_draw tone place live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save
                  live_main"""),
