@@ -130,7 +130,7 @@ bool StaysInObject(const SceneDescription& d, const Shape& shape, bool moves) {
   return (is_mesh || (moves && is_round)) && EmittingLight(d, shape) == kNone;
 }
 
-// World coordinates and sizes of scenes that can be brought to unit size (frame.cc): the
+// World coordinates and sizes of scenes that can be brought to unit size (world_frame.cc): the
 // squares of their lengths and of the scale are ordinary numbers of double precision.
 constexpr double kFarthest = 1e100, kSmallest = 1e-100;
 
