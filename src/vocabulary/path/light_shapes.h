@@ -1,5 +1,5 @@
 // The shapes of lights, with what the rest of the program must know of each. A shape has
-// the feature of its line, and stages of it ask for that (kernels/README.md).
+// the feature of its line, and stages of it ask for that (docs/recipes.md).
 #pragma once
 
 #include <cstdint>
