@@ -18,6 +18,7 @@
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/render/job/job.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/wave/tiles.h"
 

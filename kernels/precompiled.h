@@ -1,5 +1,6 @@
-// What kernel files include of others, compiled once before all of them. Nothing of
-// Highway's own that differs by target may be here.
+// What all kernel files include of others, compiled once before them. Nothing of
+// Highway's own that differs by target may be here, and no table of the scene: a change
+// of one compiles only the kernels that read it.
 #pragma once
 
 #include "kernels/targets.h"
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "hwy/base.h"
-#include "src/scene/accel/accel.h"
-#include "src/scene/compiled/scene.h"
-#include "src/scene/prepare/tables.h"
+#include "src/base/core/aligned.h"
+#include "src/base/core/vec.h"
 #include "src/vocabulary/path/stage.h"

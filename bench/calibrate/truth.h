@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "src/base/core/source_location.h"
 #include "src/measure/study/measurement.h"
 #include "src/measure/study/reference.h"
 #include "src/render/job/job.h"

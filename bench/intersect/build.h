@@ -7,6 +7,8 @@
 
 #include "bench/intersect/mesh.h"
 
+#include "src/scene/accel/build.h"
+
 namespace lanelight::bench {
 
 /// Of one build.

@@ -1,4 +1,6 @@
 // Embree 3 as a peer: every call, quality and mode.
+#include <fmt/format.h>
+
 #include "bench/cpu_clock.h"
 #include "bench/intersect/embree_calls.h"
 #include "bench/intersect/embree_scene.h"

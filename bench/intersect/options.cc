@@ -1,5 +1,7 @@
 #include "bench/intersect/options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "src/base/core/error.h"

@@ -8,6 +8,8 @@
 
 #include "bench/intersect/compare.h"
 
+#include "src/scene/accel/build.h"
+
 namespace lanelight::bench {
 
 struct Options {

@@ -8,7 +8,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -92,7 +92,7 @@ void Accumulate(Wave& wave) {
                  LL_DCHECK(AllUnder(valid, InBuffer(wave, output)));
                  V3 sample = Mul(Gather3(p.l_r, p.l_g, p.l_b, slots), exposure);
                  if (kSigned && p.wavelength != nullptr && !is_light) {
-                   sample = FilmColor(wave.scene->spectra, sample, {p, slots});
+                   sample = FilmColor(*wave.spectra, sample, {p, slots});
                  }
                  if (p.weight != nullptr && !is_light) {
                    sample = Mul(sample, Gather(p.weight, slots));

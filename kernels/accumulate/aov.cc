@@ -5,7 +5,8 @@
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
+#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -36,7 +37,7 @@ HWY_INLINE V3 AlbedoOf(VI kind, V3 color0, V3 k) {
 template <bool kByPath, bool kNormals>
 void Aov(Wave& wave) {
   const PathColumns& p = wave.path;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const Queue& first =
       FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
@@ -52,7 +53,7 @@ void Aov(Wave& wave) {
             : Gather3(m.color1_r.data(), m.color1_g.data(), m.color1_b.data(), material);
     V3 albedo = AlbedoOf(Gather(m.kind.data(), material), color0, color1);
     if (p.wavelength != nullptr) {
-      albedo = FilmColor(wave.scene->spectra, albedo, {p, slots});
+      albedo = FilmColor(*wave.spectra, albedo, {p, slots});
     }
     Scatter3(albedo, p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b, slots);
     const V3 n = kNormals ? Gather3(p.ns_x, p.ns_y, p.ns_z, slots)

@@ -4,7 +4,10 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/camera.h"
+#include "src/scene/compiled/footprint.h"
+#include "src/scene/compiled/gbuffer.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -40,21 +43,19 @@ HWY_INLINE FirstHit LoadHit(const Wave& wave, const Slots& slots) {
 // As a camera that moves sees it at the times of paths, and as the one that has not moved
 // would see the same, in whose space it is then said.
 HWY_NOINLINE FirstHit SeenAtStart(const Wave& wave, const Slots& slots, FirstHit hit) {
-  const CompiledView& view = *wave.view;
   const MovedSpace moved =
-      SpaceAt(OneMotion{view.camera.motion}, Gather(wave.path.time, slots));
+      SpaceAt(OneMotion{wave.camera->motion}, Gather(wave.path.time, slots));
   const Map34 forward = moved.Forward();
   const V3 p = moved.Back().Point(hit.p);
   return {p, forward.Transposed(hit.ng), forward.Transposed(hit.ns),
-          StepsAt(view.footprint, p)};
+          StepsAt(*wave.footprint, p)};
 }
 
 void Gbuffer(Wave& wave) {
   const PathColumns& path = wave.path;
-  const GbufferSpace& space = wave.view->gbuffer;
-  const PixelFootprint& footprint = wave.view->footprint;
-  const bool with_camera =
-      wave.view->camera.moves && wave.view->film.gbuffer == lanelight::Gbuffer::kCamera;
+  const GbufferSpace& space = *wave.gbuffer;
+  const PixelFootprint& footprint = *wave.footprint;
+  const bool with_camera = wave.camera->moves && space.of_camera;
   const Queue& first =
       FilterQueue(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {
         return hn::RebindMask(DF(), hn::Eq(Gather(path.depth, slots), hn::Zero(DI())));

@@ -5,7 +5,7 @@
 #define LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
 
 #include "kernels/bsdf/layer-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -14,7 +14,7 @@
 #include "kernels/bsdf/coat_grid-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 

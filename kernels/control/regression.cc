@@ -25,7 +25,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 #include "src/vocabulary/path/first_numbers.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -60,7 +60,7 @@ HWY_INLINE hn::Mask<DI> IsSpecular(VI kind) {
 
 void FirstBounce(Wave& wave) {
   const PathColumns& p = wave.path;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const Queue& first =
       FilterQueue(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots) HWY_ATTR {
         const auto open = hn::Eq(Gather(p.first_bsdf, slots), hn::Zero(DI()));

@@ -8,6 +8,7 @@
 
 #include "kernels/generate/film-inl.h"
 #include "kernels/warp/disk-inl.h"
+#include "src/scene/compiled/media.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -36,13 +37,13 @@ HWY_INLINE void StoreFirstValues(const Wave& wave, const StoreSlots& slots) {
     Scatter(hn::BitCast(DI(), bits), lists.begun.columns[i], slots);
   }
   if (wave.path.medium != nullptr) {
-    Scatter(hn::Set(DI(), wave.scene->media.camera), wave.path.medium, slots);
+    Scatter(hn::Set(DI(), wave.media->camera), wave.path.medium, slots);
   }
 }
 
 template <class Projection, bool kBox, bool kLens>
 void Camera(Wave& wave) {
-  const CompiledCamera& camera = wave.view->camera;
+  const CompiledCamera& camera = *wave.camera;
   const PathColumns& p = wave.path;
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   const V3 base = splat(camera.base), dx = splat(camera.dx), dy = splat(camera.dy);

@@ -5,14 +5,14 @@
 #include "kernels/generate/filter-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/pixel-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/camera.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 /// Film position in pixels: pixel centre plus a point distributed like |filter|.
 template <bool kBox>
 HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, VF* y) {
-  const CompiledFilter& filter = wave.scene->filter;
+  const CompiledFilter& filter = *wave.filter;
   const PathColumns& p = wave.path;
   const VI pixel = Gather(p.pixel, slots);
   const VF u0 = Gather(p.u_film_0, slots), u1 = Gather(p.u_film_1, slots);

@@ -3,7 +3,6 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/prepare/path_values.h"
 
 LANELIGHT_BEGIN_KERNELS
 

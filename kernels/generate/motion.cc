@@ -9,13 +9,13 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/motion-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/camera.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <bool kCamera>
 void Move(Wave& wave) {
-  const CompiledCamera& camera = wave.view->camera;
+  const CompiledCamera& camera = *wave.camera;
   const PathColumns& p = wave.path;
   const VF first = Splat(camera.time_first), rate = Splat(camera.time_rate);
   ForEachBatch(wave, wave.queue(QueueId::kCamera),

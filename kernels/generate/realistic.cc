@@ -16,7 +16,7 @@ LANELIGHT_BEGIN_KERNELS
 
 template <bool kBox>
 HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
-  const CompiledCamera& camera = wave.view->camera;
+  const CompiledCamera& camera = *wave.camera;
   const PathColumns& p = wave.path;
   const auto splat = [](Vec3f v) HWY_ATTR { return Splat3(v.x, v.y, v.z); };
   StoreFirstValues(wave, slots);

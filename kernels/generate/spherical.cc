@@ -43,7 +43,7 @@ struct EqualArea {
 
 template <bool kBox>
 void SphericalRays(Wave& wave) {
-  if (wave.view->camera.mapping == SphericalMapping::kEqualArea) {
+  if (wave.camera->mapping == SphericalMapping::kEqualArea) {
     Camera<EqualArea, kBox, false>(wave);
   } else {
     Camera<Equirectangular, kBox, false>(wave);

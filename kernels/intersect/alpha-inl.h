@@ -7,20 +7,23 @@
 
 #include "kernels/texture/alpha-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/alpha.h"
+#include "src/scene/compiled/texture_table.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 /// Opacity of primitive `prim` at (u, v), in [0, 1]; outside values mean the nearest end.
 /// where() -> PointOfAlpha: asked for by textures that depend on it alone.
 template <class Where>
-inline float AlphaAt(const CompiledScene& scene, uint32_t prim, float u, float v,
+inline float AlphaAt(const SceneParts& scene, uint32_t prim, float u, float v,
                      Where&& where) {
-  const int32_t id = scene.alpha_texture[prim];
-  if (id >= 0 && scene.textures.programs[id].uses_place) {
-    return AlphaAtPlace(scene.textures, id, u, v, where());
+  const int32_t id = scene.alpha->texture[prim];
+  if (id >= 0 && scene.textures->programs[id].uses_place) {
+    return AlphaAtPlace(*scene.textures, id, u, v, where());
   }
-  return EvalAlphaAt(scene.textures, id, u, v, scene.alpha_constant[prim]);
+  return EvalAlphaAt(*scene.textures, id, u, v, scene.alpha->constant[prim]);
 }
 
 /// Uniform number in [0, 1) from the bits of a ray and a primitive: the same ray makes
@@ -60,19 +63,19 @@ struct TrianglePlace {
 };
 
 /// Whether a candidate hit of ray (o, d), in scene space, counts: with probability alpha.
-inline bool TrianglePassesAlpha(const CompiledScene& scene, const float o[3],
+inline bool TrianglePassesAlpha(const SceneParts& scene, const float o[3],
                                 const float d[3], const TrianglePlace& at) {
   const auto [prim, b1, b2] = at;
-  if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return true;
+  if (!(scene.geometry->triangles[prim].flags & kAlphaTested)) return true;
   float u = b1 + b2, v = b2;  // without uvs: (0,0), (1,0), (1,1), as in pbrt
-  if (!scene.geometry.uvs.empty()) {
-    const float* uv = &scene.geometry.uvs[std::size_t{6} * prim];
+  if (!scene.geometry->uvs.empty()) {
+    const float* uv = &scene.geometry->uvs[std::size_t{6} * prim];
     const float b0 = 1 - b1 - b2;
     u = b0 * uv[0] + b1 * uv[2] + b2 * uv[4];
     v = b0 * uv[1] + b1 * uv[3] + b2 * uv[5];
   }
   const float alpha = AlphaAt(scene, prim, u, v, [&]() HWY_ATTR {
-    return PointOf(scene.geometry.triangles[at.prim], at.b1, at.b2);
+    return PointOf(scene.geometry->triangles[at.prim], at.b1, at.b2);
   });
   return AlphaHash(o, d, prim) < alpha;
 }

@@ -1,6 +1,6 @@
 // Traversal of the 8-wide BVH by one ray: the lanes are the children of a node.
 //
-// Boxes are grown by delta = margin + slack |o| (src/scene/accel/accel.h), beyond what
+// Boxes are grown by delta = margin + slack |o| (src/scene/geometry/accel.h), beyond what
 // the builder grew them by in proportion to the coordinates of each shape
 // (src/scene/accel/grow.h), so that a node is never culled by rounding if it holds a hit
 // nearer than, or as near as, the best one: then the hit found does not depend on the
@@ -21,7 +21,7 @@
 
 #include "kernels/intersect/triangle-inl.h"
 #include "src/base/core/check.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -7,8 +7,11 @@
 
 #include "kernels/intersect/curve_space-inl.h"
 #include "kernels/intersect/rays-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
 #include "src/scene/geometry/ribbon.h"
+#include "src/vocabulary/path/scene_kinds.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -73,12 +76,12 @@ struct FetchAhead {
 // Neighbouring pieces of a curve meet in a line that both may claim, at the same
 // distance.
 template <bool kAny>
-HWY_INLINE void TraceCurves(const CompiledScene& scene, const float o[3],
-                            const float d[3], CurveHit& best) {
+HWY_INLINE void TraceCurves(const SceneParts& scene, const float o[3], const float d[3],
+                            CurveHit& best) {
   const D8 d8;
-  const Geometry& geometry = scene.geometry;
+  const Geometry& geometry = *scene.geometry;
   const uint32_t first = geometry.ranges.curves;
-  const CurveBlock* blocks = scene.accel.curve_blocks.data();
+  const CurveBlock* blocks = scene.accel->curve_blocks.data();
   const CurveRay ray = MakeCurveRay(o, d);
   const auto leaf = [&](uint32_t index) HWY_ATTR {
     const CurveBlock& block = blocks[index];
@@ -114,9 +117,9 @@ HWY_INLINE void TraceCurves(const CompiledScene& scene, const float o[3],
     }
     return kAny && best.found;
   };
-  const Bvh& tree = scene.accel.curves;
-  Traverse(scene.accel.nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf,
-           FetchAhead{scene.accel.nodes.data(), blocks});
+  const Bvh& tree = scene.accel->curves;
+  Traverse(scene.accel->nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf,
+           FetchAhead{scene.accel->nodes.data(), blocks});
 }
 
 // Calls each(i, slot, o, d) for the rays of a batch one by one.
@@ -141,7 +144,7 @@ void ClosestCurves(Wave& wave) {
                                      const float d[3]) HWY_ATTR {
                                    const uint32_t slot = rays.slot[i];
                                    CurveHit hit{rays.t_max[i], path.prim[slot]};
-                                   TraceCurves<false>(*wave.scene, o, d, hit);
+                                   TraceCurves<false>(wave, o, d, hit);
                                    if (!hit.found) return;
                                    path.t[slot] = hit.t;
                                    path.prim[slot] = hit.prim;
@@ -159,7 +162,7 @@ void ShadowOfCurves(Wave& wave) {
                     [&](int i, const RayArrays& rays, const float o[3], const float d[3])
                         HWY_ATTR {
                           CurveHit hit{rays.t_max[i], 0};
-                          TraceCurves<true>(*wave.scene, o, d, hit);
+                          TraceCurves<true>(wave, o, d, hit);
                           blocked |= uint32_t{hit.found} << i;
                         });
     return MaskOf(DF(), blocked);

@@ -4,7 +4,8 @@
 #define LANELIGHT_INTERSECT_FEW_INL_H_
 
 #include "kernels/intersect/many-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -37,10 +38,10 @@ class FewVertices {
 /// Calls found(hits, mask, prim) for every triangle that some lane hits within its t_max
 /// as `t_max()` says at that time; stops when found returns true.
 template <bool kAlpha, class TMax, class Found>
-LANELIGHT_INLINE void ForEachFew(const CompiledScene& scene, const Rays& rays,
-                                 TMax&& t_max, Found&& found) {
+LANELIGHT_INLINE void ForEachFew(const SceneParts& scene, const Rays& rays, TMax&& t_max,
+                                 Found&& found) {
   const DF df;
-  const FewTriangles& few = scene.accel.few;
+  const FewTriangles& few = scene.accel->few;
   const AxisOrder order(rays.d);
   const Shear<VF> shear = MakeShear(order, rays, Splat(few.reach));
   const FewVertices vertices(few, order, shear);
@@ -65,7 +66,7 @@ template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots& slots) {
   ManyClosest best(wave.path, rays, slots);
   ForEachFew<kAlpha>(
-      *wave.scene, rays, [&]() HWY_ATTR { return best.t(); },
+      wave, rays, [&]() HWY_ATTR { return best.t(); },
       [&](const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) HWY_ATTR {
         best.Offer(hit, mask, id);
         return false;
@@ -75,7 +76,7 @@ LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-LANELIGHT_INLINE MF BlockedFew(const CompiledScene& scene, const Rays& rays) {
+LANELIGHT_INLINE MF BlockedFew(const SceneParts& scene, const Rays& rays) {
   const DF df;
   MF blocked = hn::FirstN(df, 0);
   ForEachFew<kAlpha>(

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 namespace lanelight {
 

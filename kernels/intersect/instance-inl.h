@@ -6,6 +6,8 @@
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -7,7 +7,8 @@
 #include <algorithm>
 
 #include "kernels/intersect/packet_leaf-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -24,7 +25,7 @@ class LastBlockers {
   }
 
   /// Finds the rays of `lanes` that these block, and forgets those that block none.
-  LANELIGHT_INLINE void Test(const CompiledScene& scene, const PacketRays& packet,
+  LANELIGHT_INLINE void Test(const SceneParts& scene, const PacketRays& packet,
                              uint32_t lanes, PacketBest& best) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count_; ++i) {
@@ -37,10 +38,10 @@ class LastBlockers {
   }
 
  private:
-  static HWY_NOINLINE void TestOne(const CompiledScene& scene, const PacketRays& packet,
+  static HWY_NOINLINE void TestOne(const SceneParts& scene, const PacketRays& packet,
                                    uint32_t prim, uint32_t lanes, PacketBest& best) {
     const DF df;
-    const auto& p = scene.geometry.triangles[prim].p;
+    const auto& p = scene.geometry->triangles[prim].p;
     const AxisOrder order(packet.rays.d);
     const auto corner = [&](int k) HWY_ATTR {
       const V3 v = Splat3(p[k][0], p[k][1], p[k][2]);

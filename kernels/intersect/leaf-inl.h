@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "kernels/intersect/triangle-inl.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 

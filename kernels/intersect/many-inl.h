@@ -7,7 +7,8 @@
 #include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -76,10 +77,10 @@ LANELIGHT_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
 }
 
 /// Clears the lanes of `mask` whose candidate hit on `prim` is cut out.
-LANELIGHT_INLINE MF CutOut(const CompiledScene& scene, const Rays& rays, uint32_t prim,
+LANELIGHT_INLINE MF CutOut(const SceneParts& scene, const Rays& rays, uint32_t prim,
                            const TriangleHits<VF, MF>& hit, MF mask) {
   const DF df;
-  if (!(scene.geometry.triangles[prim].flags & kAlphaTested)) return mask;
+  if (!(scene.geometry->triangles[prim].flags & kAlphaTested)) return mask;
   const RayArrays ray(rays, hn::Zero(DI()));
   HWY_ALIGN float b1[hn::MaxLanes(DF())], b2[hn::MaxLanes(DF())];
   hn::Store(hn::Div(hit.v, hit.det), df, b1);

@@ -9,7 +9,8 @@
 
 #include "kernels/intersect/bvh-inl.h"
 #include "kernels/intersect/packet_leaf-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -38,7 +39,7 @@ struct PacketBounds {
   }
 
   /// Whether the rays are close enough for a packet to pay: measured with
-  /// bench/intersect/, see src/scene/accel/accel.h.
+  /// bench/intersect/, see src/scene/geometry/accel.h.
   LANELIGHT_INLINE bool IsNarrow(float reach) const {
     float spread = 0, extent = 0;
     for (int a = 0; a < 3; ++a) {
@@ -112,7 +113,7 @@ struct FrustumRays {
 /// Visits the leaves of a tree that the packet meets, until no ray wants more, or until
 /// `left`, which counts them down, is negative: then what was found is a bound.
 template <bool kAny, bool kAlpha>
-LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
+LANELIGHT_INLINE void TraceFrustum(const SceneParts& scene, const Bvh& bvh,
                                    const FrustumRays& of, int& left, PacketBest& best) {
   const DF df;
   const Rays& rays = of.rays;
@@ -122,7 +123,7 @@ LANELIGHT_INLINE void TraceFrustum(const CompiledScene& scene, const Bvh& bvh,
       MakePacket(rays, MakeShear(order, rays, Splat(bvh.reach)), order, all);
   if constexpr (kAlpha) packet.home = of.home;
   float bound = LargestLane(best.t);
-  Traverse(scene.accel.nodes.data(), bvh.root, MakeFrustum(of.bounds, bvh), bound,
+  Traverse(scene.accel->nodes.data(), bvh.root, MakeFrustum(of.bounds, bvh), bound,
            [&](uint32_t ref) HWY_ATTR {
              if (--left < 0) return true;
              TestLeafPacket<kAny, kAlpha>(scene, ref, packet, all, best);
@@ -148,20 +149,19 @@ template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
                                      const PacketBounds& bounds, const Slots& slots,
                                      int& left) {
-  const Accel& accel = wave.scene->accel;
+  const Accel& accel = *wave.accel;
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
-  TraceFrustum<false, kAlpha>(*wave.scene, accel.groups[0], {rays, bounds, rays}, left,
-                              best);
+  TraceFrustum<false, kAlpha>(wave, accel.groups[0], {rays, bounds, rays}, left, best);
   StorePacketHits(wave.path, slots, best);
 }
 
 /// Which rays of a batch are blocked.
 template <bool kAlpha>
-LANELIGHT_INLINE MF BlockedFrustum(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE MF BlockedFrustum(const SceneParts& scene, const Rays& rays,
                                    const PacketBounds& bounds) {
   PacketBest best = NoHits(rays.t_max, hn::Zero(DI()));
   int left = std::numeric_limits<int>::max();
-  TraceFrustum<true, kAlpha>(scene, scene.accel.groups[0], {rays, bounds, rays}, left,
+  TraceFrustum<true, kAlpha>(scene, scene.accel->groups[0], {rays, bounds, rays}, left,
                              best);
   return MaskOf(DF(), best.found);
 }

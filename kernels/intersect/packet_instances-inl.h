@@ -36,7 +36,7 @@ struct PacketOfPaths {
   /// In the space of an instance, where distances below `t` matter. kMoving: some move.
   template <bool kMoving>
   LANELIGHT_INLINE Rays In(uint32_t instance, VF t) const {
-    const Geometry& geometry = wave.scene->geometry;
+    const Geometry& geometry = *wave.geometry;
     if (kMoving && instance < geometry.motions.size()) {
       return MapMovingRays(geometry.motions[instance], {rays.o, rays.d, t, FromNone()},
                            Gather(wave.path.time, slots));
@@ -50,8 +50,8 @@ struct PacketOfPaths {
 template <bool kAlpha, bool kMoving>
 HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, int& left,
                                 InstancedBest& best) {
-  const CompiledScene& scene = *paths.wave.scene;
-  const Geometry& geometry = scene.geometry;
+  const SceneParts& scene = paths.wave;
+  const Geometry& geometry = *scene.geometry;
   const Rays own = paths.In<kMoving>(instance, best.hit.t);
   PacketBounds bounds;
   if (!bounds.Compute(own)) {
@@ -60,7 +60,7 @@ HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, i
   }
   PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
   TraceFrustum<false, kAlpha>(scene,
-                              scene.accel.groups[geometry.instance_group[instance]],
+                              scene.accel->groups[geometry.instance_group[instance]],
                               {own, bounds, paths.rays}, left, hit);
   best.Take(hit, instance);
 }
@@ -70,8 +70,8 @@ template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
                                               const PacketBounds& bounds,
                                               const Slots& slots, int& left) {
-  const CompiledScene& scene = *wave.scene;
-  const Accel& accel = scene.accel;
+  const SceneParts& scene = wave;
+  const Accel& accel = *scene.accel;
   InstancedBest best = {NoHits(rays.t_max, Gather(wave.path.prim, slots)),
                         hn::Set(DI(), static_cast<int32_t>(kWorldInstance))};
   if (accel.groups[0].root != kEmptyRef) {
@@ -81,7 +81,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
   float bound = LargestLane(best.hit.t);
   if (left >= 0) {
     const PacketOfPaths paths = {wave, rays, slots};
-    const bool moving = !scene.geometry.motions.empty();
+    const bool moving = !scene.geometry->motions.empty();
     Traverse(accel.nodes.data(), accel.top.root, MakeFrustum(bounds, accel.top), bound,
              [&](uint32_t instance) HWY_ATTR {
                moving ? TraceInstance<kAlpha, true>(paths, instance, left, best)

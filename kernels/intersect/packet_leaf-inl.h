@@ -5,7 +5,8 @@
 #include <bit>
 
 #include "kernels/intersect/beam-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -113,7 +114,7 @@ LANELIGHT_INLINE void ShearLeaf(const Leaf& leaf, uint32_t triangles,
 /// their lines passes through; its tests have no branches, and what it computes is kept,
 /// so that tests overlap in both passes.
 template <bool kAny, bool kAlpha, class Leaf>
-LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& leaf,
+LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
                                      const PacketRays& packet, uint32_t lanes,
                                      PacketBest& best) {
   const DF df;
@@ -179,8 +180,8 @@ LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, const Leaf& lea
 
 /// Calls test(leaf) for the leaf that a reference names.
 template <class Test>
-LANELIGHT_INLINE void WithLeaf(const CompiledScene& scene, uint32_t ref, Test&& test) {
-  const LeafPlaces leaves(scene.accel);
+LANELIGHT_INLINE void WithLeaf(const SceneParts& scene, uint32_t ref, Test&& test) {
+  const LeafPlaces leaves(*scene.accel);
   if (HWY_UNLIKELY(ref & kSeparateBit)) return test(leaves.Of<SeparateLeaf>(ref));
   if (leaves.small()) return test(leaves.Of<SmallLeaf>(ref));
   test(leaves.Of<TriangleLeaf>(ref));
@@ -188,7 +189,7 @@ LANELIGHT_INLINE void WithLeaf(const CompiledScene& scene, uint32_t ref, Test&& 
 
 /// TestLeafPacket for the leaf that a reference names.
 template <bool kAny, bool kAlpha>
-LANELIGHT_INLINE void TestLeafPacket(const CompiledScene& scene, uint32_t ref,
+LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, uint32_t ref,
                                      const PacketRays& packet, uint32_t lanes,
                                      PacketBest& best) {
   WithLeaf(scene, ref, [&](const auto& leaf) HWY_ATTR {

@@ -9,7 +9,7 @@
 #include "kernels/intersect/alpha-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -29,7 +29,7 @@ struct PacketPlace {
 /// The first of the triangles of `bits`, which the line of the ray at `place` passes
 /// through, that blocks it; kNoPrimitive if none does.
 template <bool kAlpha, class Leaf>
-HWY_NOINLINE uint32_t BlockerOf(const CompiledScene& scene, const PacketPlace& place,
+HWY_NOINLINE uint32_t BlockerOf(const SceneParts& scene, const PacketPlace& place,
                                 const Leaf& leaf, const LeafWeights& weights,
                                 uint32_t bits) {
   const StreamRays& rays = place.rays;
@@ -58,7 +58,7 @@ HWY_NOINLINE uint32_t BlockerOf(const CompiledScene& scene, const PacketPlace& p
 
 /// As TestLeafPacket; `lanes` are not blocked yet.
 template <bool kAlpha, class Leaf>
-LANELIGHT_INLINE void TestLeafSingles(const CompiledScene& scene, const Leaf& leaf,
+LANELIGHT_INLINE void TestLeafSingles(const SceneParts& scene, const Leaf& leaf,
                                       const PacketPlace& place, uint32_t lanes,
                                       PacketBest& best) {
   LeafWeights weights[kTogether];

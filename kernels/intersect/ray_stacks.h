@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "src/base/core/untouched.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 namespace lanelight {
 

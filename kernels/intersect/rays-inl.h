@@ -5,7 +5,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

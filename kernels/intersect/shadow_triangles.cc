@@ -5,7 +5,8 @@
 #include "kernels/intersect/packet-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -13,20 +14,20 @@ LANELIGHT_BEGIN_KERNELS
 // is read, at most a stream later.
 template <bool kAlpha, bool kInstances>
 void ShadowRays(Wave& wave) {
-  const CompiledScene& scene = *wave.scene;
+  const SceneParts& scene = wave;
   const Queue all = wave.queue(QueueId::kShadow);
   Queue& kept = wave.queue(QueueId::kShadow);
   kept.size = 0;
   auto& stream = RayStream<true, kAlpha, kInstances>::OfThread(wave);
   const auto flush = [&]() HWY_ATTR { stream.KeepOpen(kept); };
-  const bool few = !kInstances && !scene.accel.few.triangles.empty();
+  const bool few = !kInstances && !scene.accel->few.triangles.empty();
   ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
     Rays rays = LoadShadowRays(wave.path, slots);
     rays.from = Gather(wave.path.prim, slots);
     if (few) {
       PacketBounds bounds;
       const bool narrow =
-          bounds.Compute(rays) && bounds.IsNarrow(scene.accel.groups[0].reach);
+          bounds.Compute(rays) && bounds.IsNarrow(scene.accel->groups[0].reach);
       const MF blocked = narrow ? BlockedFrustum<kAlpha>(scene, rays, bounds)
                                 : BlockedFew<kAlpha>(scene, rays);
       return Push(kept, slots, hn::AndNot(blocked, valid));

@@ -9,7 +9,9 @@
 #include "kernels/intersect/round-inl.h"
 #include "kernels/intersect/uv.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -99,17 +101,17 @@ struct ShapePlace {
 /// Whether a candidate of one ray counts. The far side of a sphere decides apart from the
 /// near one.
 template <class Shape>
-inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
-                             const float d[3], const ShapePlace& place) {
+inline bool ShapePassesAlpha(const SceneParts& scene, const float o[3], const float d[3],
+                             const ShapePlace& place) {
   const auto [index, t, far] = place;
-  const auto& record = Shape::Records(scene.geometry)[index];
+  const auto& record = Shape::Records(*scene.geometry)[index];
   if (!(record.flags & kAlphaTested)) return true;
   double p[3];
   for (int i = 0; i < 3; ++i) {
     p[i] = double{o[i]} + double{t} * d[i] - Shape::Center(record)[i];
   }
   const SurfaceUv uv = UvOf(record, p);
-  const uint32_t prim = Shape::FirstId(scene.geometry) + index;
+  const uint32_t prim = Shape::FirstId(*scene.geometry) + index;
   const float alpha = AlphaAt(scene, prim, uv.u, uv.v, [&]() HWY_ATTR {
     PointOfAlpha at;
     NormalOf(record, p, at.n);
@@ -122,10 +124,10 @@ inline bool ShapePassesAlpha(const CompiledScene& scene, const float o[3],
 
 /// Drops the candidates of one record that are cut out.
 template <class Shape>
-LANELIGHT_INLINE void CutOutShape(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE void CutOutShape(const SceneParts& scene, const Rays& rays,
                                   uint32_t index, Candidates<VF, MF>& hit) {
   const DF df;
-  if (!(Shape::Records(scene.geometry)[index].flags & kAlphaTested)) return;
+  if (!(Shape::Records(*scene.geometry)[index].flags & kAlphaTested)) return;
   const RayArrays ray(rays, hn::Zero(DI()));
   const auto kept = [&](MF mask, VF t_lanes, bool far) HWY_ATTR {
     HWY_ALIGN float t[hn::MaxLanes(DF())];
@@ -153,17 +155,17 @@ LANELIGHT_INLINE M Nearest(D, const Candidates<V, M>& hit, V& t) {
 // ---- A vector of rays against each record ------------------------------------------
 
 template <class Shape, bool kAlpha, class Found>
-LANELIGHT_INLINE void ForEachRecord(const CompiledScene& scene, const Rays& rays,
+LANELIGHT_INLINE void ForEachRecord(const SceneParts& scene, const Rays& rays,
                                     Found&& found) {
   const DF df;
-  const auto& records = Shape::Records(scene.geometry);
+  const auto& records = Shape::Records(*scene.geometry);
   const RayLanes<VF> ray{{rays.o.x, rays.o.y, rays.o.z}, {rays.d.x, rays.d.y, rays.d.z}};
   for (uint32_t i = 0; i < records.size(); ++i) {
     Candidates<VF, MF> hit = TestShape(df, Shape::Broadcast(df, records[i]), ray);
     if constexpr (kAlpha) CutOutShape<Shape>(scene, rays, i, hit);
     VF t;
     const MF mask = Nearest(df, hit, t);
-    found(mask, t, Shape::FirstId(scene.geometry) + i);
+    found(mask, t, Shape::FirstId(*scene.geometry) + i);
   }
 }
 
@@ -176,14 +178,13 @@ LANELIGHT_INLINE void IntersectRecords(Wave& wave) {
     VF best_t = rays.t_max;
     VI best_prim = Gather(path.prim, slots);
     MF any = hn::FirstN(DF(), 0);
-    ForEachRecord<Shape, kAlpha>(
-        *wave.scene, rays, [&](MF mask, VF t, uint32_t id) HWY_ATTR {
-          const VI prim = hn::Set(di, static_cast<int32_t>(id));
-          const MF closer = hn::And(mask, IsCloser(t, prim, best_t, best_prim));
-          any = hn::Or(any, closer);
-          best_t = hn::IfThenElse(closer, t, best_t);
-          best_prim = hn::IfThenElse(hn::RebindMask(di, closer), prim, best_prim);
-        });
+    ForEachRecord<Shape, kAlpha>(wave, rays, [&](MF mask, VF t, uint32_t id) HWY_ATTR {
+      const VI prim = hn::Set(di, static_cast<int32_t>(id));
+      const MF closer = hn::And(mask, IsCloser(t, prim, best_t, best_prim));
+      any = hn::Or(any, closer);
+      best_t = hn::IfThenElse(closer, t, best_t);
+      best_prim = hn::IfThenElse(hn::RebindMask(di, closer), prim, best_prim);
+    });
     StoreRoundHits<kInstances>(path, slots, any, best_t, best_prim);
   });
 }
@@ -192,10 +193,9 @@ template <class Shape, bool kAlpha>
 LANELIGHT_INLINE void ShadowRecords(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& rays, VI, MF) HWY_ATTR {
     MF blocked = hn::FirstN(DF(), 0);
-    ForEachRecord<Shape, kAlpha>(
-        *wave.scene, rays, [&](MF mask, VF t, uint32_t) HWY_ATTR {
-          blocked = hn::Or(blocked, hn::And(mask, hn::Lt(t, rays.t_max)));
-        });
+    ForEachRecord<Shape, kAlpha>(wave, rays, [&](MF mask, VF t, uint32_t) HWY_ATTR {
+      blocked = hn::Or(blocked, hn::And(mask, hn::Lt(t, rays.t_max)));
+    });
     return blocked;
   });
 }
@@ -209,10 +209,10 @@ struct RoundHit {
 };
 
 template <class Shape, bool kAny, bool kAlpha>
-LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
+LANELIGHT_INLINE void TraceShapes(const SceneParts& scene, const float o[3],
                                   const float d[3], RoundHit& best) {
   const D8 d8;
-  const uint32_t first = Shape::FirstId(scene.geometry);
+  const uint32_t first = Shape::FirstId(*scene.geometry);
   const RayLanes<V8> ray{Broadcast3(d8, o), Broadcast3(d8, d)};
   const auto consider = [&](float t, uint32_t prim, bool far) HWY_ATTR {
     if (kAny ? t >= best.t : t > best.t || (t == best.t && prim >= best.prim)) return;
@@ -223,7 +223,7 @@ LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
     best.prim = prim;
   };
   const auto leaf = [&](uint32_t index) HWY_ATTR {
-    const auto& block = Shape::Blocks(scene.accel)[index];
+    const auto& block = Shape::Blocks(*scene.accel)[index];
     for (int i = 0; i < kBvhWidth; i += Lanes8()) {
       const Candidates<V8, M8> hit = TestShape(d8, Shape::Load(block, i), ray);
       HWY_ALIGN float near[kBvhWidth], far[kBvhWidth];
@@ -240,8 +240,8 @@ LANELIGHT_INLINE void TraceShapes(const CompiledScene& scene, const float o[3],
     }
     return kAny && best.found;
   };
-  const Bvh& tree = Shape::Tree(scene.accel);
-  Traverse(scene.accel.nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf);
+  const Bvh& tree = Shape::Tree(*scene.accel);
+  Traverse(scene.accel->nodes.data(), tree.root, MakeSlabRay(o, d, tree), best.t, leaf);
 }
 
 template <class Shape, bool kAlpha, bool kInstances>
@@ -256,7 +256,7 @@ LANELIGHT_INLINE void IntersectTree(Wave& wave) {
                    const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
                    const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
                    RoundHit hit{rays.t_max[i], path.prim[slot]};
-                   TraceShapes<Shape, false, kAlpha>(*wave.scene, o, d, hit);
+                   TraceShapes<Shape, false, kAlpha>(wave, o, d, hit);
                    if (!hit.found) continue;
                    path.t[slot] = hit.t;
                    path.prim[slot] = hit.prim;
@@ -275,7 +275,7 @@ LANELIGHT_INLINE void ShadowTree(Wave& wave) {
       const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
       const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
       RoundHit hit{rays.t_max[i], 0};
-      TraceShapes<Shape, true, kAlpha>(*wave.scene, o, d, hit);
+      TraceShapes<Shape, true, kAlpha>(wave, o, d, hit);
       blocked |= uint32_t{hit.found} << i;
     }
     return MaskOf(DF(), blocked);
@@ -285,7 +285,7 @@ LANELIGHT_INLINE void ShadowTree(Wave& wave) {
 template <class Shape, bool kAlpha, bool kInstances>
 LANELIGHT_INLINE void IntersectShapes(Wave& wave) {
   if constexpr (kHasTree<Shape>) {
-    if (Shape::Tree(wave.scene->accel).root != kEmptyRef) {
+    if (Shape::Tree(*wave.accel).root != kEmptyRef) {
       return IntersectTree<Shape, kAlpha, kInstances>(wave);
     }
   }
@@ -295,7 +295,7 @@ LANELIGHT_INLINE void IntersectShapes(Wave& wave) {
 template <class Shape, bool kAlpha>
 LANELIGHT_INLINE void ShadowShapes(Wave& wave) {
   if constexpr (kHasTree<Shape>) {
-    if (Shape::Tree(wave.scene->accel).root != kEmptyRef) {
+    if (Shape::Tree(*wave.accel).root != kEmptyRef) {
       return ShadowTree<Shape, kAlpha>(wave);
     }
   }

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kernels/intersect/rays-inl.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 

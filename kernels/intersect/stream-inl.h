@@ -10,7 +10,8 @@
 
 #include "kernels/intersect/stream_packet-inl.h"
 #include "kernels/intersect/stream_single-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -20,7 +21,7 @@ class RayStream {
   /// The stream of this thread, empty: one at a time.
   static RayStream& OfThread(const Wave& wave) {
     static_assert(std::is_trivially_destructible_v<RayStream>);
-    return *new (ThreadStream(sizeof(RayStream))) RayStream(*wave.scene, wave.path.time);
+    return *new (ThreadStream(sizeof(RayStream))) RayStream(wave, wave.path.time);
   }
 
   /// Takes the valid rays of a vector, and hands the stream to done() if it is full.
@@ -57,9 +58,9 @@ class RayStream {
   }
 
  private:
-  RayStream(const CompiledScene& scene, const float* times)
-      : bvh_(scene.accel.groups[0]),
-        rays_(std::max(bvh_.depth, kInstances ? scene.accel.top.depth : 0)),
+  RayStream(const SceneParts& scene, const float* times)
+      : bvh_(scene.accel->groups[0]),
+        rays_(std::max(bvh_.depth, kInstances ? scene.accel->top.depth : 0)),
         spaces_(scene, rays_, times),
         packets_(scene, rays_, spaces_),
         singles_(scene, rays_, spaces_) {}

@@ -12,7 +12,9 @@
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -41,19 +43,19 @@ inline constexpr int kInsideRays = (3 * StreamRays::kLanes + 4) / 8;
 template <bool kAny, bool kAlpha, bool kInstances>
 class PacketPhase {
  public:
-  PacketPhase(const CompiledScene& scene, StreamRays& rays, Spaces<kInstances>& spaces)
+  PacketPhase(const SceneParts& scene, StreamRays& rays, Spaces<kInstances>& spaces)
       : scene_(scene), rays_(rays), spaces_(spaces) {}
 
   /// Traces the rays at [at, at + lanes) through the world. What is left for single rays
   /// lies on their stacks, nearest on top; their places are appended to `live`, those
   /// with nothing left, too.
   LANELIGHT_INLINE void Run(uint32_t at, RayList& live) {
-    RunIn<false>(scene_.accel.groups[0], at, live);
+    RunIn<false>(scene_.accel->groups[0], at, live);
   }
 
   /// The same through the tree over instances, and these, after the world.
   LANELIGHT_INLINE void RunTop(uint32_t at, RayList& live) {
-    RunIn<true>(scene_.accel.top, at, live);
+    RunIn<true>(scene_.accel->top, at, live);
   }
 
  private:
@@ -157,7 +159,7 @@ class PacketPhase {
       if (!is_leaf) {
         const auto octant = static_cast<uint32_t>(octants[std::countr_zero(lanes)]);
         (++frame)->template SetChildren<kAny, kSameSigns>(
-            slabs, best.t, scene_.accel.nodes[ref], octant, lanes);
+            slabs, best.t, scene_.accel->nodes[ref], octant, lanes);
       } else if constexpr (kTop) {
         spaces_.HasMotion() ? EnterInstance<true>(ref & ~kLeafBit, lanes)
                             : EnterInstance<false>(ref & ~kLeafBit, lanes);
@@ -181,7 +183,7 @@ class PacketPhase {
       const bool may = StreamRays::kLanes >= 8 || !packet.has_beam;
       if (may && HWY_UNLIKELY(ref & kSeparateBit) &&
           std::popcount(lanes) <= kSingleRays) {
-        const auto& leaf = LeafPlaces(scene_.accel).template Of<SeparateLeaf>(ref);
+        const auto& leaf = LeafPlaces(*scene_.accel).template Of<SeparateLeaf>(ref);
         if (kInstances && !has_columns_) FillColumns(packet);
         const PacketPlace place{rays_, at_, inside_ ? home_ : at_};
         return TestLeafSingles<kAlpha>(scene_, leaf, place, lanes, best);
@@ -201,7 +203,7 @@ class PacketPhase {
   // columns behind the last ray, and their hits are taken back.
   template <bool kMoving>
   HWY_NOINLINE void EnterInstance(uint32_t instance, uint32_t lanes) {
-    const Bvh& group = scene_.accel.groups[scene_.geometry.instance_group[instance]];
+    const Bvh& group = scene_.accel->groups[scene_.geometry->instance_group[instance]];
     const uint32_t home = at_, to = rays_.size;
     const Rays rays = MoveRays<kMoving>(instance, home, to);
     PacketRays packet = PacketIn(group, rays, lanes);
@@ -266,7 +268,7 @@ class PacketPhase {
     rays_.top[r] = top - 1;
   }
 
-  const CompiledScene& scene_;
+  const SceneParts& scene_;
   StreamRays& rays_;
   Spaces<kInstances>& spaces_;
   bool inside_ = false;      // an instance

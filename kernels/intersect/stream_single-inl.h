@@ -13,7 +13,9 @@
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
 #include "kernels/intersect/stream_stacks-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -23,7 +25,7 @@ inline constexpr uint32_t kLeafBlock = 16;
 template <bool kAny, bool kAlpha, bool kInstances>
 class SinglePhase {
  public:
-  SinglePhase(const CompiledScene& scene, StreamRays& rays, Spaces<kInstances>& spaces)
+  SinglePhase(const SceneParts& scene, StreamRays& rays, Spaces<kInstances>& spaces)
       : scene_(scene), rays_(rays), spaces_(spaces), stacks_(scene, rays) {}
 
   /// Places of the rays to trace; the packet phase appends them.
@@ -69,8 +71,8 @@ class SinglePhase {
     spaces_.Enter(entering.place, entered);
     for (uint32_t i = 0; i < entered; ++i) {
       const auto r = static_cast<uint32_t>(entering.place[i]);
-      const uint32_t group = scene_.geometry.instance_group[rays_.space[r]];
-      stacks_.GoInside(r, scene_.accel.groups[group].root, IsResume(Next(r)));
+      const uint32_t group = scene_.geometry->instance_group[rays_.space[r]];
+      stacks_.GoInside(r, scene_.accel->groups[group].root, IsResume(Next(r)));
     }
   }
 
@@ -94,7 +96,7 @@ class SinglePhase {
     RayList& nodes = lists_.nodes;
     nodes.PadGroup();
     const Stacks stacks = stacks_;
-    const WideNode* const first = scene_.accel.nodes.data();
+    const WideNode* const first = scene_.accel->nodes.data();
     StreamRays& rays = rays_;
     for (uint32_t k = 0; k < nodes.size; k += kTogether) {
       NodeStep(rays, stacks, first, nodes.place + k);
@@ -254,7 +256,7 @@ class SinglePhase {
     return closer | ((t == rays_.t[r]) & tie_won);
   }
 
-  const CompiledScene& scene_;
+  const SceneParts& scene_;
   StreamRays& rays_;
   Spaces<kInstances>& spaces_;
   Stacks stacks_;

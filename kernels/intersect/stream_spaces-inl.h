@@ -9,7 +9,9 @@
 
 #include "kernels/intersect/instance-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -30,10 +32,10 @@ inline constexpr uint32_t kTopSpace = kWorldInstance - 1;
 class RaySpaces {
  public:
   /// `times` has those of paths by their slots, if instances move.
-  RaySpaces(const CompiledScene& scene, StreamRays& rays, const float* times)
+  RaySpaces(const SceneParts& scene, StreamRays& rays, const float* times)
       : scene_(scene),
         rays_(rays),
-        times_(scene.geometry.motions.empty() ? nullptr : times) {}
+        times_(scene.geometry->motions.empty() ? nullptr : times) {}
 
   /// Moves all rays, which are in the space of the scene, to the tree over instances.
   LANELIGHT_INLINE void BeginTop() { std::fill_n(rays_.space, rays_.size, kTopSpace); }
@@ -76,7 +78,7 @@ class RaySpaces {
   LANELIGHT_INLINE Rays Mapped(uint32_t instance, uint32_t at) const {
     if constexpr (kMoving) return MappedByTime(instance, at);
     const Rays from = rays_.Load(at);
-    return MapRays(scene_.geometry.instances[instance], from.o, from.d, from.t_max);
+    return MapRays(scene_.geometry->instances[instance], from.o, from.d, from.t_max);
   }
 
   /// The ray, which lies in the space of the scene, in the one where it is.
@@ -85,7 +87,7 @@ class RaySpaces {
     if (space >= kTopSpace) return;
     const Rays own =
         HasMotion() ? MappedByTime(space, r)
-                    : MapRays(scene_.geometry.instances[space], Splat3(o[0], o[1], o[2]),
+                    : MapRays(scene_.geometry->instances[space], Splat3(o[0], o[1], o[2]),
                               Splat3(d[0], d[1], d[2]), Splat(0));
     const VF from[6] = {own.o.x, own.o.y, own.o.z, own.d.x, own.d.y, own.d.z};
     for (int a = 0; a < 3; ++a)
@@ -95,7 +97,7 @@ class RaySpaces {
  private:
   // Where instances move.
   HWY_NOINLINE Rays MappedByTime(uint32_t instance, uint32_t at) const {
-    const Geometry& geometry = scene_.geometry;
+    const Geometry& geometry = *scene_.geometry;
     const Rays from = rays_.Load(at);
     if (instance < geometry.motions.size()) {
       return MapMovingRays(geometry.motions[instance], from, TimesAt(at));
@@ -128,13 +130,13 @@ class RaySpaces {
   template <bool kMoving>
   HWY_NOINLINE void EnterVector(const int32_t* list, uint32_t count) {
     const DF df;
-    const Geometry& geometry = scene_.geometry;
+    const Geometry& geometry = *scene_.geometry;
     Fours map[3], o, d, growth;
     for (uint32_t j = 0; j < StreamRays::kLanes; ++j) {
       // Lanes behind the last ray repeat it.
       const auto r = static_cast<uint32_t>(list[std::min(j, count - 1)]);
       const uint32_t instance = static_cast<uint32_t>(rays_.next[r]) & kRefIndex;
-      const Bvh& group = scene_.accel.groups[geometry.instance_group[instance]];
+      const Bvh& group = scene_.accel->groups[geometry.instance_group[instance]];
       const float* m = geometry.instances[instance].object_from_scene;
       for (int k = 0; k < 3; ++k) map[k].Set(j, m + 4 * k);
       o.Set(j, home_.o + r);
@@ -180,11 +182,11 @@ class RaySpaces {
       times[j] = times_[rays_.slot[r]];
       instances[j] = static_cast<int32_t>(rays_.space[r]);
     }
-    PutMovingMaps(scene_.geometry.motions, hn::Load(DI(), instances),
+    PutMovingMaps(scene_.geometry->motions, hn::Load(DI(), instances),
                   hn::Load(DF(), times), m);
   }
 
-  const CompiledScene& scene_;
+  const SceneParts& scene_;
   StreamRays& rays_;
   const float* const times_;
   // The rays in the tree over instances, by their places.
@@ -201,7 +203,7 @@ class RaySpaces {
 
 /// Scenes without instances have one space.
 struct NoSpaces {
-  NoSpaces(const CompiledScene&, const StreamRays&, const float*) {}
+  NoSpaces(const SceneParts&, const StreamRays&, const float*) {}
 };
 template <bool kInstances>
 using Spaces = std::conditional_t<kInstances, RaySpaces, NoSpaces>;

@@ -8,7 +8,8 @@
 #include "kernels/intersect/leaf-inl.h"
 #include "kernels/intersect/stream_rays-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -20,12 +21,12 @@ class RayStacks {
   /// Vectors that the children of a node take: 1, or 2 on targets of 4 lanes.
   static constexpr uint32_t kParts = kBvhWidth / hn::MaxLanes(D8());
 
-  RayStacks(const CompiledScene& scene, StreamRays& rays)
+  RayStacks(const SceneParts& scene, StreamRays& rays)
       : rays_(&rays),
         refs_(rays.refs),
         entries_(rays.entries),
-        places_(scene.accel),
-        leaf_places_(scene.accel) {}
+        places_(*scene.accel),
+        leaf_places_(*scene.accel) {}
 
   const LeafPlaces& leaf_places() const { return leaf_places_; }
 

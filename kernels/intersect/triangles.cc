@@ -9,7 +9,7 @@
 #include "kernels/intersect/packet_instances-inl.h"
 #include "kernels/intersect/stream-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -18,7 +18,7 @@ LANELIGHT_BEGIN_KERNELS
 // stream.
 template <bool kAlpha, bool kInstances>
 void IntersectRays(Wave& wave) {
-  const Accel& accel = wave.scene->accel;
+  const Accel& accel = *wave.accel;
   float reach = accel.groups[0].reach;
   if constexpr (kInstances) reach = std::max(reach, accel.top.reach);
   FrustumTrial frustum(accel);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
 

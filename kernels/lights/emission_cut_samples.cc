@@ -8,22 +8,23 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/sampled_points-inl.h"
 #include "kernels/texture/texture-inl.h"
+#include "src/scene/compiled/alpha.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void CutSamples(Wave& wave) {
-  const CompiledScene& scene = *wave.scene;
+  const SceneParts& scene = wave;
   const auto left = [&](const StoreSlots& slots, const Lights& light,
                         const PlacedPoint& at) HWY_ATTR {
     const VI prim = light.Primitive();
-    const VI texture = Gather(scene.alpha_texture.data(), prim);
-    const VF constant = Gather(scene.alpha_constant.data(), prim);
+    const VI texture = Gather(scene.alpha->texture.data(), prim);
+    const VF constant = Gather(scene.alpha->constant.data(), prim);
     const MF plain = hn::RebindMask(DF(), hn::Lt(texture, hn::Zero(DI())));
     const MF unseen = hn::And(plain, hn::Le(constant, Splat(0)));
     const VF pdf = Gather(wave.path.ls_pdf, slots);
     Scatter(hn::IfThenZeroElse(unseen, pdf), wave.path.ls_pdf, slots);
-    const VF alpha = EvalFloats(scene.textures, texture, at, constant);
+    const VF alpha = EvalFloats(*scene.textures, texture, at, constant);
     const VF share = hn::Min(hn::Max(alpha, Splat(0)), Splat(1.0f));
     return hn::IfThenElse(unseen, Splat(1.0f), share);
   };

@@ -5,23 +5,25 @@
 #include "kernels/lights/emission_image-inl.h"
 #include "kernels/lights/flat-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/wave.h"
 #include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 /// Index of the light of triangle `prim`; -1: none.
-LANELIGHT_INLINE VI LightOfTriangle(const CompiledScene& scene, VI prim) {
-  return RecordWords(scene.geometry.triangles.data(), prim)
+LANELIGHT_INLINE VI LightOfTriangle(const SceneParts& scene, VI prim) {
+  return RecordWords(scene.geometry->triangles.data(), prim)
       .I(offsetof(TriangleRecord, light));
 }
 
 /// The slots of kHit that hit a triangle of a light of this shape.
 HWY_INLINE const Queue& HitsOf(Wave& wave, LightShape shape) {
   const DI di;
-  const CompiledScene& scene = *wave.scene;
-  const VI end = hn::Set(di, static_cast<int32_t>(scene.geometry.ranges.spheres));
-  const PrimitiveSpan lit = EmittingSpan(scene.lights);
+  const SceneParts& scene = wave;
+  const VI end = hn::Set(di, static_cast<int32_t>(scene.ranges->spheres));
+  const PrimitiveSpan lit = EmittingSpan(*scene.lights);
   const VI begin = hn::Set(di, static_cast<int32_t>(lit.first));
   const VI last = hn::Set(di, static_cast<int32_t>(lit.last));
   const VI wanted = hn::Set(di, static_cast<int32_t>(shape));
@@ -56,7 +58,7 @@ HWY_INLINE VF PdfAtHit(const PathColumns& p, const Slots& slots, const Seen& see
 template <LightShape kShape, bool kMis, LightPoints kPoints, bool kImages>
 void EmissionOfFlat(Wave& wave) {
   const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
+  const SceneParts& scene = wave;
   const Queue& mine = HitsOf(wave, kShape);
   ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI prim = Gather(p.prim, slots);
@@ -86,7 +88,7 @@ void EmissionOfFlat(Wave& wave) {
     V3 radiance = light.Radiance();
     if constexpr (kImages) {
       const LightUv at =
-          TriangleUv(scene.geometry, prim, Gather(p.b1, slots), Gather(p.b2, slots));
+          TriangleUv(*scene.geometry, prim, Gather(p.b1, slots), Gather(p.b2, slots));
       radiance = Mul(radiance, ImageAt(scene, light, at));
     }
     radiance = AsCarried(wave, slots, index, radiance);

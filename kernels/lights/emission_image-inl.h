@@ -28,10 +28,10 @@ LANELIGHT_INLINE LightUv TriangleUv(const Geometry& geometry, VI prim, VF b1, VF
 }
 
 /// Of a direction `out` from the centre, unit.
-LANELIGHT_INLINE LightUv SphereUv(const CompiledScene& scene, VI prim, V3 out) {
+LANELIGHT_INLINE LightUv SphereUv(const SceneParts& scene, VI prim, V3 out) {
   const VI index =
-      hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.spheres)));
-  const RecordWords record(scene.geometry.spheres.data(), index);
+      hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.ranges->spheres)));
+  const RecordWords record(scene.geometry->spheres.data(), index);
   const V3 x_axis = record.F3(offsetof(SphereRecord, x_axis));
   const V3 z_axis = record.F3(offsetof(SphereRecord, z_axis));
   const VF y_sign = record.F(offsetof(SphereRecord, y_sign));
@@ -42,11 +42,11 @@ LANELIGHT_INLINE LightUv SphereUv(const CompiledScene& scene, VI prim, V3 out) {
 }
 
 /// `rel`: from the centre.
-LANELIGHT_INLINE LightUv DiskUv(const CompiledScene& scene, VI prim,
-                                const LightDisk& disk, V3 rel) {
+LANELIGHT_INLINE LightUv DiskUv(const SceneParts& scene, VI prim, const LightDisk& disk,
+                                V3 rel) {
   const VI index =
-      hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.disks)));
-  const RecordWords record(scene.geometry.disks.data(), index);
+      hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.ranges->disks)));
+  const RecordWords record(scene.geometry->disks.data(), index);
   const VF v_sign = record.F(offsetof(DiskRecord, v_sign));
   const VF x = Dot(rel, disk.u_axis);
   const VF y = hn::Mul(Dot(rel, Cross(disk.n, disk.u_axis)), v_sign);
@@ -57,8 +57,8 @@ LANELIGHT_INLINE LightUv DiskUv(const CompiledScene& scene, VI prim,
 
 /// What the image of each light has at these coordinates, as pbrt looks it up: bilinear,
 /// v upwards; 1 for lights without one.
-LANELIGHT_INLINE V3 ImageAt(const CompiledScene& scene, const Lights& light, LightUv at) {
-  const LightImages images(scene.lights, light.I(offsetof(LightRecord, image)));
+LANELIGHT_INLINE V3 ImageAt(const SceneParts& scene, const Lights& light, LightUv at) {
+  const LightImages images(*scene.lights, light.I(offsetof(LightRecord, image)));
   return images.Bilinear(at.u, hn::Sub(Splat(1.0f), at.v));
 }
 

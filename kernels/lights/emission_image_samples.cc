@@ -11,7 +11,7 @@ template <bool kMany>
 void ImageSamples(Wave& wave) {
   MultiplySamples<kMany>(
       wave, [&](const StoreSlots&, const Lights& light, const PlacedPoint& at)
-                HWY_ATTR { return ImageAt(*wave.scene, light, {at.u, at.v}); });
+                HWY_ATTR { return ImageAt(wave, light, {at.u, at.v}); });
 }
 
 Stage EmissionImageSamplesStage() {

@@ -5,7 +5,9 @@
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -22,7 +24,7 @@ struct EmittingSphere {
   V3 from, n;
   VF distance;
 
-  HWY_INLINE EmittingSphere(const CompiledScene& scene, const PathColumns& p,
+  HWY_INLINE EmittingSphere(const SceneParts& scene, const PathColumns& p,
                             const Slots& slots, VI prim, V3 d)
       : sphere(scene, prim),
         from(ScatteredFrom(p, slots)),
@@ -38,7 +40,7 @@ struct EmittingSphere {
         pmf, hn::Mul(Splat(6.28318530717958648f), OneMinusCosCone(sphere.radius, d2)));
     return hn::IfThenElse(hn::Gt(d2, light.ConeFrom()), cone, by_area);
   }
-  HWY_INLINE LightUv Uv(const CompiledScene& scene, VI prim, V3) const {
+  HWY_INLINE LightUv Uv(const SceneParts& scene, VI prim, V3) const {
     return SphereUv(scene, prim, Mul(n, sphere.normal_sign));
   }
 };
@@ -52,14 +54,14 @@ struct EmittingDisk {
   LightDisk disk;
   V3 n;
 
-  HWY_INLINE EmittingDisk(const CompiledScene& scene, const PathColumns&, const Slots&,
+  HWY_INLINE EmittingDisk(const SceneParts& scene, const PathColumns&, const Slots&,
                           VI prim, V3)
       : disk(scene, prim), n(disk.n) {}
   HWY_INLINE VF Distance(const PathColumns& p, const Slots& slots) const {
     return HitDistance(p, slots);
   }
   HWY_INLINE VF PdfSa(const Lights&, VF, VF by_area) const { return by_area; }
-  HWY_INLINE LightUv Uv(const CompiledScene& scene, VI prim, V3 hit) const {
+  HWY_INLINE LightUv Uv(const SceneParts& scene, VI prim, V3 hit) const {
     return DiskUv(scene, prim, disk, hit - disk.center);
   }
 };
@@ -67,12 +69,12 @@ struct EmittingDisk {
 template <class Shape, bool kMis, bool kImages>
 void EmissionOfRound(Wave& wave) {
   const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
-  const PrimitiveRanges& ranges = scene.geometry.ranges;
+  const SceneParts& scene = wave;
+  const PrimitiveRanges& ranges = *scene.ranges;
   const VI begin = hn::Set(DI(), static_cast<int32_t>(ranges.*Shape::kFirst));
   const VI before = hn::Sub(begin, hn::Set(DI(), 1));
   const VI end = hn::Set(DI(), static_cast<int32_t>(ranges.*Shape::kNext));
-  const typename Shape::Record* records = (scene.geometry.*Shape::kRecords).data();
+  const typename Shape::Record* records = (scene.geometry->*Shape::kRecords).data();
   const auto light_of = [&](VI index) HWY_ATTR {
     return RecordWords(records, index).I(offsetof(typename Shape::Record, light));
   };

@@ -4,7 +4,7 @@
 
 #include "kernels/lights/map_samples-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -33,7 +33,7 @@ LANELIGHT_INLINE void TexelValues(const Environment& e, const EnvironmentTable& 
 
 /// Of environment `index`, radiance and density of scene direction d.
 LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index, V3 d) {
-  const Environment& e = wave.scene->lights.environments[index];
+  const Environment& e = wave.lights->environments[index];
   const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
   V3 local = ByRows(e.light_from_scene, d);
@@ -91,7 +91,7 @@ LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* ins
 /// texel.
 LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index, VF u0,
                                              VF u1) {
-  const Environment& e = wave.scene->lights.environments[index];
+  const Environment& e = wave.lights->environments[index];
   const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
   VF inside_row, inside_column;

@@ -4,14 +4,14 @@
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <bool kMis, bool kPortals>
 void Escape(Wave& wave) {
   const PathColumns& p = wave.path;
-  const LightTable& table = wave.scene->lights;
+  const LightTable& table = *wave.lights;
   const float inv_four_pi = 0.0795774715459476679f;
   ForEachBatch(
       wave, wave.queue(QueueId::kMiss), [&](const StoreSlots& slots, MF) HWY_ATTR {

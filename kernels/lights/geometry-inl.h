@@ -6,15 +6,17 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 struct LightTriangle {
   V3 p0, e1, e2, n;
 
-  LANELIGHT_INLINE LightTriangle(const CompiledScene& scene, VI prim) {
-    const RecordWords record(scene.geometry.triangles.data(), prim);
+  LANELIGHT_INLINE LightTriangle(const SceneParts& scene, VI prim) {
+    const RecordWords record(scene.geometry->triangles.data(), prim);
     p0 = record.F3(offsetof(TriangleRecord, p[0]));
     e1 = record.F3(offsetof(TriangleRecord, p[1])) - p0;
     e2 = record.F3(offsetof(TriangleRecord, p[2])) - p0;
@@ -52,10 +54,10 @@ struct LightSphere {
   V3 center;
   VF radius, normal_sign;
 
-  LANELIGHT_INLINE LightSphere(const CompiledScene& scene, VI prim) {
+  LANELIGHT_INLINE LightSphere(const SceneParts& scene, VI prim) {
     const VI index =
-        hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.spheres)));
-    const RecordWords record(scene.geometry.spheres.data(), index);
+        hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.ranges->spheres)));
+    const RecordWords record(scene.geometry->spheres.data(), index);
     center = record.F3(offsetof(SphereRecord, center));
     radius = record.F(offsetof(SphereRecord, radius));
     normal_sign = record.F(offsetof(SphereRecord, normal_sign));
@@ -74,10 +76,10 @@ struct LightDisk {
   V3 center, n, u_axis;
   VF radius, inner_radius;
 
-  LANELIGHT_INLINE LightDisk(const CompiledScene& scene, VI prim) {
+  LANELIGHT_INLINE LightDisk(const SceneParts& scene, VI prim) {
     const VI index =
-        hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.geometry.ranges.disks)));
-    const RecordWords record(scene.geometry.disks.data(), index);
+        hn::Sub(prim, hn::Set(DI(), static_cast<int32_t>(scene.ranges->disks)));
+    const RecordWords record(scene.geometry->disks.data(), index);
     center = record.F3(offsetof(DiskRecord, center));
     radius = record.F(offsetof(DiskRecord, radius));
     n = record.F3(offsetof(DiskRecord, normal));

@@ -9,14 +9,16 @@
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/compiled/spectra.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 /// The lights of a vector of lanes.
 struct Lights : RecordWords<LightRecord> {
-  LANELIGHT_INLINE Lights(const CompiledScene& scene, VI light)
-      : RecordWords(scene.lights.lights.data(), light) {}
+  LANELIGHT_INLINE Lights(const SceneParts& scene, VI light)
+      : RecordWords(scene.lights->lights.data(), light) {}
   LANELIGHT_INLINE V3 Radiance() const { return F3(offsetof(LightRecord, radiance)); }
   LANELIGHT_INLINE VF Area() const { return F(offsetof(LightRecord, area)); }
   LANELIGHT_INLINE VI Primitive() const { return I(offsetof(LightRecord, primitive)); }
@@ -65,7 +67,7 @@ LANELIGHT_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
     const VI wanted = hn::Set(DI(), static_cast<int32_t>(shape));
     const Queue& mine =
         FilterQueue(wave, wave.queue(QueueId::kLit), [&](const Slots& slots) HWY_ATTR {
-          const Lights light(*wave.scene, Gather(selected, slots));
+          const Lights light(wave, Gather(selected, slots));
           return hn::RebindMask(DF(),
                                 hn::Eq(light.I(offsetof(LightRecord, shape)), wanted));
         });
@@ -187,9 +189,9 @@ LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
 inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI index,
                                      V3 color) {
   const DI di;
-  const SpectrumTable& table = wave.scene->spectra;
+  const SpectrumTable& table = *wave.spectra;
   const Wavelengths at(wave.path, slots);
-  const VI row = Lookup(wave.scene->lights.spectrum, index);
+  const VI row = Lookup(wave.lights->spectrum, index);
   const auto own = hn::Gt(row, hn::Set(di, -1));
   // The weights of Luminance() (src/base/core/vec.h), in which the rows are stated.
   const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));

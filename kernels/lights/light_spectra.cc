@@ -3,7 +3,6 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

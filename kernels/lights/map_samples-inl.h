@@ -40,7 +40,7 @@ HWY_INLINE void SampleMaps(Wave& wave, LightShape shape, std::size_t maps,
                            std::size_t number_at, Draw&& draw) {
   for (std::size_t e = 0; e < maps; ++e) {
     ForEachLit<kMany>(wave, shape, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-      const Lights light(*wave.scene, index);
+      const Lights light(wave, index);
       const VI number = hn::Set(DI(), static_cast<int32_t>(e));
       const MF mine = hn::RebindMask(DF(), hn::Eq(light.I(number_at), number));
       if (hn::AllFalse(DF(), mine)) return;

@@ -14,8 +14,8 @@ void SampleDiskLight(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachLit<kMany>(
       wave, LightShape::kDisk, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(*wave.scene, index);
-        const LightDisk disk(*wave.scene, light.Primitive());
+        const Lights light(wave, index);
+        const LightDisk disk(wave, light.Primitive());
         // r^2 is uniform between the squares of the radii.
         const VF inner2 = hn::Mul(disk.inner_radius, disk.inner_radius);
         const VF span = hn::NegMulAdd(disk.inner_radius, disk.inner_radius,

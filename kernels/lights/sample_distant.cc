@@ -4,7 +4,7 @@
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -13,7 +13,7 @@ void SampleDistantLight(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachLit<kMany>(wave, LightShape::kDistant,
                     [&](const StoreSlots& slots, VI index) HWY_ATTR {
-                      const Lights light(*wave.scene, index);
+                      const Lights light(wave, index);
                       const VF pmf = Pmf(wave, slots, index);
                       StoreLightSample(p, slots,
                                        {light.F3(offsetof(LightRecord, direction)),

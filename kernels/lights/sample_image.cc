@@ -8,7 +8,7 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -43,10 +43,10 @@ struct Projection {
 template <bool kMany, class Kind>
 HWY_INLINE void SampleKind(Wave& wave) {
   const PathColumns& p = wave.path;
-  const LightTable& table = wave.scene->lights;
+  const LightTable& table = *wave.lights;
   if (!Kind::IsIn(table)) return;
   ForEachLit<kMany>(wave, Kind::kShape, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-    const Lights light(*wave.scene, index);
+    const Lights light(wave, index);
     const LightImages image(table, light.I(offsetof(LightRecord, image)));
     const V3 to_light =
         light.F3(offsetof(LightRecord, position)) - Gather3(p.p_x, p.p_y, p.p_z, slots);

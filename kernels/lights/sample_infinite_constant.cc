@@ -16,7 +16,7 @@ void SampleInfiniteConstant(Wave& wave) {
   ForEachLit<kMany>(
       wave, LightShape::kInfiniteConstant,
       [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(*wave.scene, index);
+        const Lights light(wave, index);
         const VF z = hn::NegMulAdd(Splat(2.0f), Gather(p.u_light_0, slots), Splat(1.0f));
         const VF ring = hn::Sqrt(hn::Max(hn::NegMulAdd(z, z, Splat(1.0f)), Splat(0)));
         const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));

@@ -5,7 +5,7 @@
 
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/light_stage.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -4,7 +4,7 @@
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -13,7 +13,7 @@ void SamplePointLight(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachLit<kMany>(
       wave, LightShape::kPoint, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(*wave.scene, index);
+        const Lights light(wave, index);
         const V3 to_light = light.F3(offsetof(LightRecord, position)) -
                             Gather3(p.p_x, p.p_y, p.p_z, slots);
         const VF d2 = Dot(to_light, to_light);

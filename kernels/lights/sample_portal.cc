@@ -4,14 +4,14 @@
 
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/portal-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <bool kMany>
 void SamplePortalLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  const std::vector<Portal>& portals = wave.scene->lights.portals;
+  const std::vector<Portal>& portals = wave.lights->portals;
   SampleMaps<kMany>(
       wave, LightShape::kPortal, portals.size(), offsetof(LightRecord, image),
       [&](std::size_t map, const StoreSlots& slots) HWY_ATTR {

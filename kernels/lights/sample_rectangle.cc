@@ -9,7 +9,6 @@
 
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/sample_flat-inl.h"
-#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -41,7 +40,7 @@ struct RectangleSampling {
     const PathColumns& p = wave.path;
     ForEachLit<kMany>(wave, LightShape::kRectangle,
                       [&](const StoreSlots& slots, VI index) HWY_ATTR {
-                        const Lights light(*wave.scene, index);
+                        const Lights light(wave, index);
                         SampleFlatLight<kPoints>(
                             p, slots, RectangleEmitters(light, Pmf(wave, slots, index)));
                       });

@@ -10,7 +10,9 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/vocabulary/path/primitive_ranges.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -33,7 +35,7 @@ struct SphereEmitters {
   VF pmf, area, cone_from;
   VI two_sided;
 
-  HWY_INLINE SphereEmitters(const CompiledScene& scene, const Lights& light, VI prim,
+  HWY_INLINE SphereEmitters(const SceneParts& scene, const Lights& light, VI prim,
                             VF selected)
       : sphere(scene, prim),
         radiance(light.Radiance()),
@@ -45,10 +47,10 @@ struct SphereEmitters {
   /// One for each of the scene's lights, which fit into a vector.
   HWY_INLINE static SphereEmitters All(const Wave& wave) {
     const DI di;
-    const CompiledScene& scene = *wave.scene;
-    const auto last = static_cast<int32_t>(scene.lights.lights.size()) - 1;
+    const SceneParts& scene = wave;
+    const auto last = static_cast<int32_t>(scene.lights->lights.size()) - 1;
     const VI index = hn::Min(hn::Iota(di, 0), hn::Set(di, last));
-    const VI first = hn::Set(di, static_cast<int32_t>(scene.geometry.ranges.spheres));
+    const VI first = hn::Set(di, static_cast<int32_t>(scene.ranges->spheres));
     const Lights light(scene, index);
     const auto shape = hn::Eq(light.I(offsetof(LightRecord, shape)),
                               hn::Set(di, static_cast<int32_t>(LightShape::kSphere)));
@@ -132,8 +134,8 @@ HWY_INLINE void SampleEmitters(const PathColumns& p, const StoreSlots& slots,
 template <bool kMany>
 void SampleSphereLight(Wave& wave) {
   const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
-  if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
+  const SceneParts& scene = wave;
+  if (scene.lights->lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
     // Records are read once per call; batches choose among them in registers.
     const SphereEmitters all = SphereEmitters::All(wave);
     ForEachLit<kMany>(wave, LightShape::kSphere,

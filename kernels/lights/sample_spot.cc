@@ -7,7 +7,7 @@
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -16,7 +16,7 @@ HWY_INLINE void SampleSpots(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachLit<kMany>(
       wave, LightShape::kSpot, [&](const StoreSlots& slots, VI index) HWY_ATTR {
-        const Lights light(*wave.scene, index);
+        const Lights light(wave, index);
         const V3 to_light = light.F3(offsetof(LightRecord, position)) -
                             Gather3(p.p_x, p.p_y, p.p_z, slots);
         const VF d2 = Dot(to_light, to_light);
@@ -26,8 +26,7 @@ HWY_INLINE void SampleSpots(Wave& wave) {
         // vectors. Cosines would not tell cones below 0.02 degrees from nothing.
         V3 aside;
         if constexpr (kStretched) {
-          const LightImages axes(wave.scene->lights,
-                                 light.I(offsetof(LightRecord, image)));
+          const LightImages axes(*wave.lights, light.I(offsetof(LightRecord, image)));
           aside = Normalize(axes.ToLocal(-direction)) - Splat3(0, 0, 1);
         } else {
           aside = direction + light.F3(offsetof(LightRecord, direction));
@@ -52,7 +51,7 @@ HWY_INLINE void SampleSpots(Wave& wave) {
 
 template <bool kMany>
 void SampleSpotLight(Wave& wave) {
-  if (wave.scene->lights.stretched_spots) return SampleSpots<kMany, true>(wave);
+  if (wave.lights->stretched_spots) return SampleSpots<kMany, true>(wave);
   SampleSpots<kMany, false>(wave);
 }
 

@@ -13,7 +13,8 @@
 
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/sample_flat-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -24,7 +25,7 @@ struct TriangleEmitters {
   VF pmf, area;
   VI two_sided;
 
-  HWY_INLINE TriangleEmitters(const CompiledScene& scene, const Lights& light, VI prim,
+  HWY_INLINE TriangleEmitters(const SceneParts& scene, const Lights& light, VI prim,
                               VF selection)
       : triangle(scene, prim),
         radiance(light.Radiance()),
@@ -46,8 +47,8 @@ struct TriangleEmitters {
   /// One for each of the scene's lights, which fit into a vector.
   HWY_INLINE static TriangleEmitters All(const Wave& wave) {
     const DI di;
-    const CompiledScene& scene = *wave.scene;
-    const auto last = static_cast<int32_t>(scene.lights.lights.size()) - 1;
+    const SceneParts& scene = wave;
+    const auto last = static_cast<int32_t>(scene.lights->lights.size()) - 1;
     const VI index = hn::Min(hn::Iota(di, 0), hn::Set(di, last));
     const Lights light(scene, index);
     const auto shape = hn::Eq(light.I(offsetof(LightRecord, shape)),
@@ -82,8 +83,8 @@ struct TriangleSampling {
   template <bool kMany, LightPoints kPoints>
   static void Sample(Wave& wave) {
     const PathColumns& p = wave.path;
-    const CompiledScene& scene = *wave.scene;
-    if (scene.lights.lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
+    const SceneParts& scene = wave;
+    if (scene.lights->lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
       // Records are read once per call; batches choose among them in registers.
       const TriangleEmitters all = TriangleEmitters::All(wave);
       ForEachLit<kMany>(wave, LightShape::kTriangle,

@@ -28,16 +28,16 @@ LANELIGHT_INLINE PlacedPoint PlacedAt(LightUv uv, V3 q, V3 n) {
   return {uv.u, uv.v, q, n};
 }
 
-LANELIGHT_INLINE PlacedPoint PointOnTriangle(const CompiledScene& scene,
-                                             const Lights& light, V3 q) {
+LANELIGHT_INLINE PlacedPoint PointOnTriangle(const SceneParts& scene, const Lights& light,
+                                             V3 q) {
   const LightTriangle triangle(scene, light.Primitive());
   const TriangleWeights w = WeightsOf(triangle, q);
-  return PlacedAt(TriangleUv(scene.geometry, light.Primitive(), w.b1, w.b2), q,
+  return PlacedAt(TriangleUv(*scene.geometry, light.Primitive(), w.b1, w.b2), q,
                   triangle.n);
 }
 
 /// A rectangle's points lie in one triangle or in the other.
-LANELIGHT_INLINE PlacedPoint PointOnRectangle(const CompiledScene& scene,
+LANELIGHT_INLINE PlacedPoint PointOnRectangle(const SceneParts& scene,
                                               const Lights& light, V3 q) {
   const VI first = light.Primitive();
   const VI second = light.I(offsetof(LightRecord, second_primitive));
@@ -51,18 +51,18 @@ LANELIGHT_INLINE PlacedPoint PointOnRectangle(const CompiledScene& scene,
   const MF in_first = hn::Ge(least(a), least(b));
   const VI prim = hn::IfThenElse(hn::RebindMask(DI(), in_first), first, second);
   const LightUv uv =
-      TriangleUv(scene.geometry, prim, hn::IfThenElse(in_first, a.b1, b.b1),
+      TriangleUv(*scene.geometry, prim, hn::IfThenElse(in_first, a.b1, b.b1),
                  hn::IfThenElse(in_first, a.b2, b.b2));
   return PlacedAt(uv, q, triangle.n);
 }
 
-LANELIGHT_INLINE PlacedPoint PointOnSphere(const CompiledScene& scene,
-                                           const Lights& light, V3 q) {
+LANELIGHT_INLINE PlacedPoint PointOnSphere(const SceneParts& scene, const Lights& light,
+                                           V3 q) {
   const V3 out = Normalize(q - LightSphere(scene, light.Primitive()).center);
   return PlacedAt(SphereUv(scene, light.Primitive(), out), q, out);
 }
 
-LANELIGHT_INLINE PlacedPoint PointOnDisk(const CompiledScene& scene, const Lights& light,
+LANELIGHT_INLINE PlacedPoint PointOnDisk(const SceneParts& scene, const Lights& light,
                                          V3 q) {
   const LightDisk disk(scene, light.Primitive());
   return PlacedAt(DiskUv(scene, light.Primitive(), disk, q - disk.center), q, disk.n);
@@ -73,7 +73,7 @@ template <bool kMany, class PointOn, class Factor>
 LANELIGHT_INLINE void MultiplyShape(Wave& wave, LightShape shape, const PointOn& point_on,
                                     const Factor& factor) {
   const PathColumns& p = wave.path;
-  const CompiledScene& scene = *wave.scene;
+  const SceneParts& scene = wave;
   ForEachLit<kMany>(wave, shape, [&](const StoreSlots& slots, VI index) HWY_ATTR {
     const Lights light(scene, index);
     const V3 q =

@@ -10,7 +10,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

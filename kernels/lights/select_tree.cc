@@ -13,7 +13,7 @@
 
 #include "kernels/lights/tree-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

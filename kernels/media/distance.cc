@@ -58,7 +58,7 @@ template <class Needs>
 HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const DF df;
   const PathColumns& p = wave.path;
-  const Media medium(wave.scene->media, Gather(p.medium, slots));
+  const Media medium(*wave.media, Gather(p.medium, slots));
   const V3 sigma_t = medium.SigmaT(wave, slots);
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
   const VF u_distance = Gather(p.u_medium_0, slots);
@@ -108,13 +108,12 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
 template <class Needs>
 void MediumDistance(Wave& wave) {
   const PathColumns& p = wave.path;
-  const bool grids = !wave.scene->media.grids.empty();
+  const bool grids = !wave.media->grids.empty();
   const Queue& mine =
       FilterQueue(wave, wave.queue(QueueId::kActive), [&](const Slots& slots) HWY_ATTR {
         const VI index = Gather(p.medium, slots);
         const MF inside = IsInMedium(index);
-        return grids ? hn::AndNot(Media(wave.scene->media, index).Varies(), inside)
-                     : inside;
+        return grids ? hn::AndNot(Media(*wave.media, index).Varies(), inside) : inside;
       });
   ForEachBatch(wave, mine,
                [&](const StoreSlots& slots, MF) HWY_ATTR { Walk<Needs>(wave, slots); });

@@ -5,7 +5,8 @@
 #include "hwy/contrib/math/math-inl.h"
 
 #include "kernels/media/voxels-inl.h"
-#include "src/base/image/blackbody.h"
+#include "src/base/core/spectral_constants.h"
+#include "src/scene/compiled/media.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -57,10 +58,9 @@ struct GridEmission {
 
   /// Medium `i` of the table, which has a grid.
   LANELIGHT_INLINE GridEmission(const Wave& wave, std::size_t i, const Slots& slots)
-      : grid(wave.scene->media
-                 .grids[static_cast<std::size_t>(wave.scene->media.media[i].grid)]),
+      : grid(wave.media->grids[static_cast<std::size_t>(wave.media->media[i].grid)]),
         spectral(wave.path.wavelength != nullptr) {
-    const Media lanes(wave.scene->media, hn::Set(DI(), static_cast<int32_t>(i)));
+    const Media lanes(*wave.media, hn::Set(DI(), static_cast<int32_t>(i)));
     scale = lanes.Emission(wave, slots);
     if (spectral && grid.emission.heated()) planck = lanes.Planck(wave, slots);
     if (spectral && grid.emission.channels == 4) place = Places(wave, slots);

@@ -25,13 +25,12 @@ HWY_INLINE void EnterInside(const Wave& wave, const StoreSlots& slots, VI before
                             VI after) {
   const PathColumns& p = wave.path;
   const DI di;
-  const Media medium(wave.scene->media, after);
+  const Media medium(*wave.media, after);
   const MF changes = hn::And(hn::RebindMask(DF(), hn::Ne(before, after)),
                              hn::And(IsInMedium(after), medium.IsTextured()));
   const VI table = hn::Max(medium.I(offsetof(MediumRecord, albedos)), hn::Zero(di));
-  const auto of = [&](VF reflectance) HWY_ATTR {
-    return AlbedoOf(wave.scene->media, table, reflectance);
-  };
+  const auto of = [&](VF reflectance)
+                      HWY_ATTR { return AlbedoOf(*wave.media, table, reflectance); };
   const V3 color = Gather3(p.color0_r, p.color0_g, p.color0_b, slots);
   const V3 here = {of(color.x), of(color.y), of(color.z)};
   const V3 had = Gather3(p.inside_r, p.inside_g, p.inside_b, slots);
@@ -41,7 +40,7 @@ HWY_INLINE void EnterInside(const Wave& wave, const StoreSlots& slots, VI before
 template <bool kInterfaces>
 void Enter(Wave& wave) {
   const PathColumns& p = wave.path;
-  const MediumTable& media = wave.scene->media;
+  const MediumTable& media = *wave.media;
   ForEachBatch(wave, wave.queue(QueueId::kScattered),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
                  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);

@@ -6,6 +6,7 @@
 
 #include "kernels/media/medium-inl.h"
 #include "kernels/media/walk_random-inl.h"
+#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

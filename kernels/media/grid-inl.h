@@ -26,12 +26,11 @@ struct GridMedium {
 
   /// Medium `i` of the table, which has a grid, for a batch of paths.
   LANELIGHT_INLINE GridMedium(const Wave& wave, std::size_t i, const Slots& slots)
-      : grid(wave.scene->media
-                 .grids[static_cast<std::size_t>(wave.scene->media.media[i].grid)]),
-        medium(wave.scene->media.media[i]),
+      : grid(wave.media->grids[static_cast<std::size_t>(wave.media->media[i].grid)]),
+        medium(wave.media->media[i]),
         spectral(wave.path.wavelength != nullptr) {
     if (spectral && IsColored()) place = Places(wave, slots);
-    const Media lanes(wave.scene->media, hn::Set(DI(), static_cast<int32_t>(i)));
+    const Media lanes(*wave.media, hn::Set(DI(), static_cast<int32_t>(i)));
     sigma_t = lanes.SigmaT(wave, slots);
     sigma_s = lanes.SigmaS(wave, slots);
   }

@@ -15,8 +15,7 @@ void Interfaces(Wave& wave) {
   Queue& surfaces = wave.queue(QueueId::kSurface);
   Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, surfaces, [&](const Slots& slots, MF valid) HWY_ATTR {
-    const MF passes =
-        hn::And(valid, Sides(wave.scene->media, Gather(p.prim, slots)).Passes());
+    const MF passes = hn::And(valid, Sides(*wave.media, Gather(p.prim, slots)).Passes());
     const MF stays = hn::AndNot(passes, valid);
     const MF below = MayScatter(wave, slots);
     const MF few = hn::RebindMask(DF(), hn::Lt(Gather(p.crossings, slots), most));
@@ -30,7 +29,7 @@ void Interfaces(Wave& wave) {
 
 void PassInterfaces(Wave& wave) {
   const PathColumns& p = wave.path;
-  const MediumTable& media = wave.scene->media;
+  const MediumTable& media = *wave.media;
   ForEachBatch(wave, wave.queue(QueueId::kPassed),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR {
                  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);

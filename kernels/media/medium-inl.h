@@ -17,7 +17,8 @@
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/media.h"
+#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -59,8 +60,7 @@ struct Media : RecordWords<MediumRecord> {
   }
   LANELIGHT_INLINE V3 AtRow(const Wave& wave, const Slots& slots, MediumRow row) const {
     const VI first = I(offsetof(MediumRecord, spectra));
-    return AtRows(wave.scene->spectra,
-                  hn::Add(first, hn::Set(DI(), static_cast<int32_t>(row))),
+    return AtRows(*wave.spectra, hn::Add(first, hn::Set(DI(), static_cast<int32_t>(row))),
                   Wavelengths(wave.path, slots));
   }
 };

@@ -16,7 +16,7 @@ LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
   if constexpr (!kChanges) return here;
   const V3 ls = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
   const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
-  return Sides(wave.scene->media, Gather(p.prim, slots)).Toward(ls, ng, here);
+  return Sides(*wave.media, Gather(p.prim, slots)).Toward(ls, ng, here);
 }
 
 /// What a tentative collision leaves of a ray, of which `real` is the share of collisions
@@ -68,7 +68,7 @@ struct ShadowLeg {
 /// Of lanes in media with a grid; 1 for the others.
 HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
                                   const ShadowLeg& leg, V3 d) {
-  const MediumTable& table = wave.scene->media;
+  const MediumTable& table = *wave.media;
   V3 left = Splat3(1, 1, 1);
   for (std::size_t i = 0; i < table.media.size(); ++i) {
     if (table.media[i].grid < 0) continue;
@@ -88,7 +88,7 @@ HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
 LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots,
                                 const ShadowLeg& leg) {
   const PathColumns& p = wave.path;
-  const MediumTable& table = wave.scene->media;
+  const MediumTable& table = *wave.media;
   const Media medium(table, leg.medium);
   MF homogeneous = IsInMedium(leg.medium);
   V3 left = Splat3(1, 1, 1);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kernels/media/shadow-inl.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -25,7 +26,7 @@ HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
   ray.ns_x = p.sh_ns_x, ray.ns_y = p.sh_ns_y, ray.ns_z = p.sh_ns_z;
   // Nothing else of the surface is asked for, and its tangents are the path's.
   ray.tg_x = ray.tv_x = ray.uv_u = nullptr;
-  if (wave.scene->geometry.normals.empty()) ray.ns_x = nullptr;
+  if (wave.geometry->normals.empty()) ray.ns_x = nullptr;
   return ray;
 }
 
@@ -64,7 +65,7 @@ HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
     const VF left = Gather(p.sh_left, slots), t = Gather(p.sh_t, slots);
     const MF arrives = hn::Ge(t, left);
     const MF passes =
-        hn::AndNot(arrives, Sides(wave.scene->media, Gather(p.sh_prim, slots)).Passes());
+        hn::AndNot(arrives, Sides(*wave.media, Gather(p.sh_prim, slots)).Passes());
     const V3 o = Gather3(p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
     DimShadow(wave, slots, {Gather(p.sh_medium, slots), o, hn::Min(t, left), leg});
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, arrives));
@@ -82,7 +83,7 @@ HWY_INLINE void NextLegs(Wave& wave) {
         const V3 n = Gather3(p.sh_n_x, p.sh_n_y, p.sh_n_z, slots);
         const V3 at = Gather3(p.sh_p_x, p.sh_p_y, p.sh_p_z, slots);
         const V3 o = OffsetOrigin(at, n, Gather(p.sh_p_error, slots), d);
-        const Sides sides(wave.scene->media, Gather(p.sh_prim, slots));
+        const Sides sides(*wave.media, Gather(p.sh_prim, slots));
         Scatter3(o, p.sh_o_x, p.sh_o_y, p.sh_o_z, slots);
         Scatter(sides.Toward(d, n, Gather(p.sh_medium, slots)), p.sh_medium, slots);
         Scatter(hn::Sub(Gather(p.sh_left, slots), Gather(p.sh_t, slots)), p.sh_left,

@@ -121,7 +121,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
 
 template <bool kEmission>
 void MediumTracking(Wave& wave) {
-  const MediumTable& table = wave.scene->media;
+  const MediumTable& table = *wave.media;
   for (std::size_t i = 0; i < table.media.size(); ++i) {
     if (table.media[i].grid < 0) continue;
     const VI own = hn::Set(DI(), static_cast<int32_t>(i));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernels/media/medium-inl.h"
+#include "src/base/core/sparse_grid.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -68,7 +69,7 @@ LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
 
 /// Where the wavelengths of paths lie in the polynomials of VoxelSpectrum.
 LANELIGHT_INLINE V3 Places(const Wave& wave, const Slots& slots) {
-  return ByBin(wave.scene->spectra.place.data(), Wavelengths(wave.path, slots).triple);
+  return ByBin(wave.spectra->place.data(), Wavelengths(wave.path, slots).triple);
 }
 
 /// The same of kCount VoxelSpectrum for each voxel: what they are at three wavelengths,

@@ -6,7 +6,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/media.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -19,8 +19,7 @@ inline constexpr int32_t kMostWalked = 1 << 16;
 LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
   const DI di;
   const VI medium = Gather(wave.path.medium, slots), vacuum = hn::Set(di, kVacuum);
-  const RecordWords records(wave.scene->media.media.data(),
-                            hn::Max(medium, hn::Zero(di)));
+  const RecordWords records(wave.media->media.data(), hn::Max(medium, hn::Zero(di)));
   const auto in_medium = hn::RebindMask(DF(), hn::Gt(medium, vacuum));
   const VI walked = Gather(wave.path.walked, slots);
   const auto few = hn::RebindMask(DF(), hn::Lt(walked, hn::Set(di, kMostWalked)));

@@ -3,7 +3,7 @@
 #define LANELIGHT_QUEUE_FILTER_INL_H_
 
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/primitive_ranges.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -30,7 +30,7 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
 /// scene has no other primitives.
 HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_t begin,
                                          uint32_t end) {
-  if (begin == 0 && end == wave.scene->geometry.ranges.end) return queue;
+  if (begin == 0 && end == wave.ranges->end) return queue;
   const uint32_t* prims = wave.path.prim;
   return FilterQueue(wave, queue, [&](const Slots& slots) HWY_ATTR {
     const DU du;

@@ -6,7 +6,7 @@
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -108,7 +108,7 @@ HWY_INLINE void FinishSamples(Wave& wave) {
                        hn::Set(di, static_cast<int32_t>(block.records[i])));
     const VI at = hn::Mul(hn::Sub(records, first), samples);
     V3 light = Gather3(red, red + stride, red + 2 * stride, at);
-    if (spectral) light = FilmColor(wave.scene->spectra, light, wavelengths);
+    if (spectral) light = FilmColor(*wave.spectra, light, wavelengths);
     const V3 color = Mul(light, hn::Mul(Gather(weights, at), exposure));
     const V3 value = Check<kSigned>(wave.health, color, valid).value;
     Scatter3(value, red, red + stride, red + 2 * stride, at);

@@ -70,7 +70,7 @@ HWY_INLINE void OfGlossyKind(uint32_t kind, Body&& body) {
 
 HWY_INLINE uint32_t GlossyKindOf(const Wave& wave, uint32_t record) {
   const uint32_t material = wave.block->glossy_surface->path.material[record];
-  return static_cast<uint32_t>(wave.scene->materials.kind[material]);
+  return static_cast<uint32_t>(wave.materials->kind[material]);
 }
 
 LANELIGHT_END_KERNELS

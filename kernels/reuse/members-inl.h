@@ -4,7 +4,7 @@
 #define LANELIGHT_REUSE_MEMBERS_INL_H_
 
 #include "kernels/reuse/block-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -193,7 +193,7 @@ HWY_INLINE void PairsIfThere(Wave& wave, const KindRange* ranges) {
 template <class Proposal>
 HWY_INLINE void ConnectPairs(Wave& wave) {
   Block& block = *wave.block;
-  const MaterialTable& materials = wave.scene->materials;
+  const MaterialTable& materials = *wave.materials;
   wave.queue(QueueId::kShadow).size = 0;
   block.num_receivers = 0;
   ListSuffixes(wave);

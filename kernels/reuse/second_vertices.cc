@@ -15,12 +15,13 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/reuse/block-inl.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE MF IsOfKinds(const Wave& wave, const Slots& slots, uint32_t kinds) {
   const DU du;
-  const VI kind = Lookup(wave.scene->materials.kind, Gather(wave.path.material, slots));
+  const VI kind = Lookup(wave.materials->kind, Gather(wave.path.material, slots));
   const VU bit = hn::Shl(hn::Set(du, 1u), hn::BitCast(du, kind));
   return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, kinds)), hn::Zero(du)));
 }
@@ -43,7 +44,7 @@ HWY_INLINE VI RecordsOf(const Wave& wave, const Slots& slots) {
 // A metal's lobe may be too narrow to be of use to others.
 HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
-  const MaterialTable& materials = wave.scene->materials;
+  const MaterialTable& materials = *wave.materials;
   const VI material = Gather(p.material, slots);
   const VI kind = Lookup(materials.kind, material);
   const VI metal = hn::Set(DI(), static_cast<int32_t>(ShadeKind::kConductorRough));
@@ -100,8 +101,7 @@ HWY_INLINE void BeginSuffix(const PathColumns& p, const StoreSlots& slots) {
 // Curves turn towards the ray that meets them, but for ribbons: the point that one path
 // meets, and its normal, are not those that another would meet.
 HWY_INLINE MF IsSameToAll(const Wave& wave, const Slots& slots) {
-  const VI curves =
-      hn::Set(DI(), static_cast<int32_t>(wave.scene->geometry.ranges.curves));
+  const VI curves = hn::Set(DI(), static_cast<int32_t>(wave.ranges->curves));
   return hn::RebindMask(DF(), hn::Lt(Gather(wave.path.prim, slots), curves));
 }
 

@@ -4,7 +4,8 @@
 // decision has ended is worth nothing, and those that survive it count for it. So, for
 // any f of a path,
 //   E[sum over the copies of w f(copy)] = E[f(path)] without any roulette
-// and with f the second moment by roulette on the throughput (training_records.cc has the formula),
+// and with f the second moment by roulette on the throughput (training_records.cc has the
+// formula),
 //   f = L^2 + sum over its decisions of W (1/s - 1) (L - g)^2
 // of throughput, L and g as they were without w, the pass tells that moment with no path
 // of the other strategy traced. Where splitting pays, its copies have met the bright

@@ -43,7 +43,7 @@ template <class Bsdf, ShadeKind kKind>
 HWY_INLINE void ForceKind(Wave& wave) {
   if constexpr (!HasTrait(kKind, kInMedium)) {
     const PathColumns& p = wave.path;
-    const MaterialTable& materials = wave.scene->materials;
+    const MaterialTable& materials = *wave.materials;
     if (!(materials.forced_kinds >> static_cast<int>(kKind) & 1)) return;
     const Queue& mine = FilterQueue(
         wave, wave.queue(QueueId::kSurface), [&](const Slots& slots) HWY_ATTR {

@@ -9,7 +9,7 @@
 #include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -49,7 +49,7 @@ struct SurfaceReader {
   MaterialSource source;
 
   HWY_INLINE explicit SurfaceReader(Wave& w)
-      : wave(w), source(TableSource(w.scene->materials)) {
+      : wave(w), source(TableSource(*w.materials)) {
     const PathColumns& path = w.path;
     source.color_by_path = path.color0_r != nullptr;
     source.alpha_by_path = path.alpha_x != nullptr;

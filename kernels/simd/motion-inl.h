@@ -1,4 +1,4 @@
-// Affine maps, one per lane, and those of motions (src/scene/geometry/motion.h) at the
+// Affine maps, one per lane, and those of motions (src/base/core/motion_record.h) at the
 // times of lanes.
 #ifndef LANELIGHT_SIMD_MOTION_INL_H_
 #define LANELIGHT_SIMD_MOTION_INL_H_
@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "kernels/simd/math-inl.h"
-#include "src/scene/geometry/motion.h"
+#include "src/base/core/motion_record.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -15,6 +15,8 @@ LANELIGHT_END_KERNELS
 
 #if HWY_ONCE
 
+#include <fmt/format.h>
+
 #include <fmt/ranges.h>
 #include <strings.h>
 

@@ -3,14 +3,14 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/vocabulary/path/primitive_ranges.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 // Whether what was found is a distance ahead of the ray and a primitive of the scene.
 HWY_INLINE MF IsHit(const Wave& wave, const Slots& slots) {
   const VI prim = Gather(wave.path.prim, slots);
-  const VI end = hn::Set(DI(), static_cast<int32_t>(wave.scene->geometry.ranges.end));
+  const VI end = hn::Set(DI(), static_cast<int32_t>(wave.ranges->end));
   const auto known = hn::AndNot(hn::Lt(prim, hn::Zero(DI())), hn::Lt(prim, end));
   return hn::And(hn::Ge(Gather(wave.path.t, slots), hn::Zero(DF())),
                  hn::RebindMask(DF(), known));

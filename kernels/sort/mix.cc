@@ -7,7 +7,8 @@
 #include "kernels/queue/key-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -15,7 +16,7 @@ LANELIGHT_BEGIN_KERNELS
 // texture coordinates: compile sees to it).
 template <bool kPlaces>
 HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const PathColumns& path = wave.path;
   const VF constant = Gather(m.alpha_x.data(), material);
   if (path.uv_u == nullptr) return constant;
@@ -24,15 +25,15 @@ HWY_INLINE VF MixAmount(const Wave& wave, const Slots& slots, VI material) {
   if constexpr (kPlaces) {
     const PlacedPoint at = {uv.u, uv.v, Gather3(path.p_x, path.p_y, path.p_z, slots),
                             Gather3(path.ng_x, path.ng_y, path.ng_z, slots)};
-    return EvalFloats(wave.scene->textures, id, at, constant);
+    return EvalFloats(*wave.textures, id, at, constant);
   } else {
-    return EvalFloats(wave.scene->textures, id, uv, constant);
+    return EvalFloats(*wave.textures, id, uv, constant);
   }
 }
 
 template <bool kPlaces>
 HWY_INLINE void Mix(Wave& wave) {
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const DI di;
   const VI mix_kind = hn::Set(di, static_cast<int32_t>(ShadeKind::kMix));
   ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {

@@ -6,13 +6,13 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/queue/slots-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 void Regularize(Wave& wave) {
   const PathColumns& path = wave.path;
-  const AlignedVector<int32_t>& regular = wave.scene->materials.regular;
+  const AlignedVector<int32_t>& regular = wave.materials->regular;
   ForEachBatch(wave, wave.queue(QueueId::kSurface), [&](const Slots& slots, MF) HWY_ATTR {
     const DI di;
     const MF scattered = hn::Gt(Gather(path.bsdf_pdf, slots), hn::Zero(DF()));

@@ -4,14 +4,14 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <bool kLights>
 void Route(Wave& wave) {
   const DI di;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const Queue& vertices = wave.queue(QueueId::kVertex);
   // Which kinds the scene has is decided per call, never per lane.
   ShadeKind kinds[kNumShadeKinds];

@@ -40,7 +40,7 @@ template <bool kInstances>
 HWY_INLINE VF Handedness(const Wave& wave, const StoreSlots& slots) {
   if constexpr (kInstances) {
     const InstanceMaps maps =
-        GatherMaps(wave.scene->geometry.instances, Gather(wave.path.inst, slots));
+        GatherMaps(wave.geometry->instances, Gather(wave.path.inst, slots));
     const Map34& m = maps.scene_from_object;
     return hn::CopySign(Splat(1.0f), Dot(m.row[0], Cross(m.row[1], m.row[2])));
   }
@@ -55,7 +55,7 @@ HWY_INLINE BumpAxes LoadAxes(const Wave& wave, const StoreSlots& slots) {
   const V3 tv = Gather3(path.tv_x, path.tv_y, path.tv_z, slots);
   const V3 flat = MulAdd(n, hn::Neg(Dot(n, tg)), tg);
   const V3 across = Mul(Cross(n, tg), Handedness<kInstances>(wave, slots));
-  const MF square = OnMeshWithNormals(wave.scene->geometry, Gather(path.prim, slots));
+  const MF square = OnMeshWithNormals(*wave.geometry, Gather(path.prim, slots));
   return {n, IfThenElse(square, flat, tg), IfThenElse(square, across, tv)};
 }
 
@@ -72,7 +72,7 @@ struct Slopes {
 };
 HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI texture) {
   const PathColumns& path = wave.path;
-  const TextureTable& table = wave.scene->textures;
+  const TextureTable& table = *wave.textures;
   const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
   const Footprint spread = LoadFootprint(path, slots);
   const VF next_u = hn::Add(u, Step(spread.dudx, spread.dudy, u));
@@ -87,7 +87,7 @@ HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI textu
     point.SetSteps(tg, tv);
     return EvalFloats(table, texture, point, hn::Zero(DF()));
   };
-  const VF here = height(u, v), scale = Splat(static_cast<float>(wave.scene->scale));
+  const VF here = height(u, v), scale = Splat(static_cast<float>(wave.scale));
   const VF rise_u = hn::Sub(height(next_u, v), here);
   const VF rise_v = hn::Sub(height(u, next_v), here);
   return {hn::Mul(scale, hn::Div(rise_u, hn::Sub(next_u, u))),
@@ -96,7 +96,7 @@ HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI textu
 
 template <bool kInstances>
 void Bumps(Wave& wave) {
-  const AlignedVector<int32_t>& textures = wave.scene->materials.displacement_texture;
+  const AlignedVector<int32_t>& textures = wave.materials->displacement_texture;
   const PathColumns& path = wave.path;
   ForEachBatch(wave, WithTexture(wave, textures),
                [&](const StoreSlots& slots, MF) HWY_ATTR {

@@ -11,7 +11,8 @@
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -170,7 +171,7 @@ HWY_INLINE CurveFaces FaceStretchedCurves(const Geometry& geometry, VI index,
 
 HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
-  const Geometry& geometry = wave.scene->geometry;
+  const Geometry& geometry = *wave.geometry;
   const VI first = hn::Set(DI(), static_cast<int32_t>(geometry.ranges.curves));
   const VI index = hn::Sub(Gather(path.prim, slots), first);
   const CurveLanes curve = LoadCurves(geometry, index, Gather(path.b1, slots));

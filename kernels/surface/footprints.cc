@@ -6,7 +6,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
-#include "src/scene/compiled/scene.h"
 
 LANELIGHT_BEGIN_KERNELS
 

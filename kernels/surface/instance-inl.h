@@ -6,7 +6,8 @@
 #include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/base/core/motion_record.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -17,7 +17,7 @@ HWY_INLINE V3 UnitTangent(V3 n, V3 tangent) {
 }
 
 void NormalMaps(Wave& wave) {
-  const AlignedVector<int32_t>& textures = wave.scene->materials.normal_map_texture;
+  const AlignedVector<int32_t>& textures = wave.materials->normal_map_texture;
   const PathColumns& path = wave.path;
   ForEachBatch(
       wave, WithTexture(wave, textures), [&](const StoreSlots& slots, MF) HWY_ATTR {
@@ -25,9 +25,8 @@ void NormalMaps(Wave& wave) {
         const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
         const V3 ns = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
         const V3 x = UnitTangent(ns, Gather3(path.tg_x, path.tg_y, path.tg_z, slots));
-        const V3 color =
-            EvalTextures(wave.scene->textures, texture, Gather(path.uv_u, slots),
-                         Gather(path.uv_v, slots), Splat3(0, 0, 0));
+        const V3 color = EvalTextures(*wave.textures, texture, Gather(path.uv_u, slots),
+                                      Gather(path.uv_v, slots), Splat3(0, 0, 0));
         const V3 local = Normalize(Mul(color, Splat(2.0f)) - Splat3(1, 1, 1));
         const V3 n = ShadingFrame{x, Cross(ns, x), ns}.FromLocal(local);
         StoreNormal(wave, slots, Sided(n, ng, ns), ng, x);

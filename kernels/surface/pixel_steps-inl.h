@@ -5,7 +5,9 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/motion-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/camera.h"
+#include "src/scene/compiled/footprint.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -42,19 +44,19 @@ HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {
 }
 
 // The same at the times of paths, where the camera moves.
-HWY_NOINLINE inline PixelSteps MovedSteps(const CompiledView& view, V3 p, VF time) {
-  const MovedSpace space = SpaceAt(OneMotion{view.camera.motion}, time);
-  const PixelSteps steps = StepsAt(view.footprint, space.Back().Point(p));
+HWY_NOINLINE inline PixelSteps MovedSteps(const SceneParts& view, V3 p, VF time) {
+  const MovedSpace space = SpaceAt(OneMotion{view.camera->motion}, time);
+  const PixelSteps steps = StepsAt(*view.footprint, space.Back().Point(p));
   const Map34 map = space.Forward();
   return {map.Vector(steps.sight), map.Vector(steps.x), map.Vector(steps.y)};
 }
 
 HWY_INLINE PixelSteps StepsOfPaths(const Wave& wave, const Slots& slots, V3 p) {
-  const CompiledView& view = *wave.view;
-  if (HWY_UNLIKELY(view.camera.moves)) {
+  const SceneParts& view = wave;
+  if (HWY_UNLIKELY(view.camera->moves)) {
     return MovedSteps(view, p, Gather(wave.path.time, slots));
   }
-  return StepsAt(view.footprint, p);
+  return StepsAt(*view.footprint, p);
 }
 
 // A step moved along the sight into the plane across n.

@@ -19,7 +19,7 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -87,8 +87,7 @@ HWY_INLINE void StoreNormal(const Wave& wave, const StoreSlots& slots, V3 n, V3 
                             V3 tangent) {
   const PathColumns& path = wave.path;
   const V3 wo = -Gather3(path.d_x, path.d_y, path.d_z, slots);
-  const MF mirrors =
-      MirrorsOrRefracts(wave.scene->materials, Gather(path.material, slots));
+  const MF mirrors = MirrorsOrRefracts(*wave.materials, Gather(path.material, slots));
   Scatter3(KeepInView(n, ng, wo, mirrors), path.ns_x, path.ns_y, path.ns_z, slots);
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }

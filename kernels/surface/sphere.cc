@@ -4,7 +4,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -24,7 +24,7 @@ HWY_INLINE void Reproject(const SphereHits& s, D3 hit, D3& p, D3& outward) {
 
 HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
-  const Geometry& geometry = wave.scene->geometry;
+  const Geometry& geometry = *wave.geometry;
   const DI di;
   const auto first = static_cast<int32_t>(geometry.ranges.spheres);
   const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));

@@ -125,7 +125,7 @@ LANELIGHT_INLINE void StoreSphereCoordinates(const PathColumns& path,
 template <auto kBatch, std::uint32_t PrimitiveRanges::* kFirst,
           std::uint32_t PrimitiveRanges::* kNext>
 void SurfaceOfShape(Wave& wave) {
-  const PrimitiveRanges& ranges = wave.scene->geometry.ranges;
+  const PrimitiveRanges& ranges = *wave.ranges;
   const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface),
                                        ranges.*kFirst, ranges.*kNext);
   ForEachBatch(wave, hits,

@@ -5,7 +5,7 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -18,7 +18,7 @@ struct TriangleLanes {
 
 HWY_INLINE TriangleLanes LoadTriangles(const Wave& wave, const Slots& slots) {
   const PathColumns& path = wave.path;
-  const TriangleRecord* records = wave.scene->geometry.triangles.data();
+  const TriangleRecord* records = wave.geometry->triangles.data();
   TriangleLanes tri;
   tri.prim = Gather(path.prim, slots);
   VF w[12];
@@ -170,7 +170,7 @@ struct PlaceLanes {
 HWY_NOINLINE void MovePlaces(const Wave& wave, const StoreSlots& slots,
                              const TriangleLanes& tri, V3 face, PlaceLanes& at) {
   const MovingLanes moving =
-      GatherMotions(wave.scene->geometry.motions, Gather(wave.path.inst, slots),
+      GatherMotions(wave.geometry->motions, Gather(wave.path.inst, slots),
                     Gather(wave.path.time, slots));
   const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
   const V3 p = FromHalves(MapPoint<false>(moving.maps.scene_from_object, lower),
@@ -190,7 +190,7 @@ HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
                                      const TriangleLanes& tri, const FaceLanes& face) {
   PlaceLanes at;
   if constexpr (kInstances) {
-    at.maps = GatherMaps(wave.scene->geometry.instances, Gather(wave.path.inst, slots));
+    at.maps = GatherMaps(wave.geometry->instances, Gather(wave.path.inst, slots));
     const D3 lower = Interpolate<false>(tri), upper = Interpolate<true>(tri);
     at.p = FromHalves(MapPoint<false>(at.maps.scene_from_object, lower),
                       MapPoint<true>(at.maps.scene_from_object, upper));
@@ -212,7 +212,7 @@ template <bool kInstances>
 HWY_INLINE void StoreNormals(const Wave& wave, const StoreSlots& slots,
                              const TriangleLanes& tri, V3 face, PlaceLanes* at) {
   const PathColumns& path = wave.path;
-  const Geometry& geometry = wave.scene->geometry;
+  const Geometry& geometry = *wave.geometry;
   V3 ns = face;
   if (!geometry.normals.empty()) ns = VertexNormal(geometry, tri, face);
   if constexpr (kInstances) ns = at->maps.object_from_scene.Transposed(ns);
@@ -239,8 +239,8 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
   const auto& [uv, face] = flat;
   V3 tangent = Tangent(uv, face.e1, face.e2, face.normal), bitangent = tangent;
   if (path.tv_x != nullptr) bitangent = Bitangent(uv, face.e1, face.e2, face.normal);
-  if (wave.scene->geometry.turned_tangents) {
-    TurnTangents(wave.scene->geometry, tri, face.normal, tangent, bitangent);
+  if (wave.geometry->turned_tangents) {
+    TurnTangents(*wave.geometry, tri, face.normal, tangent, bitangent);
   }
   if (path.tv_x != nullptr) {
     if constexpr (kInstances) bitangent = at.maps.scene_from_object.Vector(bitangent);
@@ -262,7 +262,7 @@ HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
                                  const TriangleLanes& tri, const FaceLanes& face,
                                  const PlaceLanes& at) {
   const PathColumns& path = wave.path;
-  const Geometry& geometry = wave.scene->geometry;
+  const Geometry& geometry = *wave.geometry;
   const bool wanted = path.uv_u != nullptr || path.tg_x != nullptr;
   if (!wanted || geometry.uvs.empty()) return;
   const UvLanes uv = LoadUvs(geometry, tri.prim);
@@ -290,8 +290,8 @@ HWY_INLINE void SurfaceBatch(const Wave& wave, const StoreSlots& slots) {
 
 template <bool kInstances, bool kMoving>
 void SurfaceTriangle(Wave& wave) {
-  const Queue& hits = FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0,
-                                       wave.scene->geometry.ranges.spheres);
+  const Queue& hits =
+      FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0, wave.ranges->spheres);
   if (WantsDetails(wave.path)) {
     ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       SurfaceBatch<kInstances, kMoving, true>(wave, slots);

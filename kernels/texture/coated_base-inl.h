@@ -3,7 +3,7 @@
 #define LANELIGHT_TEXTURE_COATED_BASE_INL_H_
 
 #include "kernels/texture/cube-inl.h"
-#include "src/scene/compile/coat_fit.h"
+#include "src/base/core/spectral_constants.h"
 #include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS

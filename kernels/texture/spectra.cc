@@ -5,7 +5,9 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
+#include "src/scene/compiled/spectra.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -18,7 +20,7 @@ struct ColorColumns {
 template <class Body>
 LANELIGHT_INLINE void ForEachColor(const Wave& wave, const Body& body) {
   const PathColumns& p = wave.path;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   body(ColorColumns{p.color0_r, p.color0_g, p.color0_b, &m.color0_spectrum});
   if (p.color1_r != nullptr) {
     body(ColorColumns{p.color1_r, p.color1_g, p.color1_b, &m.color1_spectrum});
@@ -30,7 +32,7 @@ LANELIGHT_INLINE void ForEachColor(const Wave& wave, const Body& body) {
 }
 
 void Spectra(Wave& wave) {
-  const SpectrumTable& table = wave.scene->spectra;
+  const SpectrumTable& table = *wave.spectra;
   ForEachBatch(wave, wave.queue(QueueId::kSurface),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
                  const Wavelengths at(wave.path, slots);
@@ -51,11 +53,11 @@ LANELIGHT_INLINE V3 HeadOn(V3 k, VF index) {
 }
 
 // What textures say, at the wavelengths of the paths. `kind`: PathColor.
-LANELIGHT_INLINE V3 Upsampled(const CompiledScene& scene, VI kind, VI material, V3 color,
+LANELIGHT_INLINE V3 Upsampled(const SceneParts& scene, VI kind, VI material, V3 color,
                               const Wavelengths& at) {
   const DI di;
   const DF df;
-  const SpectrumTable& table = scene.spectra;
+  const SpectrumTable& table = *scene.spectra;
   const auto is = [&](PathColor k) HWY_ATTR {
     return hn::RebindMask(df, hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k))));
   };
@@ -65,11 +67,11 @@ LANELIGHT_INLINE V3 Upsampled(const CompiledScene& scene, VI kind, VI material, 
     return UpsampledReflectances(table, color, at);
   }
   const VF index =
-      hn::IfThenElse(metal, Lookup(scene.materials.color0_r, material), Splat(1.0f));
+      hn::IfThenElse(metal, Lookup(scene.materials->color0_r, material), Splat(1.0f));
   const V3 reflectance = IfThenElse(metal, HeadOn(color, index), color);
   V3 value = UpsampledReflectances(table, reflectance, at);
   if (!hn::AllFalse(df, scaled)) {
-    const VF scale = Lookup(scene.materials.color_scale, material), one = Splat(1.0f);
+    const VF scale = Lookup(scene.materials->color_scale, material), one = Splat(1.0f);
     const V3 product = Mul(value, scale);
     value = IfThenElse(
         scaled,
@@ -83,7 +85,7 @@ LANELIGHT_INLINE V3 Upsampled(const CompiledScene& scene, VI kind, VI material, 
 // Textures, and constants beside them.
 void TextureSpectra(Wave& wave) {
   const DI di;
-  const CompiledScene& scene = *wave.scene;
+  const SceneParts& scene = wave;
   ForEachBatch(
       wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
         const Wavelengths at(wave.path, slots);
@@ -91,7 +93,7 @@ void TextureSpectra(Wave& wave) {
         ForEachColor(wave, [&](const ColorColumns& c) HWY_ATTR {
           const VI row = Lookup(*c.spectrum, material);
           const auto constant = hn::Gt(row, hn::Set(di, -1));
-          V3 color = AtRows(scene.spectra, hn::IfThenElseZero(constant, row), at);
+          V3 color = AtRows(*scene.spectra, hn::IfThenElseZero(constant, row), at);
           if (!hn::AllTrue(di, constant)) {
             const V3 textured =
                 Upsampled(scene, row, material, Gather3(c.r, c.g, c.b, slots), at);
@@ -108,7 +110,7 @@ void Disperse(Wave& wave) {
   const PathColumns& p = wave.path;
   const DI di;
   const DF df;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   ForEachBatch(
       wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
         const VI material = Gather(p.material, slots);
@@ -116,7 +118,7 @@ void Disperse(Wave& wave) {
         const auto some = hn::Gt(row, hn::Set(di, -1));
         const MF disperses = hn::RebindMask(df, some);
         const Wavelengths at(p, slots);
-        const VF index = IndexAt(wave.scene->spectra, hn::IfThenElseZero(some, row), at);
+        const VF index = IndexAt(*wave.spectra, hn::IfThenElseZero(some, row), at);
         Scatter(hn::IfThenElse(disperses, index, Lookup(m.eta, material)), p.eta, slots);
         const MF leaves = hn::AndNot(at.alone, disperses);
         const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);

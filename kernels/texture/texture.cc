@@ -7,7 +7,8 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
 #include "src/base/core/check.h"
-#include "src/scene/compiled/scene.h"
+#include "src/scene/compiled/materials.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -94,7 +95,7 @@ template <class Point, class Parameter>
 HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   const DI di;
   const PathColumns& path = wave.path;
-  const TextureTable& table = wave.scene->textures;
+  const TextureTable& table = *wave.textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
   HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
@@ -205,7 +206,7 @@ struct CoatParameter {
 template <class Point>
 void Textures(Wave& wave) {
   const PathColumns& path = wave.path;
-  const MaterialTable& m = wave.scene->materials;
+  const MaterialTable& m = *wave.materials;
   const auto eval = [&](const auto& parameter)
                         HWY_ATTR { EvalParameter<Point>(wave, parameter); };
   LL_DCHECK(HoldsSlots(wave, wave.queue(QueueId::kSurface)));

@@ -5,8 +5,7 @@
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/texture/cube-inl.h"
-#include "src/base/image/upsampling.h"
-#include "src/base/image/wavelengths.h"
+#include "src/base/core/spectral_constants.h"
 #include "src/scene/compiled/spectra.h"
 #include "src/vocabulary/path/fields.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/description/description.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 

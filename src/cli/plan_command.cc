@@ -11,6 +11,7 @@
 #include "src/cli/summary.h"
 #include "src/cli/terminal.h"
 #include "src/render/job/job.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 #include "src/scene/description/image_changes.h"

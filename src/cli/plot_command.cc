@@ -1,4 +1,6 @@
 // `lanelight plot FILE --figure NAME -o OUT`: a plot for a paper, without a browser.
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <cerrno>

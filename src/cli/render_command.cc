@@ -9,6 +9,7 @@
 #include "src/cli/scene_options.h"
 #include "src/cli/validators.h"
 #include "src/render/job/display.h"
+#include "src/render/job/loaded_scene.h"
 
 namespace lanelight {
 namespace {

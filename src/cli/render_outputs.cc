@@ -8,6 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/note_lines.h"
 #include "src/cli/summary.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/scene/description/image_changes.h"
 
 namespace lanelight {

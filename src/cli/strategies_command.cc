@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "src/base/core/json_text.h"
+#include "src/base/core/source_location.h"
 #include "src/base/core/text_layout.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"

@@ -11,6 +11,7 @@
 #include "src/cli/error_words.h"
 #include "src/cli/progress.h"
 #include "src/cli/terminal.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/scene/description/image_changes.h"
 #include "src/vocabulary/strategy/choices_text.h"
 
@@ -197,7 +198,7 @@ std::string DiffersRow(const std::vector<Note>& notes) {
 }
 
 std::string TransportText(const Job& job) {
-  const bool spectral = job.scene.compiled->integrator.transport == Transport::kSpectral;
+  const bool spectral = job.scene.transport() == Transport::kSpectral;
   const std::string name = spectral ? "spectral" : "rgb";
   return job.loaded->transport_why.empty()
              ? name

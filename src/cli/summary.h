@@ -6,6 +6,7 @@
 
 #include "src/render/job/merge.h"
 #include "src/render/job/report.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 

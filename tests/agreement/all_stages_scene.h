@@ -1,6 +1,8 @@
 // Scenes that together need every stage.
 #pragma once
 
+#include "src/scene/description/description.h"
+
 namespace lanelight {
 
 /// All shapes, lights of several kinds, many materials, a texture, bumps.

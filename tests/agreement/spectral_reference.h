@@ -2,6 +2,7 @@
 // wavelengths by itself.
 #pragma once
 
+#include "src/base/image/measured_reflectance.h"
 #include "src/scene/compile/spectrum_rows.h"
 #include "tests/agreement/agreement.h"
 

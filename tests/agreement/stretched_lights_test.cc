@@ -2,6 +2,7 @@
 // directions back to the light.
 #include <catch2/catch.hpp>
 
+#include "src/base/core/error.h"
 #include "tests/agreement/agreement.h"
 #include "tests/kernels/lights/image_strategies.h"
 

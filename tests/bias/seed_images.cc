@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/base/core/source_location.h"
 #include "src/render/run/run.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/prepare/groups.h"
 #include "tests/support/test_target.h"
 
@@ -27,7 +29,7 @@ Planned PlanOf(const PreparedScene& scene, const std::string& text) {
 
 SeedImage RenderSeed(const Planned& planned, const RunOptions& options,
                      std::uint64_t& bad_samples) {
-  const auto& size = planned.scene.view.film;
+  const auto& size = planned.scene.view->film;
   FilmAccumulator film(0, 0, size.width, size.height, GroupsOf(planned.scene.strategy),
                        Auxiliary::kNone);
   bad_samples += Run(planned.scene, planned.plan, options, film).health.Total();

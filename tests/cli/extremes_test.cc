@@ -1,4 +1,6 @@
 // Scenes of absurd sizes end, in an image or in an error.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "src/cli/exit_codes.h"

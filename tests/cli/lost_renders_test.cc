@@ -1,5 +1,7 @@
 // What would lose a render, or what it was made from, is seen before the first sample,
 // and what ends a render early leaves its image.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <signal.h>
 #include <sys/resource.h>

@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "src/base/image/measured_reflectance.h"
 #include "src/scene/description/description.h"
 #include "tests/reference/optics.h"
 #include "tests/reference/random.h"

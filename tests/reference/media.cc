@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/core/sparse_grid.h"
 #include "src/base/image/blackbody.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/pattern.h"

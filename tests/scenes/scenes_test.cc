@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/prepared_scene.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernels/stages.h"
+#include "src/scene/accel/build.h"
 #include "src/scene/compiled/scene.h"
 #include "src/vocabulary/path/stage.h"
 #include "tests/support/test_target.h"
@@ -111,7 +112,7 @@ class WaveFixture {
 
   /// Of a scene whose lights are not sampled.
   WaveFixture(const CompiledScene& scene, std::uint32_t capacity)
-      : WaveFixture(SceneParts{&scene, &scene.view, nullptr}, capacity) {}
+      : WaveFixture(PartsOf(scene, scene.view, nullptr), capacity) {}
 
   /// Writes rays to slots 0.. in the order given and queues them in kActive.
   void SetRays(const std::vector<TestRay>& rays) {

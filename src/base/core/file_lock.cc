@@ -1,5 +1,7 @@
 #include "src/base/core/file_lock.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 

@@ -1,5 +1,7 @@
 #include "src/base/core/input_file.h"
 
+#include <fmt/format.h>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 

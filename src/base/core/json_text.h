@@ -2,6 +2,8 @@
 // that may be damaged or malicious.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>

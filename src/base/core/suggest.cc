@@ -1,6 +1,10 @@
 #include "src/base/core/suggest.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "src/base/core/source_location.h"
 
 namespace lanelight {
 namespace {

@@ -1,5 +1,7 @@
 #include "src/base/core/text_layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace lanelight {

@@ -2,6 +2,8 @@
 // wording of what would be right for each.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cstdint>

@@ -22,12 +22,6 @@ Rgb RgbOfBlackbody(double kelvin);
 /// film makes of `rgb` illuminants of (1, 1, 1) that nothing normalises.
 inline constexpr double kPhotometricIntegral = 106.856895;
 
-/// Of a black body, in nm kelvin: h c / k; and that over the product of the temperature
-/// and the wavelength of its maximum, by Wien's law.
-inline constexpr double kSecondRadiation = 1.438776877e7;
-inline constexpr double kPlanckPeak = 4.965114231744276;
-inline constexpr double kPlanckAtPeak = 142.32492159405578;  // exp(kPlanckPeak) - 1
-
 /// By bin of wavelengths: what a spectrum of 1, as that of a black body is at its
 /// maximum, is in units of D65, in the scale of RgbOfBlackbody.
 std::vector<float> UnitsOfBlackbody();

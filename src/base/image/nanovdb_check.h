@@ -3,6 +3,8 @@
 // long.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <iostream>  // NanoVDB uses it and does not include it

@@ -1,5 +1,7 @@
 #include "src/base/image/nanovdb_file.h"
 
+#include <fmt/format.h>
+
 #include <blosc.h>
 #include <zlib.h>
 

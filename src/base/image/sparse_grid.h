@@ -1,54 +1,13 @@
-// Grids of numbers that are stored only where there is something: NanoVDB's (Museth 2021,
-// "NanoVDB: A GPU-Friendly and Portable VDB Data Structure").
+// Reads sparse grids from NanoVDB files.
 #pragma once
 
-#include <cstddef>
 #include <iosfwd>
 #include <memory>
 #include <string>
 
-#include "src/base/core/transform.h"
-#include "src/base/core/vec.h"
+#include "src/base/core/sparse_grid.h"
 
 namespace lanelight {
-
-/// Voxels are looked up between minus this and this, along each axis.
-inline constexpr double kFarthestVoxel = 1e9;
-/// No value is above this, nor below minus this: what is computed of them stays finite.
-inline constexpr double kLargestVoxel = 1e30;
-
-/// A grid of a file, in memory as the file stores it: quantised values stay quantised.
-/// Voxel (i, j, k) has its value at the point (i, j, k) of index space; none is above
-/// kLargestVoxel in size.
-class SparseGrid {
- public:
-  virtual ~SparseGrid() = default;
-
-  /// The value at points of index space, linear between voxels, into `out`. NaN: 0.
-  virtual void Interpolate(const float* x, const float* y, const float* z,
-                           std::size_t count, float* out) const = 0;
-  /// Of one voxel; that of the background where none is stored.
-  virtual float Value(int i, int j, int k) const = 0;
-  /// The largest value of voxels low to high, both included.
-  virtual float LargestIn(const int low[3], const int high[3]) const = 0;
-
-  const Transform& index_from_world() const { return index_from_world_; }
-  /// Around all active voxels, in the file's world; with the voxel after the last one.
-  /// In index space, no further away than kFarthestVoxel.
-  Vec3d box_min() const { return box_min_; }
-  Vec3d box_max() const { return box_max_; }
-  /// Of all voxels that are stored and of the background.
-  float smallest() const { return smallest_; }
-  float largest() const { return largest_; }
-  /// Of memory.
-  std::size_t bytes() const { return bytes_; }
-
- protected:
-  Transform index_from_world_;
-  Vec3d box_min_, box_max_;
-  float smallest_ = 0, largest_ = 0;
-  std::size_t bytes_ = 0;
-};
 
 class GridBytes;
 

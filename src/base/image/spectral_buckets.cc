@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "src/base/image/bucket_shares.h"
+#include "src/base/image/wavelengths.h"
+
 namespace lanelight {
 namespace {
 

@@ -1,13 +1,9 @@
-// The buckets of wavelengths of a film that keeps spectra (pbrt-v4's Film "spectral"),
-// and what the wavelengths that a path carried add to them.
+// The buckets of wavelengths of a film that keeps spectra (pbrt-v4's Film "spectral").
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
-#include "src/base/image/spectrum_integral.h"
-#include "src/base/image/wavelengths.h"
+#include "src/base/core/spectral_constants.h"
 
 namespace lanelight {
 
@@ -26,33 +22,5 @@ struct SpectralBuckets {
 /// 2021, "An OpenEXR Layout for Spectral Images", JCGT 10(3)), three digits as in
 /// pbrt-v4.
 std::string ChannelName(const SpectralBuckets& buckets, int i);
-
-/// Light of the colour (1, 1, 1) by wavelength: D65, of luminance 1, which is that of 1
-/// at all wavelengths. What radiance in units of D65 is to be multiplied by for pbrt's
-/// units.
-Spectrum WhiteRadiance();
-
-/// What a path adds to the sums of its pixel, whose mean over samples is then the mean of
-/// radiance over those wavelengths of each bucket that paths carry.
-class BucketShares {
- public:
-  explicit BucketShares(const SpectralBuckets& buckets);
-
-  /// Adds radiance in units of D65 in a bin of a triple that was drawn. Nothing of a
-  /// bucket that no bin reaches: it stays 0.
-  void Add(std::uint32_t bin, double radiance, double* sums) const {
-    for (std::uint32_t i = begin_[bin]; i < begin_[bin + 1]; ++i) {
-      sums[shares_[i].bucket] += shares_[i].of_radiance * radiance;
-    }
-  }
-
- private:
-  struct Share {
-    std::uint32_t bucket;
-    double of_radiance;
-  };
-  std::vector<std::uint32_t> begin_;  // by bin, and the end of the last
-  std::vector<Share> shares_;
-};
 
 }  // namespace lanelight

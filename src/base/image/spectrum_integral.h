@@ -4,11 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "src/base/core/spectral_constants.h"
 #include "src/base/core/vec.h"
 
 namespace lanelight {
-
-inline constexpr int kFirstNm = 360, kLastNm = 830;  // as pbrt; steps of 1 nm
 
 using Spectrum = std::function<double(double wavelength_nm)>;
 

@@ -40,8 +40,6 @@ Spectrum UpsampledColor(Rgb rgb);
 /// [0, kUpsamplingNodes - 1]. Between nodes it is linear in each tetrahedron, so that
 /// greys stay what they are; the colour of others is met within 1e-3 in the mean over the
 /// cube.
-inline constexpr int kUpsamplingNodes = 17;
-inline constexpr double kLeastUpsampled = 2e-4;
 inline constexpr std::array<double, 3> kUpsamplingNm = {450, 545, 610};
 const std::vector<float>& UpsamplingTable();  // made once
 

@@ -19,11 +19,6 @@
 
 namespace lanelight {
 
-inline constexpr int kTriples = 128, kWavelengthBins = 3 * kTriples;
-inline constexpr int kWavelengthEdges = kWavelengthBins + 1;
-/// The range that paths carry, nm. Beyond it lie 3e-4 of what the eye sees of D65.
-inline constexpr int kFirstCarriedNm = 380, kLastCarriedNm = 780;
-
 struct WavelengthBins {
   std::array<double, kWavelengthEdges> edge;   // nm, increasing
   std::array<double, kWavelengthBins> centre;  // of what the film sees in a bin

@@ -6,8 +6,12 @@
 #include <cmath>
 #include <memory>
 
+#include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/render/plan/plan_key.h"
 #include "src/render/train/decision_candidates.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {
@@ -25,8 +29,8 @@ constexpr double kUnknownSpread = 0.15;
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
                     const PreparedScene& scene, std::string& key) {
   if (strategy.light_selection == LightSelection::kTree &&
-      scene.compiled->lights.lights.size() < kFewLights) {
-    const std::size_t lights = scene.compiled->lights.lights.size();
+      scene.Parts().lights->lights.size() < kFewLights) {
+    const std::size_t lights = scene.Parts().lights->lights.size();
     return fmt::format("with {} light{} there is little to select", lights,
                        lights == 1 ? "" : "s");
   }

@@ -7,9 +7,11 @@
 
 #include "src/base/stat/interval.h"
 #include "src/render/plan/plan.h"
-#include "src/scene/prepare/prepared_scene.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// What a candidate means that is the scene's own strategy.
 inline constexpr const char* kOwnStrategy = "the scene's own strategy";

@@ -9,6 +9,7 @@
 #include "src/render/run/run.h"
 #include "src/render/wave/partition.h"
 #include "src/render/wave/profile.h"
+#include "src/scene/compiled/view.h"
 
 namespace lanelight::live {
 namespace {
@@ -29,7 +30,7 @@ bool HasControl(const Plan& plan) {
 
 Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {
   Job job = stage.job;
-  job.scene.view = view;
+  job.scene.view = std::make_shared<const CompiledView>(view);
   job.window = view.window;
   return WithStrategy(std::move(job), strategy);
 }

@@ -51,7 +51,7 @@ std::string ExrMessage(const Stage& stage, const Contender& contender) {
   NoteVarianceUnit(film, options);
   const TemporaryFile file;
   WriteExr(file.path(), film.width(), film.height(),
-           FilmPlanes(film, stage.job.scene.compiled->scale), options);
+           FilmPlanes(film, stage.job.scene.scale()), options);
   const std::string name = fs::path(stage.path).stem().string() + "-" +
                            std::to_string(contender.spp()) + "spp.exr";
   return BinaryHead({{"kind", "file"}, {"name", name}}) + ReadWholeFile(file.path());

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight::live {
 namespace {

@@ -4,7 +4,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "src/scene/description/description.h"
+#include "src/base/core/vec.h"
+
+namespace lanelight {
+struct Camera;  // src/scene/description/description.h
+}
 
 namespace lanelight::live {
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/error.h"
 #include "src/base/core/suggest.h"
 #include "src/base/image/image.h"
 #include "src/measure/live/state_json.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight::live {

@@ -4,6 +4,7 @@
 
 #include "src/base/core/stopwatch.h"
 #include "src/measure/live/session.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/train/training.h"
 #include "src/scene/description/rendered_pixels.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "src/measure/live/commands.h"
-#include "src/measure/live/score.h"
 #include "src/measure/live/contender.h"
+#include "src/measure/live/score.h"
 
 namespace lanelight::live {
 

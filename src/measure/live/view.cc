@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/render/job/loaded_scene.h"
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/footprint.h"
 #include "src/scene/compile/gbuffer.h"

@@ -4,6 +4,8 @@
 
 #include "src/measure/live/eye.h"
 #include "src/render/job/job.h"
+#include "src/scene/compiled/view.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight::live {
 

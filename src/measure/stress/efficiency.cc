@@ -5,6 +5,7 @@
 #include <set>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/base/stat/distributions.h"
 #include "src/vocabulary/strategy/strategy.h"
 

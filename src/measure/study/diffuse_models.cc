@@ -5,6 +5,7 @@
 #include "src/measure/study/scene_runner.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/setting.h"
+#include "src/scene/compile/compile.h"
 
 namespace lanelight {
 namespace {
@@ -30,7 +31,7 @@ bool HasDiffuse(const FeatureSet& features) {
 }  // namespace
 
 void SceneRunner::RunDiffuseModels() {
-  if (!HasDiffuse(job_.scene.compiled->features)) return;
+  if (!HasDiffuse(job_.scene.features())) return;
   for (const Model& model : kModels) {
     DiffuseModel diffuse = {ScatteringNames().Write(model.scattering), model.meaning, {}};
     const std::string path = scene_.folder + "/diffuse-" + diffuse.name + ".exr";

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight {

@@ -7,6 +7,7 @@
 #include "src/measure/study/schedule.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/saving.h"
 #include "src/render/wave/profile.h"
 #include "src/scene/description/image_changes.h"

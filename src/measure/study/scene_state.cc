@@ -9,6 +9,7 @@
 #include "src/measure/study/scene_runner.h"
 #include "src/measure/study/schedule.h"
 #include "src/render/films/colors.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/setting.h"
 
 namespace lanelight {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "src/measure/study/scene_runner.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/plan/plan_key.h"
 
 namespace lanelight {

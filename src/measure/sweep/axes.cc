@@ -1,5 +1,6 @@
 #include "src/measure/sweep/axes.h"
 
+#include "src/base/core/source_location.h"
 #include "src/render/job/setting.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "kernels/simd/target.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
+#include "src/scene/compile/compile.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/core/source_location.h"
 #include "src/measure/sweep/axes.h"
 #include "src/measure/sweep/strategy_pattern.h"
 

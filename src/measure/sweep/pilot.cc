@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "src/render/estimate/estimate.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
 #include "src/render/job/saving.h"
 
@@ -39,7 +40,7 @@ double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
   const std::string path = FallbackPath("pilot.exr");
   ExrOptions options;
   options.half = half;
-  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.compiled->scale),
+  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale()),
            options);
   const double bytes = double(fs::file_size(path));
   std::error_code ignored;

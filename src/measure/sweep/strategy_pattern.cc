@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 #include "src/vocabulary/strategy/strategy.h"
 

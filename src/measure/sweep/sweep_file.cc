@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "src/base/core/input_file.h"
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 #include "src/measure/sweep/sweep_settings.h"
 #include "src/measure/sweep/toml_values.h"

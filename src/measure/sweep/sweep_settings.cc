@@ -1,5 +1,6 @@
 #include "src/measure/sweep/sweep_settings.h"
 
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 
 namespace lanelight {

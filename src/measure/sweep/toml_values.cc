@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/base/core/check.h"
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 #include "src/measure/sweep/toml_nesting.h"
 

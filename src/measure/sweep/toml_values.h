@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/render/job/setting.h"
 
 namespace lanelight {

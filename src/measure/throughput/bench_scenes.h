@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/description/description.h"
-
 namespace lanelight {
+
+struct SceneDescription;  // src/scene/description/description.h
 
 struct BenchScene {
   const char* name;

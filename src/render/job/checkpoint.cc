@@ -9,6 +9,7 @@
 #include "src/base/image/png.h"
 #include "src/render/films/for_each_pixel.h"
 #include "src/render/job/identity.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
 #include "src/render/job/run_content.h"
 #include "src/render/job/saving.h"
@@ -195,8 +196,8 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
     if (IsPng(path)) {
       if (!image) image = std::make_shared<Image>(FilmImage(film, ColorSpaceOf(job_)));
     } else if (!planes) {
-      planes = std::make_shared<std::vector<ExrPlane>>(
-          FilmPlanes(film, job_.scene.compiled->scale));
+      planes =
+          std::make_shared<std::vector<ExrPlane>>(FilmPlanes(film, job_.scene.scale()));
       const ErrorEstimate error = EstimateError(film);
       options = OutputOptions(identity_, head_,
                               {state.counts, state.training.changes, error}, film,

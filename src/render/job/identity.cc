@@ -5,6 +5,7 @@
 
 #include "src/base/core/json_text.h"
 #include "src/base/core/version.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/setting.h"
 #include "src/vocabulary/strategy/choices_text.h"
 

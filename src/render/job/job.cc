@@ -4,8 +4,11 @@
 
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/transport.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/chance_of_light.h"
@@ -58,7 +61,7 @@ Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   job.scene = PrepareScene(description, compile);
   job.settings.known_tree.reset();  // which may be all that keeps it
   // Reports look for notes in one place.
-  const std::vector<Note>& notes = job.scene.compiled->notes;
+  const std::vector<Note>& notes = job.scene.notes();
   description.notes.insert(description.notes.end(), notes.begin(), notes.end());
   ReleaseCopies(description);
   job.plan = MakePlan(job.scene, PlanOptionsOf(settings, description));
@@ -118,7 +121,7 @@ FilmAccumulator MakeFilm(const Job& job) {
   FilmAccumulator film(job.window.x0, job.window.y0, job.window.width(),
                        job.window.height(), GroupsOf(job.scene.strategy),
                        job.plan.options.auxiliary);
-  if (job.plan.options.spectral_film) film.UseBuckets(job.scene.view.film.buckets);
+  if (job.plan.options.spectral_film) film.UseBuckets(job.scene.view->film.buckets);
   film.set_chance_of_light(ChanceOfLight(job.scene));
   return film;
 }

@@ -3,28 +3,17 @@
 
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 
 #include "src/render/estimate/target.h"
 #include "src/render/job/settings.h"
 #include "src/render/plan/plan.h"
 #include "src/render/run/run.h"
-#include "src/scene/description/description.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 
-/// What all jobs of a scene share besides what is compiled of it.
-struct LoadedScene {
-  SceneDescription description;  // overrides applied; meshes released after compiling
-  std::set<std::string> files;   // that the scene reads, its own among them
-  std::string transport_why;     // why paths carry what they do, if the scene decides
-  std::uint64_t scene_hash = 0;  // see HashSceneFiles()
-  double load_seconds = 0;       // reading and parsing
-  double build_seconds = 0;      // compiling: acceleration structure, lights, textures
-  TreeReport trees;              // over shapes: part of that
-};
+struct LoadedScene;  // src/render/job/loaded_scene.h
 
 /// A scene ready to render. Nothing takes one to change it; another strategy or amount
 /// makes another job, and both can run at the same time. Copies share all that is large.

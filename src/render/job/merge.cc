@@ -6,6 +6,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
+#include "src/base/core/source_location.h"
 #include "src/base/state/tiles.h"
 #include "src/render/films/for_each_pixel.h"
 #include "src/render/job/add_seeds.h"

@@ -3,6 +3,7 @@
 
 #include "src/base/core/hardware_counters.h"
 #include "src/base/core/parallel.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/profile_report.h"
 #include "src/render/job/report.h"

@@ -12,6 +12,7 @@
 #include "src/render/films/for_each_pixel.h"
 #include "src/render/job/display.h"
 #include "src/render/job/identity.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
 #include "src/render/job/saving.h"
 
@@ -127,7 +128,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   RenderFacts facts;
   facts.identity = IdentityOf(job);
   facts.head = HeadJson(job, scene, targets.image.half);
-  facts.scale = job.scene.compiled->scale;
+  facts.scale = job.scene.scale();
   facts.color_space = job.loaded->description.film.color_space;
   Rendering out;
   out.report.scene = scene;

@@ -4,6 +4,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/base/stat/values.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
 #include "src/scene/description/image_changes.h"
@@ -141,7 +142,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
   return {{"schema", kReportSchema},
           {"scene", scene},
           {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
-          {"scale", job.scene.compiled->scale},
+          {"scale", job.scene.scale()},
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},

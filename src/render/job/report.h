@@ -10,6 +10,7 @@
 
 #include "src/render/estimate/estimate.h"
 #include "src/render/job/job.h"
+#include "src/scene/accel/tree_report.h"
 
 namespace lanelight {
 

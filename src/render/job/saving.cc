@@ -1,5 +1,7 @@
 #include "src/render/job/saving.h"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/setting.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/parallel.h"
 #include "src/render/job/job.h"
+#include "src/scene/compiled/scene.h"
 
 namespace lanelight {
 
@@ -27,9 +29,8 @@ RenderSettings SettingsInForce(const Job& job) {
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
   s.max_depth = static_cast<int>(job.plan.options.max_depth);
-  s.transport = job.scene.compiled->integrator.transport == Transport::kSpectral
-                    ? AskedTransport::kSpectral
-                    : AskedTransport::kRgb;
+  s.transport = job.scene.transport() == Transport::kSpectral ? AskedTransport::kSpectral
+                                                              : AskedTransport::kRgb;
   s.build = job.scene.compiled->accel.quality;
   s.threads = ThreadCount(s.threads);
   s.target = job.plan.options.target.name();

@@ -1,3 +1,4 @@
+#include "src/base/core/source_location.h"
 #include "src/render/job/setting.h"
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include "kernels/simd/target.h"
 #include "src/base/core/check.h"
 #include "src/base/image/image.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/description/film.h"
 #include "src/vocabulary/strategy/named_strategy.h"
 
 namespace lanelight {

@@ -7,7 +7,10 @@
 #include "src/base/core/error.h"
 #include "src/base/image/image.h"
 #include "src/render/train/training.h"
+#include "src/scene/accel/build.h"
+#include "src/scene/compile/compile.h"
 #include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {

@@ -3,16 +3,22 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "src/render/plan/plan.h"
 #include "src/render/run/run.h"
-#include "src/scene/compile/compile.h"
-#include "src/scene/description/description.h"
+#include "src/vocabulary/path/scene_kinds.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct CompileOptions;    // src/scene/compile/compile.h
+struct Film;              // src/scene/description/film.h
+struct KnownTree;         // src/scene/accel/tree_source.h
+struct SceneDescription;  // src/scene/description/description.h
 
 /// Whether decide=pilot is the default of a render that is asked for no strategy, neither
 /// by its settings nor by the scene.

@@ -1,5 +1,7 @@
 #include "src/render/job/state_lock.h"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <climits>

@@ -4,9 +4,11 @@
 #include <span>
 #include <string>
 
-#include "src/scene/description/description.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
+
+struct SceneDescription;  // src/scene/description/description.h
 
 struct TransportChoice {
   Transport transport = Transport::kRgb;

@@ -2,6 +2,7 @@
 
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/features.h"
 
 namespace lanelight {
@@ -127,7 +128,7 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
   Notes notes;
-  const Checked checked = {s, scene.compiled->features, plan, options, notes};
+  const Checked checked = {s, scene.features(), plan, options, notes};
   NoteLights(checked);
   NoteEnvironment(checked);
   NoteMedia(checked);

@@ -9,11 +9,13 @@
 
 #include "kernels/simd/target.h"
 #include "src/render/plan/phase.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/sample_planes.h"
 #include "src/vocabulary/path/stage.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 struct PlanOptions {
   SimdTarget target;  // of all kernels

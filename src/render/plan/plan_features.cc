@@ -1,5 +1,7 @@
 #include "src/render/plan/plan_features.h"
 
+#include "src/scene/compiled/scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/block.h"
 #include "src/vocabulary/path/choice_features.h"
 #include "src/vocabulary/path/light_shapes.h"
@@ -92,7 +94,7 @@ bool SamplesOfLightDiffer(const FeatureSet& f) {
 
 FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
-  FeatureSet f = scene.compiled->features;
+  FeatureSet f = scene.features();
   // Media dim what the camera sees, and need a surface's columns to find where they end.
   const bool media = f.Has(Feature::kMedia);
   if (media || (options.max_depth > 0 && HasSurfaces(f))) {
@@ -133,7 +135,7 @@ Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options)
 
 FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
-  FeatureSet f = scene.compiled->features;
+  FeatureSet f = scene.features();
   RemoveScattering(f);
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
@@ -141,11 +143,11 @@ FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& opti
 }
 
 bool SeesLightsApart(const PreparedScene& scene) {
-  const FeatureSet& f = scene.compiled->features;
+  const FeatureSet& f = scene.features();
   return scene.strategy.seen_lights == SeenLights::kApart &&
-         !f.Has(Feature::kMedia) &&             // which dim what is seen
-         !f.Has(Feature::kMovingCamera) &&      // which blurs all edges
-         !scene.view.film.response.limits() &&  // which are of single samples
+         !f.Has(Feature::kMedia) &&              // which dim what is seen
+         !f.Has(Feature::kMovingCamera) &&       // which blurs all edges
+         !scene.view->film.response.limits() &&  // which are of single samples
          f.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
 }
 

@@ -4,9 +4,10 @@
 #include <string>
 
 #include "src/render/plan/plan.h"
-#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// Everything of the scene's strategy that reaches the kernels and the film: features,
 /// stages with their kernels, parameters that some stage reads, how samples are grouped,

@@ -14,7 +14,9 @@
 #include "src/render/run/run_strategy.h"
 #include "src/render/run/run_watch.h"
 #include "src/render/wave/profile.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 
@@ -30,7 +32,7 @@ struct Runner {
         threads(scene, strategy.plan(), strategy.run(), options, films) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
-    films.UseResponse(scene.view.film.response);
+    films.UseResponse(scene.view->film.response);
     min_tile_side = scene.strategy.MayReuse() ? kReuseTile : 1;
     if (options.group != nullptr && options.group->ranks() > 1) {
       LL_CHECK(options.windows.empty());

@@ -10,8 +10,10 @@
 #include "src/render/train/trained_tables.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/stop_watcher.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
 #include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
@@ -42,7 +44,7 @@ void RunStrategy::BeginWith(std::uint64_t first) {
 std::uint64_t RunStrategy::PlannedTraining() const {
   if (!NeedsTraining(plan_)) return 0;
   if (options_.planned_samples > 0) return options_.planned_samples;
-  const std::uint64_t pixels = RenderedPixels(scene_.view.film).pixels();
+  const std::uint64_t pixels = RenderedPixels(scene_.view->film).pixels();
   const bool decides = plan_.features.Has(Feature::kDecides);
   if (decides && options_.seconds > 0) {
     const StopWatcher watcher(options_.stop);

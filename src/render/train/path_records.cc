@@ -6,6 +6,8 @@
 
 #include "src/base/core/check.h"
 #include "src/render/train/trial_comparison.h"
+#include "src/scene/compiled/view.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {
@@ -55,8 +57,8 @@ PathSamples ReadRecords(TrainingSamples samples) {
 
 ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
                       const TrainingWork& work) {
-  return {static_cast<std::uint32_t>(scene.view.film.width),
-          static_cast<std::uint32_t>(scene.view.film.height), work.pixels,
+  return {static_cast<std::uint32_t>(scene.view->film.width),
+          static_cast<std::uint32_t>(scene.view->film.height), work.pixels,
           samples.colors};
 }
 

@@ -11,6 +11,7 @@
 #include "src/render/train/path_records.h"
 #include "src/render/train/strategy_trial.h"
 #include "src/render/wave/task_runner.h"
+#include "src/scene/compiled/view.h"
 
 namespace lanelight {
 namespace {
@@ -50,7 +51,7 @@ std::vector<bool> Counted(const TriedStrategy& usual, const TrainingWork& work) 
 // Of pixels that count, in squares of this side.
 Squares SquaresOf(const PreparedScene& scene, const TrainingWork& work,
                   const std::vector<bool>& counted, int side) {
-  const auto width = static_cast<std::uint32_t>(scene.view.film.width);
+  const auto width = static_cast<std::uint32_t>(scene.view->film.width);
   const auto each = static_cast<std::uint32_t>(side);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> squares;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/render/train/training_pass.h"
+#include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/path_values.h"
 
 namespace lanelight {

@@ -12,6 +12,8 @@
 #include "src/render/train/training_pass.h"
 #include "src/render/train/trial_comparison.h"
 #include "src/render/wave/stop_watcher.h"
+#include "src/scene/prepare/estimate_path_values.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 

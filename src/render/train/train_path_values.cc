@@ -19,6 +19,8 @@
 #include "src/render/train/trial_comparison.h"
 #include "src/render/wave/stop_watcher.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
 namespace {

@@ -13,6 +13,8 @@
 #include "src/render/train/training_pass.h"
 #include "src/render/wave/stop_watcher.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/compiled/view.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {
@@ -56,7 +58,7 @@ TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
   const ImageGuess image = GuessImage(context.scene, pass, work);
   const double variance = UsualVariance(RelativeVariances(pass, work, image));
   const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
-  const Film& film = context.scene.view.film;
+  const Film& film = context.scene.view->film;
   worth.inverse = InverseShadowWorth(
       image, static_cast<std::uint32_t>(film.width * film.height),
       std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});

@@ -14,8 +14,10 @@
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
 #include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
 
 namespace lanelight {
@@ -142,7 +144,7 @@ TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
                               std::uint32_t spp, std::uint64_t turn) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
-  TilePixels(RenderedPixels(scene.view.film), scene.view.film.width, &all);
+  TilePixels(RenderedPixels(scene.view->film), scene.view->film.width, &all);
   const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
   if (count >= all.size()) {
     const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
@@ -166,7 +168,8 @@ TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
 
 TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
                           std::uint32_t spp) {
-  const std::vector<PixelRect> all = TilesOf(RenderedPixels(scene.view.film), kReuseTile);
+  const std::vector<PixelRect> all =
+      TilesOf(RenderedPixels(scene.view->film), kReuseTile);
   const std::uint64_t wanted = samples / spp / (kReuseTile * kReuseTile);
   const std::size_t count = std::clamp<std::size_t>(wanted, 1, all.size());
   TrainingWork work;
@@ -177,7 +180,7 @@ TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
     jitter = jitter * 6364136223846793005u + 1442695040888963407u;
     work.tiles.push_back(all[begin + (jitter >> 33) % (end - begin)]);
     std::vector<std::uint32_t> pixels;
-    TilePixels(work.tiles.back(), scene.view.film.width, &pixels);
+    TilePixels(work.tiles.back(), scene.view->film.width, &pixels);
     work.pixels.insert(work.pixels.end(), pixels.begin(), pixels.end());
   }
   return work;

@@ -4,6 +4,7 @@
 
 #include "src/base/core/check.h"
 #include "src/scene/prepare/path_values.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
 

@@ -4,7 +4,9 @@
 #include <bit>
 
 #include "src/base/core/check.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {
@@ -37,7 +39,7 @@ TilePartition AnyPartition(const PreparedScene& scene, const RunOptions& options
                            std::uint64_t planned_spp) {
   if (!options.windows.empty()) return PartitionOfWindows(options.windows, planned_spp);
   if (!options.tiles.empty()) return PartitionOfTiles(options.tiles, planned_spp);
-  return MakePartition(RenderedPixels(scene.view.film), planned_spp, scene.strategy);
+  return MakePartition(RenderedPixels(scene.view->film), planned_spp, scene.strategy);
 }
 
 bool IsEven(const FilmAccumulator& film, const PixelRect& tile) {

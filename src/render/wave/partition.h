@@ -9,9 +9,10 @@
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/tiles.h"
-#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// All windows, or tiles, that the options name, or else the image in tiles. Tasks have a
 /// whole number of antithetic pairs.

@@ -5,6 +5,11 @@
 #include <optional>
 
 #include "src/base/core/vec.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/scene/prepare/prepared_scene.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
 namespace {
@@ -98,8 +103,8 @@ class Projector {
 }  // namespace
 
 std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene) {
-  const Projector projector(scene.view.camera);
-  const int width = scene.view.film.width, height = scene.view.film.height;
+  const Projector projector(scene.view->camera);
+  const int width = scene.view->film.width, height = scene.view->film.height;
   std::vector<std::uint32_t> places;
   for (const LightRecord& light : scene.compiled->lights.lights) {
     const std::optional<Ball> ball = BallOf(scene.compiled->geometry, light);

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/scene/prepare/prepared_scene.h"
-
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// Pixels (y * image width + x, ascending, each once) that may see an emitting shape
 /// whose picture is smaller than kSmallLight pixels across its radius, out of focus or

@@ -9,7 +9,9 @@
 #include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
@@ -156,12 +158,12 @@ void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays
 
 void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
                             std::vector<std::uint32_t>& edges) const {
-  const auto width = static_cast<std::uint32_t>(scene_.view.film.width);
+  const auto width = static_cast<std::uint32_t>(scene_.view->film.width);
   const PixelRect all =
-      WithBorder(rect, reach_, scene_.view.film.width, scene_.view.film.height);
+      WithBorder(rect, reach_, scene_.view->film.width, scene_.view->film.height);
   SeenRanges ranges(all, width);
   std::vector<std::uint32_t>& pixels = rays.pixels;
-  TilePixels(all, scene_.view.film.width, &pixels);
+  TilePixels(all, scene_.view->film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
   rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, true}, clock,
              rays.others);
@@ -173,7 +175,7 @@ void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClo
     rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, true}, clock, rays.own);
     ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
-  TilePixels(rect, scene_.view.film.width, &pixels);
+  TilePixels(rect, scene_.view->film.width, &pixels);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     if (!ranges.IsEdge(pixels[p], reach_)) continue;
     edges.push_back(static_cast<std::uint32_t>(p));

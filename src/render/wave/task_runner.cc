@@ -9,7 +9,9 @@
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/tiles.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
@@ -47,7 +49,7 @@ Workspace& TaskRunner::ThreadWorkspace() {
 
 TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
                            Workspace& space) const {
-  TilePixels(rect, scene_.view.film.width, &space.pixels);
+  TilePixels(rect, scene_.view->film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
   work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
@@ -116,7 +118,7 @@ void TaskRunner::SeeLights(const SampleRange& range, const PixelRect& rect,
 void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {
   // Row length behind the indices of the film's pixels.
   const int width = options_.windows.empty()
-                        ? scene_.view.film.width
+                        ? scene_.view->film.width
                         : place.width() * static_cast<int>(options_.windows.size());
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();

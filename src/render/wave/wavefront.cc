@@ -4,7 +4,9 @@
 
 #include "src/base/core/check.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 
@@ -41,13 +43,13 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 }  // namespace
 
 float ExposureOf(const PreparedScene& scene) {
-  return static_cast<float>(scene.view.film.imaging_ratio);
+  return static_cast<float>(scene.view->film.imaging_ratio);
 }
 
 RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   RunParameters run;
-  run.width = static_cast<std::uint32_t>(scene.view.film.width);
-  run.height = static_cast<std::uint32_t>(scene.view.film.height);
+  run.width = static_cast<std::uint32_t>(scene.view->film.width);
+  run.height = static_cast<std::uint32_t>(scene.view->film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.points = MakePointsParameters(strategy.points);
   run.points.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});

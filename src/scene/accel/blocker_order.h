@@ -1,7 +1,7 @@
 // The order in which shadow rays visit the children of a wide node.
 #pragma once
 
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 namespace lanelight {
 

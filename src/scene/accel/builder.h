@@ -6,7 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
+#include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "src/scene/accel/accel.h"
 #include "src/scene/accel/builder.h"
+#include "src/scene/geometry/accel.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/base/core/parallel.h"
+#include "src/scene/accel/build.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "src/base/core/hash.h"
-#include "src/scene/accel/accel.h"
 
 namespace lanelight {
+
+struct AccelOptions;  // src/scene/accel/build.h
+struct Geometry;      // src/scene/geometry/geometry.h
 
 using TreeKey = Hash128;
 

@@ -1,24 +1,15 @@
 // Trees that need not be built: those of the scene that was compiled before.
 #pragma once
 
-#include <cstddef>
-
-#include "src/scene/accel/accel.h"
+#include "src/scene/accel/build.h"
 #include "src/scene/accel/tree_key.h"
+#include "src/scene/accel/tree_report.h"
 
 namespace lanelight {
 
 struct KnownTree {
   TreeKey key;
   Accel accel;
-};
-
-struct TreeReport {
-  bool shared = false;    // the known tree's; else built
-  double seconds = 0;     // finding or building, hashing the shapes included
-  std::size_t bytes = 0;  // of the tree
-
-  const char* Origin() const { return shared ? "shared" : "built"; }
 };
 
 struct FoundTree {

@@ -7,14 +7,12 @@
 
 namespace lanelight {
 
-/// Nodes per channel of a table: EffectiveCoatBase(rgb) - rgb, three floats for each node
-/// of a grid over [0, 1]^3, red fastest. Interpolated between the four corners of a
-/// tetrahedron around the diagonal (kernels/texture/coated_base-inl.h), it leaves greys
-/// as they are; off the nodes it is 0.005 off in the mean square, at most 0.06, where the
-/// correction itself is 0.023 and 0.14.
-inline constexpr int kCoatFitNodes = 9;
-
-/// Makes such tables; the spectra of their nodes are found once, with the first.
+/// Makes tables of kCoatFitNodes nodes per channel: EffectiveCoatBase(rgb) - rgb, three
+/// floats for each node of a grid over [0, 1]^3, red fastest. Interpolated between the
+/// four corners of a tetrahedron around the diagonal (kernels/texture/coated_base-inl.h),
+/// it leaves greys as they are; off the nodes it is 0.005 off in the mean square, at most
+/// 0.06, where the correction itself is 0.023 and 0.14. The spectra of the nodes are
+/// found once, with the first table.
 class CoatFits {
  public:
   /// For a coat of that internal reflectance, with `bounces` off the base; both in range

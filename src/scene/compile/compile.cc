@@ -1,11 +1,15 @@
 #include "src/scene/compile/compile.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/accel/build.h"
+#include "src/scene/accel/tree_source.h"
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/features.h"
 #include "src/scene/compile/filter.h"
@@ -23,6 +27,7 @@
 #include "src/scene/compile/texture_programs.h"
 #include "src/scene/compile/textures.h"
 #include "src/scene/compile/transport.h"
+#include "src/scene/geometry/accel.h"
 
 namespace lanelight {
 namespace {
@@ -49,15 +54,15 @@ std::vector<Index> UsedTextures(const CompiledMaterials& materials,
 void MakeAlpha(const Placement& placement, const CompiledGeometry& compiled,
                CompiledScene& scene) {
   if (!scene.features.Has(Feature::kAlpha)) return;
-  scene.alpha_texture.assign(compiled.geometry.ranges.end, -1);
-  scene.alpha_constant.assign(compiled.geometry.ranges.end, 1.0f);
+  scene.alpha.texture.assign(compiled.geometry.ranges.end, -1);
+  scene.alpha.constant.assign(compiled.geometry.ranges.end, 1.0f);
   ForEachCompiled(placement, compiled,
                   [&](const PlacedShape& placed, std::uint32_t begin, std::uint32_t end) {
                     const FloatValue& alpha = placed.alpha;
                     for (std::uint32_t i = begin; i < end; ++i) {
-                      scene.alpha_texture[i] = alpha.texture;
+                      scene.alpha.texture[i] = alpha.texture;
                       if (alpha.texture != kNone) continue;
-                      scene.alpha_constant[i] = static_cast<float>(alpha.constant);
+                      scene.alpha.constant[i] = static_cast<float>(alpha.constant);
                     }
                   });
 }

@@ -1,14 +1,18 @@
 // SceneDescription (double precision, file units) to CompiledScene (what kernels read).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
-#include "src/scene/accel/tree_source.h"
-#include "src/scene/compiled/scene.h"
-#include "src/scene/description/description.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
+
+struct CompiledScene;     // src/scene/compiled/scene.h
+struct KnownTree;         // src/scene/accel/tree_source.h
+struct SceneDescription;  // src/scene/description/description.h
+struct TreeReport;        // src/scene/accel/tree_report.h
 
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material

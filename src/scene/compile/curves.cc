@@ -1,5 +1,7 @@
 #include "src/scene/compile/curves.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,7 @@
 #include "src/scene/compile/environment.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,7 @@
 #include "src/scene/compile/filter.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>

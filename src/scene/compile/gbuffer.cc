@@ -15,6 +15,7 @@ GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
                             space_from_scene.Vector({0, 0, 1})};
   const Vec3d from = in_camera ? scene_from_space.Point({0, 0, 0}) : Vec3d{0, 0, 0};
   GbufferSpace space;
+  space.of_camera = in_camera;
   space.from = ToFloat(from);
   space.to = ToFloat(in_camera ? Vec3d{0, 0, 0} : frame.center);
   space.x = ToFloat({columns[0].x, columns[1].x, columns[2].x});

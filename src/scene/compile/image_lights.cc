@@ -1,5 +1,7 @@
 #include "src/scene/compile/image_lights.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "src/base/core/error.h"

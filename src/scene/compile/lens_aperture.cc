@@ -1,5 +1,7 @@
 #include "src/scene/compile/lens_aperture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

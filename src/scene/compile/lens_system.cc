@@ -1,5 +1,7 @@
 #include "src/scene/compile/lens_system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>

@@ -1,5 +1,7 @@
 #include "src/scene/compile/light_texels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

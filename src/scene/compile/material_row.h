@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "src/base/image/measured_reflectance.h"
 #include "src/scene/compile/materials.h"
 #include "src/scene/compile/relief.h"
 #include "src/scene/compiled/scene.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/base/core/error.h"
 #include "src/base/image/wavelengths.h"
 
 namespace lanelight {

@@ -1,5 +1,7 @@
 #include "src/scene/compile/medium_cost.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

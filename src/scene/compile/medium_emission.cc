@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/sparse_grid.h"
 #include "src/base/image/blackbody.h"
 #include "src/scene/compile/store.h"
 #include "src/scene/compile/voxel_spectra.h"

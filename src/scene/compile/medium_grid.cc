@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/base/core/sparse_grid.h"
 #include "src/scene/compile/medium_emission.h"
 #include "src/scene/compile/range.h"
 #include "src/scene/compile/store.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/base/core/check.h"
+#include "src/base/core/error.h"
 #include "src/base/core/motion.h"
 #include "src/base/core/parallel.h"
 #include "src/scene/compile/curves.h"
@@ -130,8 +131,9 @@ bool StaysInObject(const SceneDescription& d, const Shape& shape, bool moves) {
   return (is_mesh || (moves && is_round)) && EmittingLight(d, shape) == kNone;
 }
 
-// World coordinates and sizes of scenes that can be brought to unit size (world_frame.cc): the
-// squares of their lengths and of the scale are ordinary numbers of double precision.
+// World coordinates and sizes of scenes that can be brought to unit size
+// (world_frame.cc): the squares of their lengths and of the scale are ordinary numbers of
+// double precision.
 constexpr double kFarthest = 1e100, kSmallest = 1e-100;
 
 bool IsTooFar(Vec3d p) {

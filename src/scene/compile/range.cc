@@ -1,11 +1,13 @@
 #include "src/scene/compile/range.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/core/error.h"
+#include "src/base/core/motion_record.h"
 #include "src/scene/compile/motion.h"
-#include "src/scene/geometry/motion.h"
 
 namespace lanelight {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "src/base/core/check.h"
+#include "src/base/core/error.h"
 #include "src/base/image/upsampling.h"
 #include "src/scene/compile/materials.h"
 #include "src/scene/compile/measured.h"

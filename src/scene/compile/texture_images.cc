@@ -1,5 +1,7 @@
 #include "src/scene/compile/texture_images.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -10,6 +12,7 @@
 #include "src/base/image/repair.h"
 #include "src/scene/compile/mip_levels.h"
 #include "src/scene/compile/texture_programs.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "src/base/image/image.h"
 #include "src/scene/compiled/texture_table.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "src/scene/compiled/texture_table.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 

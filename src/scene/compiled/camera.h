@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "src/base/core/aligned.h"
+#include "src/base/core/motion_record.h"
 #include "src/base/core/vec.h"
-#include "src/scene/description/description.h"
-#include "src/scene/geometry/motion.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
 

@@ -12,6 +12,7 @@ struct GbufferSpace {
   Vec3f from, to;
   Vec3f x, y, z;
   Vec3f normal_x, normal_y, normal_z;
+  bool of_camera = false;  // else of the world
 };
 
 }  // namespace lanelight

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/base/image/sparse_grid.h"
 
 namespace lanelight {
+
+class SparseGrid;  // src/base/core/sparse_grid.h
 
 /// Instead of the index of a medium: empty space.
 inline constexpr std::int32_t kVacuum = -1;

@@ -1,7 +1,8 @@
-// The scene as the kernels read it: flat float32 arrays, recentred and scaled by a power
-// of two (p_scene = (p_world - center) * scale), built once by CompileScene
-// (src/scene/compile/compile.h) and shared by all that render it, with whatever strategy
-// (src/scene/prepare/prepared_scene.h).
+// The owner of all that kernels read of a scene: flat float32 arrays, recentred and
+// scaled by a power of two (p_scene = (p_world - center) * scale), built once by
+// CompileScene (src/scene/compile/compile.h) and shared by all that render it, with
+// whatever strategy (src/scene/prepare/prepared_scene.h). Kernels include the tables that
+// they read instead (SceneParts), so that a change of one rebuilds few of them.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +10,22 @@
 
 #include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
-#include "src/scene/accel/accel.h"
+#include "src/scene/compiled/alpha.h"
 #include "src/scene/compiled/camera.h"
-#include "src/scene/compiled/footprint.h"
-#include "src/scene/compiled/gbuffer.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/materials.h"
 #include "src/scene/compiled/media.h"
 #include "src/scene/compiled/spectra.h"
 #include "src/scene/compiled/texture_table.h"
-#include "src/scene/description/description.h"
+#include "src/scene/compiled/view.h"
+#include "src/scene/description/integrator.h"
+#include "src/scene/description/note.h"
+#include "src/scene/geometry/accel.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/features.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 namespace lanelight {
-
-/// What hangs on the camera and on the size of the film.
-struct CompiledView {
-  Film film;
-  CompiledCamera camera;
-  PixelFootprint footprint;
-  GbufferSpace gbuffer;
-};
 
 struct CompiledScene {
   Vec3d center;         // world position of the scene origin
@@ -41,9 +36,7 @@ struct CompiledScene {
   MaterialTable materials;
   TextureTable textures;
   SpectrumTable spectra;  // with kSpectral
-  /// Per primitive, only with kAlpha: texture of the alpha cut-out or -1, and constant.
-  AlignedVector<std::int32_t> alpha_texture;
-  AlignedVector<float> alpha_constant;
+  AlphaTable alpha;
   MediumTable media;
   LightTable lights;
   CompiledFilter filter;
@@ -52,18 +45,22 @@ struct CompiledScene {
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
+/// What kernels read of a scene, seen so. Refers to its arguments.
+SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
+                   const LightChances* chances);
+
 /// Whether alpha cuts an emitting shape.
 inline bool IsCut(const CompiledScene& scene, const LightRecord& light) {
-  if (scene.alpha_constant.empty() || light.primitive == 0xffffffffu) return false;
-  return scene.alpha_texture[light.primitive] >= 0 ||
-         scene.alpha_constant[light.primitive] < 1;
+  if (scene.alpha.constant.empty() || light.primitive == 0xffffffffu) return false;
+  return scene.alpha.texture[light.primitive] >= 0 ||
+         scene.alpha.constant[light.primitive] < 1;
 }
 
 /// Whether alpha leaves nothing for rays to meet; such a shape shines as if it were
 /// whole.
 inline bool IsUnseen(const CompiledScene& scene, const LightRecord& light) {
-  return IsCut(scene, light) && scene.alpha_texture[light.primitive] < 0 &&
-         scene.alpha_constant[light.primitive] <= 0;
+  return IsCut(scene, light) && scene.alpha.texture[light.primitive] < 0 &&
+         scene.alpha.constant[light.primitive] <= 0;
 }
 
 }  // namespace lanelight

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/scene/description/description.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
 

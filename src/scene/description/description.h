@@ -5,24 +5,28 @@
 // tests/.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/base/core/transform.h"
 #include "src/base/core/vec.h"
-#include "src/base/image/film_response.h"
-#include "src/base/image/measured_reflectance.h"
-#include "src/base/image/sparse_grid.h"
-#include "src/base/image/spectral_buckets.h"
 #include "src/base/image/spectrum_integral.h"
+#include "src/scene/description/film.h"
+#include "src/scene/description/integrator.h"
+#include "src/scene/description/note.h"
+#include "src/vocabulary/path/scene_kinds.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct MeasuredReflectance;  // src/base/image/measured_reflectance.h
+class SparseGrid;            // src/base/core/sparse_grid.h
 
 /// Index into one of the vectors of SceneDescription; kNone = absent.
 using Index = std::int32_t;
@@ -43,33 +47,7 @@ struct FloatValue {
   Index texture = kNone;
 };
 
-enum class TextureKind {
-  kConstant,
-  kScale,
-  kMix,
-  kCheckerboard,
-  kImage,
-  kDirectionMix,
-  kDots,
-  kFbm,
-  kWrinkled,
-  kWindy,
-  kMarble,
-  kBilinear,
-  // Not of a file; made of other textures when materials are compiled:
-  kMetalExtinction,  // k of a metal of index 1 whose reflectance head-on is tex1, times
-                     // amount
-  kCoatedBase,   // colour of tex1 below a coat (src/scene/compile/coat_color.h); amount:
-                 // its internal reflectance, octaves: bounces off the base
-  kRegularAlpha  // alpha of the roughness tex1, or where amount is not 0 of its root, as
-                 // Integrator::regularize has it
-};
-enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 enum class Encoding { kSrgb, kLinear, kGamma };
-
-/// Where texture coordinates come from: of the surface, or of the place.
-enum class MappingKind { kUv, kSpherical, kCylindrical, kPlanar };
-enum class ImageFilter { kPoint, kBilinear, kTrilinear, kEwa };
 
 /// kUv: uv' = (su*u + du, sv*v + dv). kPlanar: uv' = (p.v1 + du, p.v2 + dv), p the point
 /// in texture space.
@@ -109,12 +87,6 @@ struct Texture {
   Vec3d direction{0, 1, 0};      // kDirectionMix, in the world
   ColorValue corners[4];         // kBilinear: v00, v01, v10, v11
 };
-
-/// Diffuse scattering models of the founding paper (docs/scenes.md).
-/// kLambertian: density cos/pi. kUniform: directions uniform over the hemisphere,
-/// path weight = albedo. kInSphere: normal + point inside the unit sphere, density
-/// proportional to cos^3 (2 cos^3 / pi), path weight = albedo.
-enum class Scattering { kLambertian, kUniform, kInSphere };
 
 enum class MaterialKind {
   kDiffuse,
@@ -182,10 +154,6 @@ struct TriangleMesh {
   // bilinear patches with normals, instead of projected.
   bool turns_tangents = false;
 };
-
-/// How wide a curve looks. kFlat: it faces each ray. kCylinder: likewise, with normals of
-/// a tube. kRibbon: across a normal of its own.
-enum class CurveType : std::uint8_t { kFlat, kCylinder, kRibbon };
 
 /// A cubic Bezier curve in object space, with a width that changes evenly. u goes along
 /// it from 0 to 1, v across it.
@@ -281,8 +249,6 @@ struct Light {
   std::vector<Vec3d> portal;  // kInfinite: four corners in the world; empty: none
 };
 
-enum class CameraKind { kPerspective, kOrthographic, kSpherical, kRealistic };
-enum class SphericalMapping { kEqualArea, kEquirectangular };
 struct Camera {
   CameraKind kind = CameraKind::kPerspective;
   SourceLocation where;
@@ -312,51 +278,9 @@ struct Filter {
   double tau = 3;                 // lanczos
 };
 
-/// Film "gbuffer", or --gbuffer: where the first hits are too, and in which space.
-enum class Gbuffer : std::uint8_t { kNone, kCamera, kWorld };
-
-struct Film {
-  int width = 1280, height = 720;
-  int crop[4] = {0, 0, 0, 0};  // pixel bounds x0 x1 y0 y1; all 0: whole image
-  std::string filename = "lanelight.exr";
-  double imaging_ratio = 1;  // exposure time * ISO / 100
-  FilmResponse response;
-  std::string color_space = "srgb";  // of the image
-  Gbuffer gbuffer = Gbuffer::kNone;
-  SpectralBuckets buckets;  // Film "spectral"
-};
-
 struct Sampler {
   int spp = 16;
   std::uint64_t seed = 0;
-};
-
-/// What paths carry in their three columns of colour: red, green and blue, or three
-/// wavelengths (src/scene/compiled/spectra.h).
-enum class Transport : std::uint8_t { kRgb, kSpectral };
-
-struct Integrator {
-  int max_depth = 5;     // scattering events at most, as in pbrt
-  std::string strategy;  // changes to the strategy (src/vocabulary/strategy/strategy.h)
-  SourceLocation strategy_where;
-  /// Surfaces scatter evenly, with the reflectance that their material has for light from
-  /// where they are seen (pbrt-v4's option "forcediffuse").
-  bool force_diffuse = false;
-  /// Microfacets are rougher behind a bounce that is not specular: below 0.3, alpha
-  /// becomes 2 alpha, but at least 0.1 and at most 0.3 (pbrt-v4's "regularize").
-  bool regularize = false;
-  /// Nothing: the file does not say it. CompileScene then takes RGB.
-  std::optional<Transport> transport;
-};
-
-/// Something that was read and deliberately not used. `changes_image`: what is rendered
-/// is visibly not what the file asks for. `warning`: the image is that of pbrt-v4, but
-/// the file has a mistake.
-struct Note {
-  SourceLocation where;
-  std::string message;
-  bool changes_image = false;
-  bool warning = false;
 };
 
 enum class MediumKind { kHomogeneous, kUniformGrid, kRgbGrid, kCloud, kNanoVdb };

@@ -10,18 +10,11 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
+#include "src/base/core/motion_record.h"
 #include "src/base/core/vec.h"
-#include "src/scene/geometry/motion.h"
+#include "src/vocabulary/path/primitive_ranges.h"
 
 namespace lanelight {
-
-// A primitive id counts triangles first, then spheres, disks, planes, large spheres,
-// curves.
-struct PrimitiveRanges {
-  // The first id of each, and the end.
-  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, curves = 0,
-                end = 0;
-};
 
 /// Triangle record: 12 words. Wound so that cross(p1-p0, p2-p0) is the surface normal
 /// (ReverseOrientation and mirroring transforms are already applied; uv and normals are

@@ -1,5 +1,7 @@
 #include "src/scene/parse/directives.h"
 
+#include <fmt/format.h>
+
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
 #include "src/scene/parse/version3.h"

@@ -1,5 +1,7 @@
 #include "src/scene/parse/displace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>

@@ -1,5 +1,7 @@
 #include "src/scene/parse/forward.h"
 
+#include <fmt/format.h>
+
 #include "src/scene/parse/parse_state.h"
 
 namespace lanelight {

@@ -1,5 +1,7 @@
 #include "src/scene/parse/height_texture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // Camera and pixel filter.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 

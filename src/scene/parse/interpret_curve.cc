@@ -1,4 +1,6 @@
 // Shape "curve": control points of any basis to cubic Bezier curves.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 

@@ -1,10 +1,13 @@
 // Film: its size, its part that is rendered, and what it makes of light.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "src/base/core/suggest.h"
 #include "src/base/image/color_spaces.h"
+#include "src/base/image/wavelengths.h"
 #include "src/scene/parse/interpret.h"
 #include "src/scene/parse/version3.h"
 

@@ -1,5 +1,7 @@
 // Lights. Every scale of the file ends up in the emission, so nothing later needs to know
 // how it was stated (formulas: pbrt-v4's light descriptions).
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <map>
 
 #include "src/base/core/error_text.h"
 #include "src/base/core/suggest.h"
+#include "src/base/image/measured_reflectance.h"
 #include "src/scene/parse/interpret.h"
 
 namespace lanelight {

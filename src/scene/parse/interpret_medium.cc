@@ -1,4 +1,6 @@
 // Participating media. Coefficients end up per unit of world length, all scales included.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 

@@ -1,4 +1,6 @@
 // Meshes whose vertices stand in the scene file.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "src/scene/parse/bilinear_patch.h"

@@ -1,4 +1,6 @@
 // Sampler, integrator and accelerator.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>

@@ -1,6 +1,8 @@
 // Material "subsurface": a dielectric with a medium in it, in which paths walk at random.
 // pbrt-v4 has a profile instead, tabulated by photon beam diffusion (Habel, Christensen
 // and Jarosz 2013).
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "src/scene/parse/interpret.h"

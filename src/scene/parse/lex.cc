@@ -1,10 +1,13 @@
 #include "src/scene/parse/lex.h"
 
+#include <fmt/format.h>
+
 #include <fast_float/fast_float.h>
 
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 
 namespace lanelight {

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "src/base/core/error_text.h"
 #include "src/base/core/suggest.h"
+#include "src/base/image/sparse_grid.h"
 #include "src/scene/parse/medium_kinds.h"
 
 namespace lanelight {

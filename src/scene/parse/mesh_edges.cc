@@ -1,5 +1,7 @@
 #include "src/scene/parse/mesh_edges.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_map>
 

@@ -1,5 +1,7 @@
 #include "src/scene/parse/motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // Media and objects that may be used before they are defined.
+#include <fmt/format.h>
+
 #include "src/scene/parse/forward.h"
 #include "src/scene/parse/parse_state.h"
 

@@ -1,5 +1,7 @@
 #include "src/scene/parse/number_file.h"
 
+#include <fmt/format.h>
+
 #include <fast_float/fast_float.h>
 
 #include <algorithm>

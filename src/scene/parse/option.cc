@@ -1,4 +1,6 @@
 // `Option "name" value` or `Option "type name" value`.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 

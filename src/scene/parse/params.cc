@@ -1,5 +1,7 @@
 #include "src/scene/parse/params.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,7 @@
 #include "src/scene/parse/parse.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <utility>
 

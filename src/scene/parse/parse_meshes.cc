@@ -1,4 +1,6 @@
 // Mesh files, after the text: every file once, all in parallel.
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "src/base/core/error_text.h"

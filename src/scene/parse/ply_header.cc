@@ -1,10 +1,13 @@
 #include "src/scene/parse/ply_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <memory>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 
 namespace lanelight {

@@ -2,6 +2,8 @@
 // order. Both offer Read(type), Left() and Fail(message) to the templates in ply.cc.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <fast_float/fast_float.h>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "src/scene/parse/ply_repair.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 
 namespace lanelight {

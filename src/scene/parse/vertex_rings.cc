@@ -1,5 +1,7 @@
 #include "src/scene/parse/vertex_rings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <span>

@@ -5,6 +5,7 @@
 
 #include "src/base/core/pi.h"
 #include "src/scene/prepare/light_bounds.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {

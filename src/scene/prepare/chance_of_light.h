@@ -1,9 +1,9 @@
 // How likely paths are to meet what shines where nothing leads them there.
 #pragma once
 
-#include "src/scene/prepare/prepared_scene.h"
-
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// Where directions are drawn without regard to lights (directions=bsdf, uniform), the
 /// probability that one meets a lamp: 1 / sum p^2 / s over lights that can be met, p

@@ -5,22 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/base/core/vec.h"
-#include "src/vocabulary/path/fields.h"
 
 namespace lanelight {
-
-/// Copies that one camera sample may become, itself included. Every sample has as many
-/// rows in the sample buffer.
-inline constexpr std::uint32_t kMostCopies = 8;
-
-/// First scattering event after which roulette=throughput is played, by default.
-inline constexpr std::int32_t kThroughputFirst = 2;
 
 /// Cells of a box, times the six dominant directions of the normal.
 struct CellGrid {
@@ -30,47 +18,6 @@ struct CellGrid {
   std::uint32_t cells() const {
     return static_cast<std::uint32_t>(size[0] * size[1] * size[2]) * 6;
   }
-};
-
-/// The grid of a box with about as many cells on surfaces as `vertices` records can fill.
-CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices);
-
-/// Sums over the recorded vertices of a cell: of the estimates of the brightness that a
-/// unit of throughput gathers from there on, of their squares, of the cost to come.
-struct CellSums {
-  double count = 0, value = 0, square = 0, cost = 0;
-
-  void Add(double estimate, double cost_to_come) {
-    count += 1, value += estimate, square += estimate * estimate;
-    cost += cost_to_come;
-  }
-  void Add(const CellSums& o) {
-    count += o.count, value += o.value, square += o.square, cost += o.cost;
-  }
-};
-
-/// Sums of those cells of a grid that have records: most lie in the air, and have none.
-class CellRecords {
- public:
-  using Sums = std::vector<std::pair<std::uint32_t, CellSums>>;  // and their cells
-
-  explicit CellRecords(std::uint32_t cells) : places_(cells) {}
-
-  void Add(std::uint32_t cell, double estimate, double cost_to_come) {
-    std::uint32_t& place = places_[cell];
-    if (place == 0) {
-      sums_.push_back({cell, {}});
-      place = static_cast<std::uint32_t>(sums_.size());
-    }
-    sums_[place - 1].second.Add(estimate, cost_to_come);
-  }
-  std::size_t cells() const { return places_.size(); }
-  /// In the order of the cells.
-  Sums Sorted() const;
-
- private:
-  std::vector<std::uint32_t> places_;  // in sums_, from 1; 0: none
-  Sums sums_;
 };
 
 /// Read by the kernels. A cell of which nothing is known has a negative `survive`.
@@ -85,53 +32,6 @@ struct PathValues {
   /// efficiency: sqrt(variance of the estimate / cost).
   AlignedVector<float> split;
   float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
-};
-
-/// Sets values.survive (and .split, if `efficiency`) from records of values.grid. Cells
-/// with few records borrow from the coarser cell around them; what is worth less than a
-/// tenth of the mean counts as that much: a short pilot pass may have missed its light.
-void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values);
-
-/// Colours of the pixels of an image from a few samples: means over tiles of 8x8 pixels,
-/// blurred over their neighbours. A sample counts at most kClamp times the mean of the
-/// image.
-class ImageGuess {
- public:
-  static constexpr double kClamp = 20;
-
-  /// samples[i]: of pixel pixels[i / (samples.size() / pixels.size())], y * width + x.
-  ImageGuess(std::uint32_t width, std::uint32_t height,
-             std::span<const std::uint32_t> pixels, std::span<const Vec3f> samples);
-
-  bool black() const { return !(mean_[0] + mean_[1] + mean_[2] > 0); }
-  /// PathValues::channel.
-  float Channel(int c) const;
-  /// 1 / (I_c^2 + epsilon): what a squared error of channel c weighs. epsilon is that of
-  /// the relative error (src/render/estimate/estimate.h), less in a dark image.
-  double ErrorWeight(std::uint32_t pixel, int c) const;
-  double Brightness(std::uint32_t pixel) const;
-  /// Per pixel and channel: mean_c / mean / sqrt(3 (I_c^2 + epsilon)), so that the sum of
-  /// the squares of beta_c times it, times the variance of a brightness, is the relative
-  /// variance that it brings, if its colour is like the image's. `faithful`: with an
-  /// epsilon that is negligible in all but the darkest pixels.
-  AlignedVector<float> Inverse(bool faithful) const;
-
- private:
-  static constexpr std::uint32_t kTile = 8;
-  struct Sum {
-    double color[3] = {}, count = 0;
-    void Add(const Sum& other, double weight);
-  };
-  const Sum& Tile(std::uint32_t pixel) const {
-    return tiles_[std::size_t{pixel / width_ / kTile} * columns_ +
-                  pixel % width_ / kTile];
-  }
-  void Blur(const std::vector<Sum>& sums);
-  double Mean() const { return (mean_[0] + mean_[1] + mean_[2]) / 3; }
-
-  std::uint32_t width_, height_, columns_, rows_;
-  double mean_[3] = {}, epsilon_ = 0;
-  std::vector<Sum> tiles_;  // means, of count 1
 };
 
 }  // namespace lanelight

@@ -5,7 +5,11 @@
 #include <utility>
 
 #include "src/base/core/alias_table.h"
+#include "src/scene/compile/compile.h"
 #include "src/scene/compile/environment_table.h"
+#include "src/scene/compiled/lights.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/description/description.h"
 #include "src/scene/prepare/light_bounds.h"
 #include "src/scene/prepare/light_tree.h"
 
@@ -98,12 +102,26 @@ PreparedScene WithStrategy(PreparedScene scene, const Strategy& strategy) {
   return scene;
 }
 
+SceneParts PreparedScene::Parts() const {
+  return PartsOf(*compiled, *view, chances.get());
+}
+const FeatureSet& PreparedScene::features() const { return compiled->features; }
+double PreparedScene::scale() const { return compiled->scale; }
+Transport PreparedScene::transport() const {
+  return compiled->integrator.transport.value_or(Transport::kRgb);
+}
+const std::vector<Note>& PreparedScene::notes() const { return compiled->notes; }
+
+PreparedScene PrepareScene(const SceneDescription& description) {
+  return PrepareScene(description, {});
+}
+
 PreparedScene PrepareScene(const SceneDescription& description,
                            const CompileOptions& options) {
   PreparedScene scene;
   scene.compiled =
       std::make_shared<const CompiledScene>(CompileScene(description, options));
-  scene.view = scene.compiled->view;
+  scene.view = {scene.compiled, &scene.compiled->view};
   return WithStrategy(std::move(scene), description.strategy);
 }
 

@@ -2,22 +2,38 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
-#include "src/scene/compile/compile.h"
-#include "src/vocabulary/path/wave.h"
+#include "src/vocabulary/path/features.h"
+#include "src/vocabulary/path/scene_kinds.h"
+#include "src/vocabulary/path/scene_parts.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct CompileOptions;    // src/scene/compile/compile.h
+struct CompiledScene;     // src/scene/compiled/scene.h
+struct CompiledView;      // src/scene/compiled/view.h
+struct LightChances;      // src/scene/compiled/lights.h
+struct Note;              // src/scene/description/note.h
+struct SceneDescription;  // src/scene/description/description.h
 
 /// Cheap to copy: copies share all that is large, and nothing of that ever changes. So
 /// one scene can be rendered with several strategies and views at the same time.
 struct PreparedScene {
   std::shared_ptr<const CompiledScene> compiled;
-  CompiledView view;
+  std::shared_ptr<const CompiledView> view;
   Strategy strategy;
   std::shared_ptr<const LightChances> chances;  // of the strategy
 
   /// For kernels. Refers to this object.
-  SceneParts Parts() const { return {compiled.get(), &view, chances.get()}; }
+  SceneParts Parts() const;
+
+  // Of the compiled scene, for those that read nothing else of it:
+  const FeatureSet& features() const;
+  double scale() const;  // scene units per world unit
+  Transport transport() const;
+  const std::vector<Note>& notes() const;
 };
 
 /// environment=compensated has an effect: what light samples leave out, scattered rays
@@ -38,6 +54,8 @@ PreparedScene WithStrategy(PreparedScene scene, const Strategy& strategy);
 /// Compiles the scene and prepares it for the strategy of the description. Throws
 /// InputError as CompileScene does.
 PreparedScene PrepareScene(const SceneDescription& description,
-                           const CompileOptions& options = {});
+                           const CompileOptions& options);
+/// With the default options.
+PreparedScene PrepareScene(const SceneDescription& description);
 
 }  // namespace lanelight

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "src/scene/prepare/estimate_path_values.h"
+
 namespace lanelight {
 
 AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,

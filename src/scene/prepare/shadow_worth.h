@@ -3,10 +3,13 @@
 // probabilities and never enters the image.
 #pragma once
 
+#include <cstdint>
+
 #include "src/base/core/aligned.h"
-#include "src/scene/prepare/path_values.h"
 
 namespace lanelight {
+
+class ImageGuess;  // src/scene/prepare/estimate_path_values.h
 
 /// Read by the kernel. The root of the sum over the channels of the squares of what a ray
 /// carries times `inverse`, at least `floor`, is the probability with which it is traced.

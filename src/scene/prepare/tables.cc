@@ -1,5 +1,7 @@
 #include "src/scene/prepare/tables.h"
 
+#include "src/scene/prepare/prepared_scene.h"
+
 namespace lanelight {
 
 StrategyTables MakeStrategyTables(const PreparedScene& scene) {

@@ -1,12 +1,12 @@
 // Tables that some strategies need, built once per render and read by kernels.
 #pragma once
 
-#include "src/base/core/aligned.h"
 #include "src/scene/prepare/path_values.h"
-#include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/shadow_worth.h"
 
 namespace lanelight {
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 struct StrategyTables {
   PathValues path_values;    // adjoint, efficiency: set by the pilot passes

@@ -36,6 +36,13 @@ struct MisParameters {
   float square = 1, linear = 0, hits = 1;
 };
 
+/// Copies that one camera sample may become, itself included. Every sample has as many
+/// rows in the sample buffer.
+inline constexpr std::uint32_t kMostCopies = 8;
+
+/// First scattering event after which roulette=throughput is played, by default.
+inline constexpr std::int32_t kThroughputFirst = 2;
+
 struct RouletteParameters {
   float termination = 0;    // constant: probability of ending
   float floor = 0;          // throughput, luminance: least survival probability

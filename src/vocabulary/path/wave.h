@@ -5,15 +5,14 @@
 #include <cstdint>
 
 #include "src/vocabulary/path/fields.h"
+#include "src/vocabulary/path/health.h"
 #include "src/vocabulary/path/run_parameters.h"
+#include "src/vocabulary/path/scene_parts.h"
 #include "src/vocabulary/path/shade_kinds.h"
 
 namespace lanelight {
 
-struct CompiledScene;  // src/scene/compiled/scene.h
-struct CompiledView;
-struct LightChances;  // src/scene/compiled/lights.h
-struct Block;         // src/vocabulary/path/block.h
+struct Block;  // src/vocabulary/path/block.h
 
 // Queues hold path slots. Stages append and read; the driver
 // (src/render/wave/phase_driver.h) clears all but kFree, and kActive, which it takes from
@@ -79,13 +78,6 @@ struct SampleBuffer {
   std::uint32_t stride = 0;  // samples of one plane
 };
 
-/// Samples that were not finite, or negative where they must not be. Each is replaced by
-/// zero and counted.
-struct Health {
-  std::uint64_t nan = 0, infinite = 0, negative = 0;
-  std::uint64_t Total() const { return nan + infinite + negative; }
-};
-
 /// Live columns that are treated alike.
 struct ColumnList {
   std::uint32_t* columns[kNumFields];
@@ -117,14 +109,6 @@ struct RayKernels {
   static constexpr std::uint32_t kMost = 8;
   StageFn closest[kMost] = {}, surface[kMost] = {}, shadow[kMost] = {};
   std::uint32_t num_closest = 0, num_surface = 0, num_shadow = 0;
-};
-
-/// What kernels read of a scene: all that every render of it shares, how it is seen, and
-/// what the strategy decides of its lights.
-struct SceneParts {
-  const CompiledScene* scene = nullptr;
-  const CompiledView* view = nullptr;
-  const LightChances* chances = nullptr;
 };
 
 struct Wave : SceneParts {

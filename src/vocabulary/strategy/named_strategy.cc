@@ -1,5 +1,7 @@
 #include "src/vocabulary/strategy/named_strategy.h"
 
+#include "src/base/core/source_location.h"
+
 namespace lanelight {
 
 Strategy StrategyNamed(const std::string& name, const SourceLocation& where,

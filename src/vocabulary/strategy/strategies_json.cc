@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "src/base/core/source_location.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {

@@ -8,10 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "src/base/core/error.h"
 #include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
+
+struct SourceLocation;  // src/base/core/source_location.h
 
 enum class Heuristic : std::uint8_t { kPower, kBalance };
 

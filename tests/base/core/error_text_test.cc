@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 
 namespace lanelight {
 

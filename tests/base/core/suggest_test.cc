@@ -1,3 +1,4 @@
+#include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,5 @@
 // Values as text: what is read, what is written, and what is said of all else.
+#include "src/base/core/source_location.h"
 #include "src/base/core/value_types.h"
 
 #include <catch2/catch.hpp>

@@ -2,6 +2,8 @@
 // `lanelight compare`.
 #include "src/base/image/color_channels.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <fmt/ranges.h>
 

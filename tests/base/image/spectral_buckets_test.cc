@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "src/base/image/wavelengths.h"
 #include "src/render/films/accumulator.h"
 
 namespace lanelight {

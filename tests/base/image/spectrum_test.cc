@@ -3,6 +3,8 @@
 // analytic fit in the library.
 #include "src/base/image/spectrum.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/directions/heuristic-inl.h"
+#include "src/base/core/source_location.h"
 #include "tests/kernels/directions/heuristics.h"
 
 LANELIGHT_BEGIN_KERNELS

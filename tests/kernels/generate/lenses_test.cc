@@ -9,6 +9,7 @@
 #include <random>
 
 #include "kernels/stages.h"
+#include "src/base/core/error.h"
 #include "src/base/core/pi.h"
 #include "src/base/image/image.h"
 #include "src/scene/compile/camera.h"

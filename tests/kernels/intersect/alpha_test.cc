@@ -25,9 +25,9 @@ void AddLayers(Records& records, Make&& make) {
 
 void SetAlpha(CompiledScene& scene, float alpha) {
   const std::uint32_t n = scene.geometry.ranges.end;
-  scene.alpha_texture.assign(n, -1);
-  scene.alpha_constant.assign(n, 1);
-  for (std::uint32_t i = 0; i < n; i += 2) scene.alpha_constant[i] = alpha;
+  scene.alpha.texture.assign(n, -1);
+  scene.alpha.constant.assign(n, 1);
+  for (std::uint32_t i = 0; i < n; i += 2) scene.alpha.constant[i] = alpha;
 }
 
 std::vector<TestRay> Downwards(Random& random, int n) {

@@ -149,8 +149,8 @@ CompiledScene Crowd(Random& random, Copies& copies) {
     g.triangles[i].flags = kAlphaTested;
   }
   CompiledScene scene = MakeScene(g);
-  scene.alpha_texture.assign(g.triangles.size(), -1);
-  scene.alpha_constant.assign(g.triangles.size(), 0.5f);
+  scene.alpha.texture.assign(g.triangles.size(), -1);
+  scene.alpha.constant.assign(g.triangles.size(), 0.5f);
   return scene;
 }
 

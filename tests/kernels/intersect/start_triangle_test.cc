@@ -51,7 +51,7 @@ StartTruth Nearest(const CompiledScene& scene, const TestRay& ray,
 
 // Whether a point lies in the plane of the triangle that a path names.
 bool LiesOn(const Wave& wave, std::uint32_t prim, Vec3f p) {
-  const auto& triangles = wave.scene->geometry.triangles;
+  const auto& triangles = wave.geometry->triangles;
   if (prim >= triangles.size()) return false;
   const auto at = [&](int k) {
     const float* v = triangles[prim].p[k];

@@ -25,7 +25,7 @@ struct LightScene {
   std::vector<NamedLight> lights;
 
   LightScene();
-  SceneParts Parts() const { return {&scene, &scene.view, &chances}; }
+  SceneParts Parts() const { return PartsOf(scene, scene.view, &chances); }
   /// Only light `i`; what emitted otherwise is dark.
   void Keep(std::size_t i);
   /// `count` point lights more, that nobody selects.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/scene/description/description.h"
+#include "src/scene/geometry/geometry.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/texture.h"
 

@@ -4,6 +4,8 @@
 
 #include "src/render/plan/plan.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/media/scenes.h"
 
 namespace lanelight::test {

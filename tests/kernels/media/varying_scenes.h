@@ -1,6 +1,7 @@
 // Scenes with one medium that varies, and scenes with none, that must look the same.
 #pragma once
 
+#include "src/base/image/sparse_grid.h"
 #include "tests/base/image/sparse_grid_file.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/kernels/media/scenes.h"

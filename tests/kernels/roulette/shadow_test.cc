@@ -6,6 +6,7 @@
 
 #include "kernels/stages.h"
 #include "src/render/train/trained_tables.h"
+#include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/kernels/control/control_scenes.h"
 #include "tests/support/test_target.h"

@@ -9,6 +9,8 @@
 #include "src/render/train/single_path_variances.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/scenes.h"
 
 namespace lanelight::test {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "src/base/core/error.h"
 #include "src/base/image/wavelengths.h"
 #include "src/scene/compile/measured.h"
 #include "tests/base/image/temporary_folder.h"

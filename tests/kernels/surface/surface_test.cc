@@ -21,7 +21,7 @@ std::vector<std::uint32_t> HitSurface(WaveFixture& fixture,
                                       const std::vector<TestRay>& rays,
                                       const FeatureSet& features) {
   fixture.SetRays(rays);
-  const Geometry& g = fixture.wave.scene->geometry;
+  const Geometry& g = *fixture.wave.geometry;
   if (!g.triangles.empty()) fixture.Run(IntersectTrianglesStage, features);
   if (!g.spheres.empty()) fixture.Run(IntersectSpheresStage, features);
   if (!g.disks.empty()) fixture.Run(IntersectDisksStage, features);

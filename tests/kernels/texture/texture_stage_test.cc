@@ -60,7 +60,7 @@ struct Fixture {
       if (i < kPaths) queue.push_back((i * 5) % kPaths);
     }
     queue.resize(kRoom);
-    wave.scene = &scene;
+    static_cast<SceneParts&>(wave) = PartsOf(scene, scene.view, nullptr);
     wave.queue(QueueId::kSurface) = {queue.data(), kPaths};
     PathColumns& path = wave.path;
     path.uv_u = columns[0].data(), path.uv_v = columns[1].data();

@@ -1,6 +1,8 @@
 // What is said of two images, the maps and tiles of their errors, and the page's data.
 #include "src/measure/compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>

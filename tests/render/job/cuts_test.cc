@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include "src/base/core/source_location.h"
 #include "tests/render/job/kept_render.h"
 
 namespace lanelight {

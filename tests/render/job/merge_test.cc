@@ -5,6 +5,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
+#include "src/base/core/source_location.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/parts.h"
 #include "tests/render/job/kept_render.h"

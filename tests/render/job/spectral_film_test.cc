@@ -8,8 +8,10 @@
 #include "src/base/image/exr.h"
 #include "src/base/image/spectrum.h"
 #include "src/render/job/identity.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/output.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 #include "tests/base/image/temporary_folder.h"
 

@@ -1,6 +1,8 @@
 // One keeps a state; what killed ones have left goes away, and nothing else does.
 #include "src/render/job/state_lock.h"
 
+#include <fmt/format.h>
+
 #include <unistd.h>
 
 #include <catch2/catch.hpp>

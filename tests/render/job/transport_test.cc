@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "src/render/job/job.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/transport.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 
 namespace lanelight {

@@ -13,6 +13,7 @@
 #include "src/render/wave/block_reuse.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/agreement/all_stages_scene.h"
@@ -66,7 +67,7 @@ class Checker {
 #define X(type, name, ...) columns_.push_back(reinterpret_cast<std::uint32_t*>(p.name));
     LANELIGHT_PATH_FIELDS(X)
 #undef X
-    TilePixels(MiddleTile(), scene_.view.film.width, &pixels_);
+    TilePixels(MiddleTile(), scene_.view->film.width, &pixels_);
     samples_.resize(std::size_t{Rows()} * static_cast<std::size_t>(run_.planes.count()));
   }
 
@@ -92,7 +93,7 @@ class Checker {
  private:
   /// Square tile in the middle of the image.
   PixelRect MiddleTile() const {
-    const auto& film = scene_.view.film;
+    const auto& film = scene_.view->film;
     const int left = (static_cast<int>(film.width) - side_) / 2;
     const int top = (static_cast<int>(film.height) - side_) / 2;
     return {left, top, left + side_, top + side_};
@@ -195,8 +196,8 @@ class Checker {
   const std::string kQueues = " reads what it does not declare for queues";
   const std::string kOutput = " reads what it does not declare for samples";
   PreparedScene scene_;
-  const int side_ = std::min({kLongestSide, static_cast<int>(scene_.view.film.width),
-                              static_cast<int>(scene_.view.film.height)});
+  const int side_ = std::min({kLongestSide, static_cast<int>(scene_.view->film.width),
+                              static_cast<int>(scene_.view->film.height)});
   Plan plan_;
   StrategyTables tables_;
   RunParameters run_;

@@ -1,4 +1,5 @@
 // Strategies with equal keys render the same bits; what differs has another key.
+#include "src/base/core/source_location.h"
 #include "src/render/plan/plan_key.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,7 @@
 // What wavelengths cost: nothing where paths carry none, and what they cannot carry.
 #include <catch2/catch.hpp>
 
+#include "src/base/core/error.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/render/run/render_fixture.h"

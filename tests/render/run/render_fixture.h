@@ -5,6 +5,9 @@
 
 #include "src/base/core/parallel.h"
 #include "src/render/run/run.h"
+#include "src/scene/accel/build.h"
+#include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/prepared_scene.h"
@@ -48,7 +51,7 @@ inline Rendered RenderDescription(const SceneDescription& description,
   plan_options.auxiliary = t.auxiliary;
   plan_options.wavefront = t.wavefront;
   const Plan plan = MakePlan(scene, plan_options);
-  Rendered out{FilmAccumulator(0, 0, scene.view.film.width, scene.view.film.height,
+  Rendered out{FilmAccumulator(0, 0, scene.view->film.width, scene.view->film.height,
                                GroupsOf(scene.strategy), t.auxiliary),
                {},
                plan};

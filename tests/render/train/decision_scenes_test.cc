@@ -1,6 +1,7 @@
 // decide=pilot on scenes that others have made, by pilots of a render of ten seconds.
 #include <catch2/catch.hpp>
 
+#include "src/base/core/source_location.h"
 #include "src/render/job/job.h"
 #include "tests/support/shared_scenes.h"
 

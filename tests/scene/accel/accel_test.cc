@@ -1,7 +1,7 @@
 // Structure of trees whose triangles are not cut (those that are: spatial_split_test.cc):
 // every shape in exactly one leaf, boxes that contain what is below them, the same tree
 // for any number of threads.
-#include "src/scene/accel/accel.h"
+#include "src/scene/geometry/accel.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,7 @@
 // A scene whose compiled form has much to get wrong, for the tests of the compiler.
 #pragma once
 
+#include "src/scene/description/description.h"
 #include "tests/scene/compile/testing.h"
 
 namespace lanelight {

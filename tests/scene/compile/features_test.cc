@@ -168,11 +168,11 @@ TEST_CASE("compile: alpha", "[scene][compile]") {
   d.shapes[0].alpha.constant = 0.25;
   CompiledScene scene = CompileScene(d);
   CHECK(Names(scene.features) == Split("Triangles Spheres Alpha Diffuse"));
-  REQUIRE(scene.alpha_constant.size() == 5);
-  CHECK(scene.alpha_constant[1] == 0.25f);
-  CHECK(scene.alpha_constant[2] == 1.0f);
-  CHECK(scene.alpha_constant[4] == 1.0f);
-  CHECK(scene.alpha_texture[0] == -1);
+  REQUIRE(scene.alpha.constant.size() == 5);
+  CHECK(scene.alpha.constant[1] == 0.25f);
+  CHECK(scene.alpha.constant[2] == 1.0f);
+  CHECK(scene.alpha.constant[4] == 1.0f);
+  CHECK(scene.alpha.texture[0] == -1);
   CHECK(scene.geometry.triangles[0].flags == kAlphaTested);
   CHECK(scene.geometry.triangles[3].flags == 0);
   CHECK(scene.geometry.spheres[0].flags == 0);
@@ -182,13 +182,13 @@ TEST_CASE("compile: alpha", "[scene][compile]") {
   d.shapes[1].alpha.texture = AddTexture(d, Checker(true));
   scene = CompileScene(d);
   CHECK(Names(scene.features) == Split("Triangles Spheres Uv Alpha Diffuse"));
-  CHECK(scene.alpha_texture[4] == 0);
-  CHECK(scene.alpha_texture[0] == -1);
+  CHECK(scene.alpha.texture[4] == 0);
+  CHECK(scene.alpha.texture[0] == -1);
   CHECK(scene.geometry.spheres[0].flags == kAlphaTested);
   d.textures[0] = Texture{};
   d.textures[0].value = {1, 1, 1};
   CHECK(Features(d) == Split("Triangles Spheres Diffuse"));
-  CHECK(CompileScene(d).alpha_texture.empty());
+  CHECK(CompileScene(d).alpha.texture.empty());
 
   // Alpha 0: nothing is left of the shape.
   d.textures[0].value = {0, 0, 0};
@@ -206,9 +206,9 @@ TEST_CASE("compile: alpha of instanced meshes", "[scene][compile]") {
   instance.object = 0;
   d.instances = {instance};
   const CompiledScene scene = CompileScene(d);
-  REQUIRE(scene.alpha_constant.size() == 4);
-  CHECK(scene.alpha_constant[1] == 1.0f);
-  CHECK(scene.alpha_constant[2] == 0.5f);
+  REQUIRE(scene.alpha.constant.size() == 4);
+  CHECK(scene.alpha.constant[1] == 1.0f);
+  CHECK(scene.alpha.constant[2] == 0.5f);
 }
 
 TEST_CASE("compile: interface surfaces vanish", "[scene][compile]") {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
 #include "tests/scene/parse/parse_text.h"
 
 namespace lanelight {

@@ -5,6 +5,7 @@
 #include "src/base/core/error.h"
 #include "src/scene/compile/compile.h"
 #include "src/scene/compile/textures.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 
 namespace lanelight {

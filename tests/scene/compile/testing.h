@@ -6,7 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
+#include "src/scene/description/description.h"
+#include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "src/base/core/error.h"
 #include "src/scene/parse/parse.h"
 
 namespace lanelight {

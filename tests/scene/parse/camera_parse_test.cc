@@ -1,4 +1,6 @@
 // Camera, film, filter, sampler, integrator, options.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "src/base/image/color_spaces.h"

@@ -1,4 +1,6 @@
 // Transforms, blocks, objects, attributes, includes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,7 @@
 #include "tests/scene/parse/format_document.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <map>

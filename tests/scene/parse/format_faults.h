@@ -2,6 +2,8 @@
 // has none.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 

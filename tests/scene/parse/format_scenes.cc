@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "src/base/core/error.h"
 #include "src/scene/compile/compile.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 #include "tests/base/image/sparse_grid_file.h"
 #include "tests/reference/measured.h"

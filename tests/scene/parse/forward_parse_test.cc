@@ -1,4 +1,6 @@
 // Names that are used before the file defines them.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 
 #include "tests/scene/parse/parse_text.h"

@@ -1,4 +1,5 @@
 // Files of numbers, parted as pbrt-v4 parts them.
+#include "src/base/core/error.h"
 #include "src/scene/parse/number_file.h"
 
 #include <catch2/catch.hpp>

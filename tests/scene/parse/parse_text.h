@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "src/base/core/error.h"
 #include "src/scene/parse/parse.h"
 
 namespace lanelight {

@@ -1,4 +1,5 @@
 // What differs between two strategies.
+#include "src/base/core/source_location.h"
 #include "src/vocabulary/strategy/choices_text.h"
 
 #include <catch2/catch.hpp>

@@ -5,7 +5,9 @@
 #include <map>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 #include "src/render/plan/plan.h"
+#include "src/scene/compiled/scene.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::test {

@@ -1,5 +1,6 @@
 // The text form of strategies: every choice, presets, errors with a place and the nearest
 // name.
+#include "src/base/core/error.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 #include <catch2/catch.hpp>

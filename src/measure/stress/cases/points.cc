@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/core/source_location.h"
 #include "src/measure/stress/cases/scene_text.h"
 
 namespace lanelight::stress {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/core/error.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::stress {

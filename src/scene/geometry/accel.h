@@ -30,14 +30,12 @@
 #include "src/base/core/aligned.h"
 #include "src/base/core/shared_array.h"
 #include "src/base/core/vec.h"
+#include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight {
 
-struct Geometry;  // src/scene/geometry/geometry.h
-
 /// Children of a node, and shapes of a leaf of spheres or disks.
 inline constexpr int kBvhWidth = 8;
-inline constexpr int kLeafTriangles = 16;
 /// Child references: with this bit a leaf (the rest is the index of its block, or of an
 /// instance in the top level), without it the index of a node. Among leaves of triangles
 /// those with kSeparateBit, too, are SeparateLeaf. Indices of leaves count in units of
@@ -160,11 +158,6 @@ struct FewTriangles {
   float reach = 0;
 };
 
-enum class BuildQuality {
-  kHigh,
-  kFast,  // splits along one axis, no cuts: for previews and huge scenes
-};
-
 struct Accel {
   BuildQuality quality = BuildQuality::kHigh;
   SharedArray<WideNode> nodes;  // of all trees
@@ -189,23 +182,5 @@ struct Accel {
 inline constexpr std::size_t LeafUnit(int leaf_triangles) {
   return leaf_triangles == SmallLeaf::kLanes ? sizeof(SmallLeaf) : sizeof(TriangleBlock);
 }
-
-/// How to build; the defaults are what rendering uses. What counts as few serves tests
-/// and bench.
-struct AccelOptions {
-  std::uint32_t few_triangles = kFewTriangles;
-  std::uint32_t few_round = kFewRound;
-  BuildQuality quality = BuildQuality::kHigh;
-  int leaf_triangles = kLeafTriangles;  // or half as many: LeafTrianglesFor
-};
-
-/// What is traced fastest with vectors of so many lanes.
-inline constexpr int LeafTrianglesFor(int lanes) {
-  return lanes < kLeafTriangles ? SmallLeaf::kLanes : TriangleLeaf::kLanes;
-}
-
-/// Builds everything that `geometry` needs. The result does not depend on the number of
-/// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
-Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/estimate_path_values.h"
 
 #include <algorithm>
 #include <cmath>

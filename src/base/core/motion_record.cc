@@ -1,4 +1,4 @@
-#include "src/scene/geometry/motion.h"
+#include "src/base/core/motion_record.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-#include "src/scene/accel/accel.h"
+#include "src/scene/accel/build.h"
+#include "src/scene/geometry/accel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,24 @@
+// What a scene file says, and how long reading and compiling it took.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "src/scene/accel/tree_report.h"
+#include "src/scene/description/description.h"
+
+namespace lanelight {
+
+/// What all jobs of a scene share besides what is compiled of it.
+struct LoadedScene {
+  SceneDescription description;  // overrides applied; meshes released after compiling
+  std::set<std::string> files;   // that the scene reads, its own among them
+  std::string transport_why;     // why paths carry what they do, if the scene decides
+  std::uint64_t scene_hash = 0;  // see HashSceneFiles()
+  double load_seconds = 0;       // reading and parsing
+  double build_seconds = 0;      // compiling: acceleration structure, lights, textures
+  TreeReport trees;              // over shapes: part of that
+};
+
+}  // namespace lanelight

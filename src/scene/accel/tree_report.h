@@ -1,0 +1,16 @@
+// What finding or building the trees over shapes took.
+#pragma once
+
+#include <cstddef>
+
+namespace lanelight {
+
+struct TreeReport {
+  bool shared = false;    // the known tree's; else built
+  double seconds = 0;     // finding or building, hashing the shapes included
+  std::size_t bytes = 0;  // of the tree
+
+  const char* Origin() const { return shared ? "shared" : "built"; }
+};
+
+}  // namespace lanelight

@@ -1,0 +1,42 @@
+// What kernels read of a scene: tables of plain data, each of a header of its own, of
+// which a kernel includes those that it reads.
+#pragma once
+
+namespace lanelight {
+
+struct Geometry;         // src/scene/geometry/geometry.h
+struct PrimitiveRanges;  // src/vocabulary/path/primitive_ranges.h
+struct Accel;            // src/scene/geometry/accel.h
+struct MaterialTable;    // src/scene/compiled/materials.h
+struct TextureTable;     // src/scene/compiled/texture_table.h
+struct SpectrumTable;    // src/scene/compiled/spectra.h
+struct AlphaTable;       // src/scene/compiled/alpha.h
+struct MediumTable;      // src/scene/compiled/media.h
+struct LightTable;       // src/scene/compiled/lights.h
+struct LightChances;     // src/scene/compiled/lights.h
+struct CompiledFilter;   // src/scene/compiled/camera.h
+struct CompiledCamera;   // src/scene/compiled/camera.h
+struct PixelFootprint;   // src/scene/compiled/footprint.h
+struct GbufferSpace;     // src/scene/compiled/gbuffer.h
+
+/// All that every render of a scene shares, how it is seen, and what the strategy decides
+/// of its lights. Made by PartsOf (src/scene/compiled/scene.h).
+struct SceneParts {
+  const Geometry* geometry = nullptr;
+  const PrimitiveRanges* ranges = nullptr;  // of the geometry
+  const Accel* accel = nullptr;
+  const MaterialTable* materials = nullptr;
+  const TextureTable* textures = nullptr;
+  const SpectrumTable* spectra = nullptr;
+  const AlphaTable* alpha = nullptr;
+  const MediumTable* media = nullptr;
+  const LightTable* lights = nullptr;
+  const CompiledFilter* filter = nullptr;
+  const CompiledCamera* camera = nullptr;
+  const PixelFootprint* footprint = nullptr;
+  const GbufferSpace* gbuffer = nullptr;
+  const LightChances* chances = nullptr;
+  double scale = 1;  // CompiledScene::scale
+};
+
+}  // namespace lanelight
