@@ -5,27 +5,23 @@
 #include "src/measure/compare/comparison.h"
 
 namespace lanelight {
-namespace {
 
-nlohmann::json FlipJson(const FlipSummary& s) {
-  return {{"mean", s.mean},
-          {"first_quartile", s.first_quartile},
-          {"median", s.median},
-          {"third_quartile", s.third_quartile},
-          {"max", s.max}};
-}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipSummary, mean, first_quartile, median,
+                                   third_quartile, max)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipExposures, start, stop, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorTile, x, y, width, height, relmse, share)
+
+namespace {
 
 nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
   if (!flip) return nullptr;
   nlohmann::json out = {{"pixels_per_degree", flip->pixels_per_degree},
-                        {"ldr", FlipJson(flip->ldr_summary)},
+                        {"ldr", flip->ldr_summary},
                         {"hdr", nullptr},
                         {"exposures", nullptr}};
   if (flip->hdr.empty()) return out;
-  out["hdr"] = FlipJson(flip->hdr_summary);
-  out["exposures"] = {{"start", flip->exposures.start},
-                      {"stop", flip->exposures.stop},
-                      {"count", flip->exposures.count}};
+  out["hdr"] = flip->hdr_summary;
+  out["exposures"] = flip->exposures;
   return out;
 }
 
@@ -45,19 +41,6 @@ nlohmann::json AgreementJson(const Agreement& a) {
           {"tiles", tiles}};
 }
 
-nlohmann::json WorstJson(const std::vector<ErrorTile>& tiles) {
-  nlohmann::json out = nlohmann::json::array();
-  for (const ErrorTile& t : tiles) {
-    out.push_back({{"x", t.x},
-                   {"y", t.y},
-                   {"width", t.width},
-                   {"height", t.height},
-                   {"relmse", t.relmse},
-                   {"share", t.share}});
-  }
-  return out;
-}
-
 }  // namespace
 
 nlohmann::json ToJson(const ImageComparison& c) {
@@ -67,7 +50,7 @@ nlohmann::json ToJson(const ImageComparison& c) {
               {"verdict", c.verdict},
               {"agreement", AgreementJson(c.agreement)},
               {"flip", FlipJson(c.flip)},
-              {"worst_tiles", WorstJson(c.worst)}});
+              {"worst_tiles", c.worst}});
   return out;
 }
 

@@ -13,7 +13,6 @@
 #include "src/base/image/color_channels.h"
 #include "src/base/image/variance_unit.h"
 #include "src/base/stat/interval.h"
-#include "src/base/stat/values.h"
 #include "src/measure/compare/z_scores.h"
 
 namespace lanelight {
@@ -208,25 +207,6 @@ class Comparison {
   double squares_ = 0, absolute_ = 0, percentage_ = 0, peak_ = 0;
 };
 
-nlohmann::json Numbers(const std::vector<double>& values) {
-  nlohmann::json array = nlohmann::json::array();
-  for (double v : values) array.push_back(NumberJson(v));
-  return array;
-}
-
-nlohmann::json ToJson(const ZScores& z) {
-  return {{"available", z.available},
-          {"count", z.count},
-          {"exact", z.exact},
-          {"mismatched", z.mismatched},
-          {"invalid", z.invalid},
-          {"mean", NumberJson(z.mean)},
-          {"standard_deviation", NumberJson(z.standard_deviation)},
-          {"beyond_2", NumberJson(z.beyond_2)},
-          {"beyond_3", NumberJson(z.beyond_3)},
-          {"ks_distance", NumberJson(z.ks_distance)}};
-}
-
 }  // namespace
 
 CompareResult CompareImages(const Image& test, const Image& reference,
@@ -241,28 +221,15 @@ CompareResult CompareImages(const Image& test, const Image& reference,
   return Comparison(test, reference, options).Run();
 }
 
-nlohmann::json ToJson(const CompareResult& r) {
-  return {
-      {"width", r.width},
-      {"height", r.height},
-      {"channels", r.channels},
-      {"samples", r.samples},
-      {"invalid_test", r.invalid_test},
-      {"invalid_reference", r.invalid_reference},
-      {"mse", NumberJson(r.mse)},
-      {"rmse", NumberJson(r.rmse)},
-      {"mae", NumberJson(r.mae)},
-      {"relmse", NumberJson(r.relmse)},
-      {"relmse_trimmed", NumberJson(r.relmse_trimmed)},
-      {"relmse_filtered", Numbers({r.relmse_filtered.begin(), r.relmse_filtered.end()})},
-      {"mape", NumberJson(r.mape)},
-      {"psnr", NumberJson(r.psnr)},
-      {"mean_test", Numbers(r.mean_test)},
-      {"mean_reference", Numbers(r.mean_reference)},
-      {"mean_ratio", Numbers(r.mean_ratio)},
-      {"tile_relmse_median", NumberJson(r.tile_relmse_median)},
-      {"tile_relmse_max", NumberJson(r.tile_relmse_max)},
-      {"z", ToJson(r.z)}};
-}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ZScores, available, count, exact, mismatched, invalid,
+                                   mean, standard_deviation, beyond_2, beyond_3,
+                                   ks_distance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CompareResult, width, height, channels, samples,
+                                   invalid_test, invalid_reference, mse, rmse, mae,
+                                   relmse, relmse_trimmed, relmse_filtered, mape, psnr,
+                                   mean_test, mean_reference, mean_ratio,
+                                   tile_relmse_median, tile_relmse_max, z)
+
+nlohmann::json ToJson(const CompareResult& result) { return result; }
 
 }  // namespace lanelight

@@ -73,7 +73,7 @@ struct CompareResult {
 CompareResult CompareImages(const Image& test, const Image& reference,
                             const CompareOptions& options = {});
 
-/// All members, by name; numbers that are not finite become null.
+/// All members, by name; numbers that are not finite become null in texts.
 nlohmann::json ToJson(const CompareResult& result);
 
 }  // namespace lanelight

@@ -71,7 +71,7 @@ TEST_CASE("equal images have no error and infinite PSNR", "[metrics]") {
   CHECK(r.relmse == 0);
   CHECK(std::isinf(r.psnr));
   CHECK(r.mean_ratio == std::vector<double>{1, 1, 1});
-  CHECK(ToJson(r)["psnr"].is_null());
+  CHECK(ToJson(r)["psnr"].dump() == "null");
   CHECK(ToJson(r)["z"]["count"] == 192);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("NaN and infinity are counted and left out", "[metrics]") {
       CompareImages(Rgb2x1({nan, nan, nan, nan, nan, nan}), Rgb2x1({1, 1, 1, 1, 1, 1}));
   CHECK(none.samples == 0);
   CHECK_FALSE(none.relmse <= 1e9);  // no limit is met
-  CHECK(ToJson(none)["relmse"].is_null());
+  CHECK(ToJson(none)["relmse"].dump() == "null");
 }
 
 TEST_CASE("z-scores of honest noise are standard normal", "[metrics]") {
