@@ -11,32 +11,16 @@ const WORDS = {
   unfinished: "not finished",
 };
 
-// What is plotted as the error, by what the truth is.
-function measureOf(aCase) {
-  if (aCase.truth === "rate") return "Rate of failures";
-  return aCase.truth === "bound" ? "Measured, relative to the bound" : "Relative error";
-}
-
 function hasNumber(point) {
   const { refused, crash, not_measured: left } = point;
   return refused === "" && crash === "" && left === "" && known(point.measured);
 }
 
-// {value, noise, limit}: of the error as it is plotted; `limit` is where a point fails.
-function errorOf(aCase, point) {
+// {value, noise, limit}: the error as it is plotted; a point fails above `limit`.
+function errorOf(point) {
   const unit = point.scale > 0 ? point.scale : 1;
   const { allowance } = point.verdict;
-  if (aCase.truth === "rate") {
-    return { value: point.measured, noise: 0, limit: point.expected + (allowance || 0) };
-  }
   const noise = known(allowance) ? (allowance - point.tolerance) / unit : 0;
-  if (aCase.truth === "bound") {
-    return {
-      value: point.measured / unit,
-      noise,
-      limit: (point.expected + (allowance || 0)) / unit,
-    };
-  }
   const value = Math.abs(point.measured - point.expected) / unit;
   return { value, noise, limit: known(allowance) ? allowance / unit : null };
 }

@@ -1,18 +1,17 @@
 "use strict";
 // One map with all that was measured along it.
 
-function pointRows(aCase, point) {
+function pointRows(point) {
   if (point.refused) return [["refused", point.refused]];
   if (point.not_measured) return [["not measured", point.not_measured]];
   if (point.crash) return [["crashed", point.crash]];
   const half = known(point.verdict.allowance)
     ? point.verdict.allowance - point.tolerance
     : null;
-  const rate = aCase.truth === "rate";
   return [
     ["expected", fmt(point.expected, 6)],
-    ["measured", rate ? `${point.failures} of ${point.trials}` : fmt(point.measured, 6)],
-    !rate && half > 0 && ["noise", `± ${fmt(half, 2)}`],
+    ["measured", fmt(point.measured, 6)],
+    half > 0 && ["noise", `± ${fmt(half, 2)}`],
     point.tolerance > 0 && ["tolerance", `± ${fmt(point.tolerance, 2)}`],
     ["z", point.verdict.z === null ? "beyond any noise" : fmt(point.verdict.z, 2)],
     point.invalid > 0 && ["invalid samples", fmtCount(point.invalid)],
@@ -28,7 +27,7 @@ function describePoint(aCase) {
   return (line, { point }) => noteOf(
     line.name === "all" ? aCase.name : line.name,
     `${aCase.axis.name} ${fmtParameter(aCase, point.parameter)}`,
-    ...pointRows(aCase, point).map(([name, text]) => `${name}: ${text}`),
+    ...pointRows(point).map(([name, text]) => `${name}: ${text}`),
   );
 }
 
@@ -38,21 +37,21 @@ const perSample = (point, key) =>
 const PLOTS = [
   {
     key: "error",
-    title: measureOf,
+    title: "Relative error",
     log: true,
     tick: errorTick,
-    value(aCase, point) {
-      const { value, noise, limit } = errorOf(aCase, point);
+    value(point) {
+      const { value, noise, limit } = errorOf(point);
       const band = noise > 0 ? { low: value - noise, high: value + noise } : {};
       return { value, limit, ...band };
     },
   },
   {
     key: "noise",
-    title: () => "Standard error, relative",
+    title: "Standard error, relative",
     log: true,
     tick: errorTick,
-    value: (aCase, point) => ({
+    value: (point) => ({
       value:
         point.standard_error > 0
           ? point.standard_error / (point.scale > 0 ? point.scale : 1)
@@ -61,39 +60,39 @@ const PLOTS = [
   },
   {
     key: "cost",
-    title: () => "Cost per sample",
+    title: "Cost per sample",
     log: true,
     choices: {
       seconds: ["Processor time", secondsTick],
       rays: ["Rays", (x) => fmtShort(x)],
     },
-    value: (aCase, point, choice) => ({ value: perSample(point, choice) }),
+    value: (point, choice) => ({ value: perSample(point, choice) }),
   },
   {
     key: "lanes",
-    title: () => "Lanes filled",
+    title: "Lanes filled",
     log: false,
     tick: (x) => fmtShortPercent(x),
     include: [0, 1],
-    value: (aCase, point) => ({
+    value: (point) => ({
       value: point.lane_slots > 0 ? point.lanes_used / point.lane_slots : null,
     }),
   },
 ];
 
 // The choices of a plot that some point has a value for; [null] where there are none.
-function choicesOf(aCase, lines, plot) {
+function choicesOf(lines, plot) {
   const has = (choice) =>
     lines.some((line) =>
-      line.points.some((p) => hasNumber(p) && known(plot.value(aCase, p, choice).value)),
+      line.points.some((p) => hasNumber(p) && known(plot.value(p, choice).value)),
     );
   return (plot.choices ? Object.keys(plot.choices) : [null]).filter(has);
 }
 
 function detailPlot(view, aCase, target, plot) {
-  const choices = choicesOf(aCase, view.ran, plot);
+  const choices = choicesOf(view.ran, plot);
   if (choices.length === 0) return null;
-  const title = plot.title(aCase);
+  const { title } = plot;
   const { host, figure } = plotFigure(plot.key, title, `${title}, ${aCase.name}`);
   let end = () => {};
   const draw = (choice) => {

@@ -44,11 +44,11 @@ function refusals(frame, lines, describe) {
   );
 }
 
-function mapPoints(aCase, line, plot, choice) {
+function mapPoints(line, plot, choice) {
   return line.points
     .filter(hasNumber)
     .map((point) => {
-      const { value: y, ...bounds } = plot.value(aCase, point, choice);
+      const { value: y, ...bounds } = plot.value(point, choice);
       const bad = !point.verdict.good;
       return { x: point.parameter, y, ...bounds, bad, hollow: plot.log && y <= 0, point };
     })
@@ -58,13 +58,13 @@ function mapPoints(aCase, line, plot, choice) {
 // What drawPlot() takes. plot: one of PLOTS; choice: of its choices, or null.
 function mapOptions(aCase, target, lines, plot, choice) {
   const { name, unit } = aCase.axis;
-  const label = plot.title(aCase);
+  const label = plot.title;
   const x = parameterScale(aCase);
   const zero = x.log && aCase.points.some((p) => p.parameter === 0) ? [0] : [];
   const describe = describePoint(aCase);
   return {
     lines: lines.map((line) => ({
-      ...line, all: line.points, points: mapPoints(aCase, line, plot, choice),
+      ...line, all: line.points, points: mapPoints(line, plot, choice),
     })),
     kind: lines.length > MOST_BANDS ? "many" : null,
     label: `${label} against ${name}`,

@@ -26,7 +26,6 @@ function outcomeCell(aCase) {
 function measuredCell(aCase) {
   const point = worstOf(aCase);
   if (!point || !hasNumber(point)) return UNKNOWN;
-  if (aCase.truth === "rate") return `${point.failures} of ${fmtCount(point.trials)}`;
   const half = (point.verdict.allowance || 0) - point.tolerance;
   const bounds = half > 0 ? `± ${fmt(half, 2)}` : "";
   return twoLines({ value: fmt(point.measured, 5), bounds });

@@ -10,9 +10,9 @@ function tileY(error) {
   return TILE.height * (1 - Math.max(0.02, Math.min(0.98, share)));
 }
 
-function tilePoints(aCase, line, xScale) {
+function tilePoints(line, xScale) {
   return line.points.filter(hasNumber).map((point) => {
-    const { value, limit } = errorOf(aCase, point);
+    const { value, limit } = errorOf(point);
     return {
       x: TILE.width * shareOn(xScale, point.parameter),
       y: tileY(value),
@@ -53,7 +53,7 @@ function tileAllowance(curves) {
 function tileDrawing(aCase, target) {
   const xScale = parameterScale(aCase);
   const lines = seriesOf(aCase, target);
-  const curves = lines.map((line) => tilePoints(aCase, line, xScale));
+  const curves = lines.map((line) => tilePoints(line, xScale));
   const [from, to] = promisedShare(aCase, xScale);
   return svg("svg.tile-plot",
     {
