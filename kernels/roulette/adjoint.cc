@@ -8,12 +8,12 @@
 //   estimator   r = nu / (1/3) below the window [1/3, 5/3], nu / (5/3) above, else 1, so
 //               that what remains is at its nearer edge; window-inl.h. (Moving it to the
 //               middle plays harder and was measured to have up to twice the variance)
-//   unbiased    for any Psi and I: they only steer r; the pilot's samples are not used
+//   unbiased    for any Psi and I: they only steer r; the training's samples are not used
 //   variance    paths into the dark end early, paths into the light are split; pays where
-//               Psi varies much along paths (light behind a door), loses its pilot pass
+//               Psi varies much along paths (light behind a door), loses its training pass
 //               and the noise of Psi where all paths are alike
-//   no data     cells that no pilot path met: roulette on the throughput
-//   cost        two gathers of tables and a hash per vertex; the pilot pass
+//   no data     cells that no training path met: roulette on the throughput
+//   cost        two gathers of tables and a hash per vertex; the training pass
 //   source      Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting
 //               in Light Transport Simulation"
 #include "kernels/simd/each_target-inl.h"

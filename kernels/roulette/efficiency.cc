@@ -9,13 +9,13 @@
 //               the path is its mean as well)
 //   estimator   r = s if s > 1, t if t < 1, else 1; window-inl.h. (s <= t, so at most one
 //               of them holds)
-//   unbiased    for any values: they only steer r; the pilot's samples are not used
+//   unbiased    for any values: they only steer r; the training's samples are not used
 //   variance    splits where the variance comes from and is cheap to reduce, ends paths
 //               whose share of it does not pay for their rays. C_I / V_I is iterated in
-//               short pilot passes (src/render/train/train_path_values.cc)
+//               short training passes (src/render/train/train_path_values.cc)
 //   fallback    the last passes compare with no roulette and with roulette on the
 //               throughput; the best of the three renders the image
-//   cost        three gathers of tables and a hash per vertex; the pilot passes
+//   cost        three gathers of tables and a hash per vertex; the training passes
 //   source      Rath, Grittmann, Herholz, Weier and Slusallek 2022, "EARS: Efficiency-
 //               Aware Russian Roulette and Splitting"
 #include "kernels/simd/each_target-inl.h"

@@ -2,7 +2,7 @@
 // s = min(1, max(floor, what it carries / what its pixel asks for)).
 //   estimator   sh V / s with probability s, else 0: E = sh V
 //   density     of tracing: s, a function of what the ray carries and of its pixel, which
-//               a pilot pass has seen (src/scene/prepare/shadow_worth.h)
+//               a training pass has seen (src/scene/prepare/shadow_worth.h)
 //   unbiased    s >= floor > 0; s is known before the ray is traced
 //   variance    grows by E[sh^2 V (1/s - 1)] per ray. What a survivor carries is at most
 //               what its pixel asks for, so no fireflies
@@ -28,7 +28,7 @@ HWY_INLINE VF ShadowSurvival(const ShadowWorth& worth, VI pixel, V3 carried) {
 void ShadowRoulette(Wave& wave) {
   const PathColumns& p = wave.path;
   const ShadowWorth& worth = wave.run->tables->shadow_worth;
-  if (worth.inverse.empty()) return;  // nothing is known: the pilot pass itself
+  if (worth.inverse.empty()) return;  // nothing is known: the training pass itself
   Queue& queue = wave.queue(QueueId::kShadow);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {

@@ -1,4 +1,4 @@
-// A pilot pass with splitting, which records what the same paths would bring with
+// A training pass with splitting, which records what the same paths would bring with
 // roulette on the throughput. Every copy of a path is distributed like a path that is
 // alone, and carries w, the product of 1/r of the decisions so far; a path that a
 // decision has ended is worth nothing, and those that survive it count for it. So, for
@@ -122,7 +122,7 @@ constexpr FieldSet kTransport =
 
 Stage SinglePathBeforeStage() {
   return {.name = "single_path_before",
-          .meaning = "what a pilot path would be alone, before it may split",
+          .meaning = "what a training path would be alone, before it may split",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -132,7 +132,7 @@ Stage SinglePathBeforeStage() {
 }
 Stage SinglePathAfterStage() {
   return {.name = "single_path_after",
-          .meaning = "the weight of a pilot path that has been decided on",
+          .meaning = "the weight of a training path that has been decided on",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -143,7 +143,7 @@ Stage SinglePathAfterStage() {
 Stage SinglePathDecisionStage() {
   return {.name = "single_path_decision",
           .meaning =
-              "what roulette would add to the second moment of a pilot path that splits",
+              "what roulette would add to the second moment of a training path that splits",
           .input = QueueId::kScattered,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -154,7 +154,7 @@ Stage SinglePathDecisionStage() {
 Stage SinglePathEndStage() {
   return {
       .name = "single_path_end",
-      .meaning = "writes what a finished pilot path would have brought without splitting",
+      .meaning = "writes what a finished training path would have brought without splitting",
       .input = QueueId::kDone,
       .role = StageRole::kRecord,
       .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},

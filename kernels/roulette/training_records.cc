@@ -1,4 +1,4 @@
-// A pilot pass: records what paths find from their first vertices on. For vertex i:
+// A training pass: records what paths find from their first vertices on. For vertex i:
 //   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness that is
 //               gathered from there on per unit of throughput; expectation: the adjoint
 //               Psi there. Y weighs the channels as PathValues::channel says
@@ -89,7 +89,7 @@ void RecordPath(Wave& wave) {
 
 Stage RecordVertexStage() {
   return {.name = "record_vertex",
-          .meaning = "records a vertex of a pilot path",
+          .meaning = "records a vertex of a training path",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},
@@ -101,7 +101,7 @@ Stage RecordVertexStage() {
 }
 Stage RecordDecisionStage() {
   return {.name = "record_decision",
-          .meaning = "what roulette would add to the second moment of a pilot path",
+          .meaning = "what roulette would add to the second moment of a training path",
           .input = QueueId::kScattered,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},
@@ -112,7 +112,7 @@ Stage RecordDecisionStage() {
 }
 Stage RecordPathStage() {
   return {.name = "record_path",
-          .meaning = "writes the record of a finished pilot path",
+          .meaning = "writes the record of a finished training path",
           .input = QueueId::kDone,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths},

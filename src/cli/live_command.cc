@@ -31,9 +31,9 @@ std::string CommandLine(const SceneOptions& options) {
 }
 
 int Live(const LiveCommandOptions& options) {
-  const live::Stage stage(options.scene.scene, options.scene.settings);
-  PrintNotes(stage.job);
-  live::Server server(stage, CommandLine(options.scene), options.port);
+  const live::Stage live_scene(options.scene.scene, options.scene.settings);
+  PrintNotes(live_scene.job);
+  live::Server server(live_scene, CommandLine(options.scene), options.port);
   const InterruptGuard interrupt(kLiveInterruptText);
   Print(server.address() + "\n");
   FlushOutput();

@@ -52,7 +52,7 @@ std::vector<SeedImage> RenderSeeds(const PreparedScene& scene,
     options.spp = seeds.spp;
     options.seed = seeds.first + static_cast<std::uint64_t>(i);
     options.profile = false;
-    options.planned_samples = kLeastPilot;  // a bad guess must not bias the image
+    options.planned_samples = kMinTrainingSamples;  // a bad guess must not bias the image
     images.push_back(RenderSeed(planned, options, bad_samples));
   }
   CHECK(bad_samples == 0);

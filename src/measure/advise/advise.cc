@@ -51,7 +51,7 @@ struct Tried {
 
 // A gain with its 90 % interval, in which the scatter from scene to scene of what rays
 // cost has a part. `least`: the lower end without any noise.
-Interval WithDoubt(const PilotGain& gain, double least, double price_spread) {
+Interval WithDoubt(const TrialGain& gain, double least, double price_spread) {
   const double error = kNormal95 * std::hypot(kDoubt * gain.standard_error, price_spread);
   return {std::exp(gain.log), std::exp(least - error), std::exp(gain.most + error)};
 }
@@ -164,7 +164,7 @@ class Adviser {
   // By the last round. Where few pixels carry the error, what they would tell is not
   // known.
   Interval EfficiencyOf(const Tried& t) const {
-    PilotGain gain = t.entry.Told();
+    TrialGain gain = t.entry.Told();
     const double by_all = GainOf(t.entry.measure, t.entry.usual).log;
     gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
     return WithDoubt(gain, t.entry.Gain().log, all_[t.index].price_spread);

@@ -35,25 +35,25 @@ class TemporaryFile {
 
 }  // namespace
 
-std::string ExrMessage(const Stage& stage, const Contender& contender) {
-  const FilmAccumulator& film = contender.film();
+std::string ExrMessage(const LiveScene& live_scene, const PassRenderer& renderer) {
+  const FilmAccumulator& film = renderer.film();
   ExrOptions options;
   options.x0 = film.x0();
   options.y0 = film.y0();
-  options.full_width = contender.view().film.width;
-  options.full_height = contender.view().film.height;
-  options.color_space = contender.view().film.color_space;
-  options.attributes["spp"] = double(contender.spp());
-  options.attributes["renderTime"] = contender.cpu_seconds();
-  options.attributes["seed"] = std::to_string(stage.job.seed);
-  options.attributes["strategy"] = "path, " + ToText(contender.strategy());
+  options.full_width = renderer.view().film.width;
+  options.full_height = renderer.view().film.height;
+  options.color_space = renderer.view().film.color_space;
+  options.attributes["spp"] = double(renderer.spp());
+  options.attributes["renderTime"] = renderer.cpu_seconds();
+  options.attributes["seed"] = std::to_string(live_scene.job.seed);
+  options.attributes["strategy"] = "path, " + ToText(renderer.strategy());
   options.attributes["version"] = std::string(FullVersion());
   NoteVarianceUnit(film, options);
   const TemporaryFile file;
   WriteExr(file.path(), film.width(), film.height(),
-           FilmPlanes(film, stage.job.scene.scale()), options);
-  const std::string name = fs::path(stage.path).stem().string() + "-" +
-                           std::to_string(contender.spp()) + "spp.exr";
+           FilmPlanes(film, live_scene.job.scene.scale()), options);
+  const std::string name = fs::path(live_scene.path).stem().string() + "-" +
+                           std::to_string(renderer.spp()) + "spp.exr";
   return BinaryHead({{"kind", "file"}, {"name", name}}) + ReadWholeFile(file.path());
 }
 

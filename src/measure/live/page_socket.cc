@@ -26,10 +26,10 @@ void PageSocket::Accept(const http::request<http::string_body>& request) {
 
 void PageSocket::Enter() {
   open_ = true;
-  hall_.pages.insert(shared_from_this());
-  // The laboratory's thread does not touch the socket itself.
-  session_ = hall_.laboratory->Enter(
-      [weak = weak_from_this(), &io = hall_.io](std::string message, bool binary) {
+  shared_.pages.insert(shared_from_this());
+  // The render_thread's thread does not touch the socket itself.
+  session_ = shared_.render_thread->Enter(
+      [weak = weak_from_this(), &io = shared_.io](std::string message, bool binary) {
         asio::post(io, [weak, message = std::move(message), binary]() mutable {
           if (const auto self = weak.lock()) self->Queue(std::move(message), binary);
         });
@@ -40,8 +40,8 @@ void PageSocket::Enter() {
 void PageSocket::Read() {
   socket_.async_read(read_, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->Close();
-    self->hall_.laboratory->Receive(self->session_,
-                                    beast::buffers_to_string(self->read_.data()));
+    self->shared_.render_thread->Receive(self->session_,
+                                         beast::buffers_to_string(self->read_.data()));
     self->read_.consume(self->read_.size());
     self->Read();
   });
@@ -76,9 +76,9 @@ void PageSocket::SayGoodbye() {
 void PageSocket::Close() {
   if (!open_) return;
   open_ = false;
-  hall_.laboratory->Leave(session_);
+  shared_.render_thread->Leave(session_);
   beast::get_lowest_layer(socket_).close();
-  hall_.pages.erase(shared_from_this());
+  shared_.pages.erase(shared_from_this());
 }
 
 }  // namespace lanelight::live

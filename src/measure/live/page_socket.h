@@ -16,8 +16,8 @@
 #include <set>
 #include <string>
 
-#include "src/measure/live/door.h"
-#include "src/measure/live/laboratory.h"
+#include "src/measure/live/access_check.h"
+#include "src/measure/live/render_thread.h"
 
 namespace lanelight::live {
 
@@ -28,13 +28,13 @@ namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 using boost::system::error_code;
 
-struct Hall;
+struct SharedState;
 
 /// Messages of a page in and out, in their order.
 class PageSocket : public std::enable_shared_from_this<PageSocket> {
  public:
-  PageSocket(beast::tcp_stream&& stream, Hall& hall)
-      : socket_(std::move(stream)), hall_(hall) {}
+  PageSocket(beast::tcp_stream&& stream, SharedState& shared)
+      : socket_(std::move(stream)), shared_(shared) {}
 
   void Accept(const http::request<http::string_body>& request);
   void Queue(std::string message, bool binary);
@@ -52,7 +52,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   void Close();
 
   websocket::stream<beast::tcp_stream> socket_;
-  Hall& hall_;
+  SharedState& shared_;
   beast::flat_buffer read_;
   std::deque<Message> out_;  // the first is being written
   int session_ = 0;
@@ -60,14 +60,14 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 };
 
 /// What all connections share. One thread.
-struct Hall {
+struct SharedState {
   // Before what ends them; of each address of a client.
   std::map<asio::ip::address, int> connections;
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
-  std::optional<Door> door;
-  std::optional<Laboratory> laboratory;
+  std::optional<AccessCheck> access;
+  std::optional<RenderThread> render_thread;
   std::set<std::shared_ptr<PageSocket>> pages;
   std::string page;  // the document
 };

@@ -27,15 +27,15 @@ constexpr LayerInfo kLayers[] = {
 
 double MeanOf(Rgb c) { return (c[0] + c[1] + c[2]) / 3; }
 
-float LayerAt(const Contender& contender, Layer layer, int x, int y) {
-  const FilmAccumulator& film = contender.film();
+float LayerAt(const PassRenderer& renderer, Layer layer, int x, int y) {
+  const FilmAccumulator& film = renderer.film();
   switch (layer) {
     case Layer::kNone:
       return 0;
     case Layer::kRays:
-      return static_cast<float>(contender.cost().RaysPerSample(x, y));
+      return static_cast<float>(renderer.cost().RaysPerSample(x, y));
     case Layer::kSegments:
-      return static_cast<float>(contender.cost().SegmentsPerSample(x, y));
+      return static_cast<float>(renderer.cost().SegmentsPerSample(x, y));
     case Layer::kError:
     case Layer::kRelative:
       break;
@@ -80,9 +80,9 @@ void PutHalf(char*& at, double value) {
   *at++ = static_cast<char>(bits >> 8);
 }
 
-void PutSquare(const Contender& contender, Layer layer, const PixelRect& square,
+void PutSquare(const PassRenderer& renderer, Layer layer, const PixelRect& square,
                const ColorMatrix& srgb, char* at) {
-  const FilmAccumulator& film = contender.film();
+  const FilmAccumulator& film = renderer.film();
   ForEachPixel(square, [&](int x, int y) {
     const Rgb color = srgb * film.Mean(x, y);
     for (int c = 0; c < 3; ++c) PutHalf(at, color[c]);
@@ -90,7 +90,7 @@ void PutSquare(const Contender& contender, Layer layer, const PixelRect& square,
   });
   if (layer == Layer::kNone) return;
   ForEachPixel(square,
-               [&](int x, int y) { PutHalf(at, LayerAt(contender, layer, x, y)); });
+               [&](int x, int y) { PutHalf(at, LayerAt(renderer, layer, x, y)); });
 }
 
 // What has changed, and what is then sent.
@@ -135,9 +135,9 @@ nlohmann::json LayersJson() {
   return layers;
 }
 
-std::string EncodePicture(const Contender& contender, nlohmann::json head,
+std::string EncodePicture(const PassRenderer& renderer, nlohmann::json head,
                           SentPicture& sent) {
-  const FilmAccumulator& film = contender.film();
+  const FilmAccumulator& film = renderer.film();
   const std::vector<PixelRect> changed = Changed(film, sent);
   if (changed.empty()) return "";
   const Layer layer = sent.layer;
@@ -154,15 +154,15 @@ std::string EncodePicture(const Contender& contender, nlohmann::json head,
   std::string message = BinaryHead(head);
   const std::size_t pixels = message.size();
   message.resize(pixels + begin.back());
-  const ColorMatrix srgb = SrgbOf(contender.view().film.color_space);
+  const ColorMatrix srgb = SrgbOf(renderer.view().film.color_space);
   ParallelFor(changed.size(), [&](std::size_t i) {
-    PutSquare(contender, layer, changed[i], srgb, message.data() + pixels + begin[i]);
+    PutSquare(renderer, layer, changed[i], srgb, message.data() + pixels + begin[i]);
   });
   return message;
 }
 
-nlohmann::json PixelJson(const Contender& contender, int x, int y) {
-  const FilmAccumulator& film = contender.film();
+nlohmann::json PixelJson(const PassRenderer& renderer, int x, int y) {
+  const FilmAccumulator& film = renderer.film();
   const PixelRect window = WindowOf(film);
   if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1) return nullptr;
   const Rgb mean = film.Mean(x, y);

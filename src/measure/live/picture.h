@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/live/contender.h"
+#include "src/measure/live/pass_renderer.h"
 
 namespace lanelight::live {
 
@@ -25,7 +25,7 @@ Layer LayerNamed(const std::string& name);
 /// [{"name", "meaning"}, ...].
 nlohmann::json LayersJson();
 
-/// What a page has been sent of one contender.
+/// What a page has been sent of one renderer.
 struct SentPicture {
   std::uint64_t view = 0;  // which one: a number of its own
   Layer layer = Layer::kNone;
@@ -43,11 +43,11 @@ std::string BinaryHead(const nlohmann::json& head);
 /// 65504; 0: none yet), and, with a layer, one half float per pixel of it. `head` is what
 /// the JSON says besides. Empty if nothing has changed since `sent`, which is brought up
 /// to date.
-std::string EncodePicture(const Contender& contender, nlohmann::json head,
+std::string EncodePicture(const PassRenderer& renderer, nlohmann::json head,
                           SentPicture& sent);
 
 /// What is known of one pixel of the whole image, whose numbers a page asks for: "value",
 /// "error" (standard errors, null if there are fewer than two observations), "samples".
-nlohmann::json PixelJson(const Contender& contender, int x, int y);
+nlohmann::json PixelJson(const PassRenderer& renderer, int x, int y);
 
 }  // namespace lanelight::live

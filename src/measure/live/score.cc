@@ -83,7 +83,7 @@ Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace 
   return last;
 }
 
-Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace) {
+Ratio EfficiencyOf(const PassRenderer& a, const PassRenderer& b, Pace pace) {
   return EfficiencyOf(a.looks(), b.looks(), pace);
 }
 

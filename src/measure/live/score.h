@@ -1,4 +1,4 @@
-// Which of two contenders gets further, by what both estimate of their own errors.
+// Which of two renderers gets further, by what both estimate of their own errors.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "src/base/stat/interval.h"
-#include "src/measure/live/contender.h"
+#include "src/measure/live/pass_renderer.h"
 
 namespace lanelight::live {
 
-/// What two contenders have in common: the other may cost more, or need more.
+/// What two renderers have in common: the other may cost more, or need more.
 enum class Pace { kTime, kSamples };
 
 /// Who is ahead, as far as the intervals show it.
@@ -41,6 +41,6 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch = 1);
 /// is expected of them, are a martingale whose variance grows with the square of the
 /// samples.
 Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace pace);
-Ratio EfficiencyOf(const Contender& a, const Contender& b, Pace pace);
+Ratio EfficiencyOf(const PassRenderer& a, const PassRenderer& b, Pace pace);
 
 }  // namespace lanelight::live

@@ -16,14 +16,14 @@ constexpr auto kGoodbye = std::chrono::milliseconds(500);
 constexpr std::size_t kLongestHead = 8192;
 
 // One request: the page, a socket, or a refusal.
-class Visitor : public std::enable_shared_from_this<Visitor> {
+class HttpClient : public std::enable_shared_from_this<HttpClient> {
  public:
-  Visitor(tcp::socket&& socket, const asio::ip::address& client, Hall& hall)
-      : stream_(std::move(socket)), client_(client), hall_(hall) {
-    ++hall_.connections[client_];
+  HttpClient(tcp::socket&& socket, const asio::ip::address& client, SharedState& shared)
+      : stream_(std::move(socket)), client_(client), shared_(shared) {
+    ++shared_.connections[client_];
   }
-  ~Visitor() {
-    if (--hall_.connections[client_] == 0) hall_.connections.erase(client_);
+  ~HttpClient() {
+    if (--shared_.connections[client_] == 0) shared_.connections.erase(client_);
   }
 
   void Start() {
@@ -42,7 +42,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
   beast::tcp_stream stream_;
   asio::ip::address client_;
-  Hall& hall_;
+  SharedState& shared_;
   beast::flat_buffer buffer_;
   http::request_parser<http::string_body> parser_;
   http::response<http::string_body> response_;
@@ -50,26 +50,26 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
 std::string TextOf(beast::string_view text) { return {text.data(), text.size()}; }
 
-void Visitor::Answer() {
+void HttpClient::Answer() {
   const auto& request = parser_.get();
-  const Decision decision = hall_.door->Decide(
+  const Decision decision = shared_.access->Decide(
       {TextOf(request.method_string()), TextOf(request.target()),
        TextOf(request[http::field::host]), TextOf(request[http::field::origin]),
        websocket::is_upgrade(request)});
   if (decision.answer == live::Answer::kPage) {
-    return Reply(200, "text/html; charset=utf-8", hall_.page);
+    return Reply(200, "text/html; charset=utf-8", shared_.page);
   }
   if (decision.answer == live::Answer::kRefused) {
     return Reply(decision.status, "text/plain; charset=utf-8", decision.why + "\n");
   }
-  if (hall_.pages.size() >= kMostPages) {
+  if (shared_.pages.size() >= kMostPages) {
     return Reply(503, "text/plain; charset=utf-8", "too many pages are open already\n");
   }
   stream_.expires_never();
-  std::make_shared<PageSocket>(std::move(stream_), hall_)->Accept(parser_.get());
+  std::make_shared<PageSocket>(std::move(stream_), shared_)->Accept(parser_.get());
 }
 
-void Visitor::Reply(unsigned status, const char* type, std::string body) {
+void HttpClient::Reply(unsigned status, const char* type, std::string body) {
   response_.result(status);
   response_.set(http::field::content_type, type);
   // Nobody else gets the address, nor a copy; and no other page may frame this one.
@@ -88,16 +88,16 @@ void Visitor::Reply(unsigned status, const char* type, std::string body) {
       });
 }
 
-void AcceptNext(Hall& hall) {
-  hall.acceptor.async_accept([&hall](error_code error, tcp::socket socket) {
+void AcceptNext(SharedState& shared) {
+  shared.acceptor.async_accept([&shared](error_code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     error_code gone;
     const asio::ip::address client =
         error ? asio::ip::address() : socket.remote_endpoint(gone).address();
-    if (!error && !gone && MayConnect(hall.connections, client)) {
-      std::make_shared<Visitor>(std::move(socket), client, hall)->Start();
+    if (!error && !gone && MayConnect(shared.connections, client)) {
+      std::make_shared<HttpClient>(std::move(socket), client, shared)->Start();
     }
-    AcceptNext(hall);
+    AcceptNext(shared);
   });
 }
 
@@ -117,41 +117,41 @@ void Listen(tcp::acceptor& acceptor, std::uint16_t port) {
 }
 
 // A signal only sets a flag.
-void WatchForStop(Hall& hall, const std::atomic<bool>& stop) {
-  hall.timer.expires_after(kLookForStop);
-  hall.timer.async_wait([&](error_code) {
-    if (!stop) return WatchForStop(hall, stop);
-    hall.acceptor.close();
-    for (const auto& page : hall.pages) page->SayGoodbye();
-    hall.timer.expires_after(kGoodbye);
-    hall.timer.async_wait([&](error_code) { hall.io.stop(); });
-    if (hall.pages.empty()) hall.io.stop();
+void WatchForStop(SharedState& shared, const std::atomic<bool>& stop) {
+  shared.timer.expires_after(kLookForStop);
+  shared.timer.async_wait([&](error_code) {
+    if (!stop) return WatchForStop(shared, stop);
+    shared.acceptor.close();
+    for (const auto& page : shared.pages) page->SayGoodbye();
+    shared.timer.expires_after(kGoodbye);
+    shared.timer.async_wait([&](error_code) { shared.io.stop(); });
+    if (shared.pages.empty()) shared.io.stop();
   });
 }
 
 }  // namespace
 
-struct Server::Impl : Hall {};
+struct Server::Impl : SharedState {};
 
-Server::Server(const Stage& stage, std::string command, std::uint16_t port)
+Server::Server(const LiveScene& live_scene, std::string command, std::uint16_t port)
     : impl_(std::make_unique<Impl>()) {
   Listen(impl_->acceptor, port);
-  impl_->door.emplace(impl_->acceptor.local_endpoint().port(), MakeToken());
+  impl_->access.emplace(impl_->acceptor.local_endpoint().port(), MakeToken());
   impl_->page = LivePage();
-  impl_->laboratory.emplace(stage, std::move(command));
+  impl_->render_thread.emplace(live_scene, std::move(command));
 }
 
 Server::~Server() = default;
 
-std::string Server::address() const { return impl_->door->Address(); }
+std::string Server::address() const { return impl_->access->Address(); }
 
 void Server::Run(const std::atomic<bool>& stop) {
   AcceptNext(*impl_);
   WatchForStop(*impl_, stop);
   impl_->io.run();
-  // Sockets leave the laboratory, which is still there.
+  // Sockets leave the render_thread, which is still there.
   impl_->pages.clear();
-  impl_->laboratory.reset();
+  impl_->render_thread.reset();
 }
 
 }  // namespace lanelight::live

@@ -32,7 +32,7 @@ class Server {
  public:
   /// Listens on 127.0.0.1; port 0: any that is free. `command` as of Session. Throws
   /// InputError if the port cannot be had.
-  Server(const Stage& stage, std::string command, std::uint16_t port);
+  Server(const LiveScene& live_scene, std::string command, std::uint16_t port);
   ~Server();
 
   /// Where the page is, with the token.

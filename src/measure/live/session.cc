@@ -39,14 +39,14 @@ Pace PaceOf(const std::string& name) {
 
 }  // namespace
 
-Session::Session(const Stage& stage, std::string command, Send send)
-    : stage_(stage),
+Session::Session(const LiveScene& live_scene, std::string command, Send send)
+    : live_scene_(live_scene),
       command_(std::move(command)),
       send_(std::move(send)),
-      eye_(stage.eye),
+      pose_(live_scene.pose),
       began_(Clock::now()),
       settled_(began_) {
-  send_(HelloText(stage_), false);
+  send_(HelloText(live_scene_), false);
 }
 
 void Session::Do(const json& message) {
@@ -58,7 +58,7 @@ void Session::Do(const json& message) {
 }
 
 void Session::Obey(const std::string& what, const json& m) {
-  if (what == "camera") return Move(EyeFromJson(m.at("eye")));
+  if (what == "camera") return Move(CameraPoseFromJson(m.at("eye")));
   if (what == "strategy") return Choose(IndexOf(m, "slot", kSlots - 1), m.at("name"));
   if (what == "exr") return SendExr(IndexOf(m, "slot", kSlots - 1));
   if (what == "ask") {
@@ -66,7 +66,7 @@ void Session::Obey(const std::string& what, const json& m) {
                      IndexOf(m, "y", kMaxImageSide - 1));
   }
   if (what == "camera-text") {
-    return SendText("camera-text", PbrtText(MakeView(stage_, eye_, 1).described));
+    return SendText("camera-text", PbrtText(MakeView(live_scene_, pose_, 1).described));
   }
   if (what == "pace") {
     pace_ = PaceOf(m.at("by"));
@@ -85,14 +85,14 @@ void Session::Obey(const std::string& what, const json& m) {
   }
 }
 
-void Session::Move(const Eye& eye) {
-  if (eye == eye_) return;
-  MakeView(stage_, eye, 1);  // throws if there is no such camera
-  eye_ = eye;
+void Session::Move(const CameraPose& pose) {
+  if (pose == pose_) return;
+  MakeView(live_scene_, pose, 1);  // throws if there is no such camera
+  pose_ = pose;
   ++view_;
   others_.clear();
   for (Slot& slot : slots_) {
-    slot.contender.reset();
+    slot.renderer.reset();
     slot.previewed = false;
   }
   began_ = Clock::now();
@@ -101,7 +101,7 @@ void Session::Move(const Eye& eye) {
 
 void Session::Choose(int index, const std::string& name) {
   Slot& slot = slots_[static_cast<std::size_t>(index)];
-  if (slot.contender) others_.push_back(std::move(slot.contender));
+  if (slot.renderer) others_.push_back(std::move(slot.renderer));
   KeepFew();
   const double rate = slot.preview_rate;
   slot = {};
@@ -110,9 +110,9 @@ void Session::Choose(int index, const std::string& name) {
   began_ = Clock::now();
   if (name.empty()) return;
   try {
-    const Strategy own = stage_.job.loaded->description.strategy;
+    const Strategy own = live_scene_.job.loaded->description.strategy;
     slot.strategy = StrategyNamed(name, {}, own);
-    slot.contender = Make(index);
+    slot.renderer = Make(index);
   } catch (const InputError& error) {
     Refuse(index, error.message());
   }
@@ -128,7 +128,7 @@ void Session::KeepFew() {
 }
 
 // The one that was put aside, if there is one. Both slots may have the same.
-std::shared_ptr<Contender> Session::Make(int slot) {
+std::shared_ptr<PassRenderer> Session::Make(int slot) {
   const Strategy& strategy = *slots_[static_cast<std::size_t>(slot)].strategy;
   for (std::size_t i = 0; i < others_.size(); ++i) {
     if (!(others_[i]->strategy() == strategy)) continue;
@@ -137,15 +137,15 @@ std::shared_ptr<Contender> Session::Make(int slot) {
     return found;
   }
   for (const Slot& other : slots_) {
-    if (other.contender && other.contender->strategy() == strategy)
-      return other.contender;
+    if (other.renderer && other.renderer->strategy() == strategy) return other.renderer;
   }
-  return std::make_shared<Contender>(stage_, MakeView(stage_, eye_, 1), strategy);
+  return std::make_shared<PassRenderer>(live_scene_, MakeView(live_scene_, pose_, 1),
+                                        strategy);
 }
 
 void Session::Refuse(int index, const std::string& why) {
   Slot& slot = slots_[static_cast<std::size_t>(index)];
-  slot.contender.reset();
+  slot.renderer.reset();
   slot.strategy.reset();
   slot.refused = why;
 }

@@ -1,5 +1,5 @@
 // One page: what it looks at, what it compares, and what it has been sent. Only the
-// thread of the laboratory knows it.
+// thread of the render_thread knows it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "src/measure/live/commands.h"
-#include "src/measure/live/contender.h"
+#include "src/measure/live/pass_renderer.h"
 #include "src/measure/live/picture.h"
 #include "src/measure/live/score.h"
 
@@ -22,7 +22,7 @@ using Send = std::function<void(std::string message, bool binary)>;
 
 /// What the session's thread is to render next.
 struct Work {
-  std::shared_ptr<Contender> contender;
+  std::shared_ptr<PassRenderer> renderer;
   std::uint64_t spp = 0;  // that all of its pixels are to have then
   int slot = 0;
   bool preview = false;  // at reduced resolution, to be shown at once
@@ -32,7 +32,7 @@ class Session {
  public:
   /// `command`: the words of a command line that renders the scene, without how much and
   /// with what strategy.
-  Session(const Stage& stage, std::string command, Send send);
+  Session(const LiveScene& live_scene, std::string command, Send send);
 
   /// Does what the page asks for (docs/live.md): {"do": "camera", "eye": {...}};
   /// "strategy" with "slot" and "name", as --strategies takes it or empty; "pace" by
@@ -60,8 +60,8 @@ class Session {
   struct Slot {
     std::string name;  // as the page has it; empty: nothing is rendered
     std::optional<Strategy> strategy;
-    std::string refused;                   // why there is none
-    std::shared_ptr<Contender> contender;  // of the present view; null: not begun
+    std::string refused;                     // why there is none
+    std::shared_ptr<PassRenderer> renderer;  // of the present view; null: not begun
     SentPicture sent;
     bool drawn = true;        // the page has drawn what it was sent
     bool previewed = false;   // the present view has been shown
@@ -70,26 +70,26 @@ class Session {
 
   void Obey(const std::string& what, const nlohmann::json& message);
   void Choose(int slot, const std::string& name);
-  void Move(const Eye& eye);
+  void Move(const CameraPose& pose);
   void KeepFew();
-  std::shared_ptr<Contender> Make(int slot);
+  std::shared_ptr<PassRenderer> Make(int slot);
   std::optional<Work> NextPreview();
   std::optional<Work> NextPass();
   int PreviewFactor(const Slot& slot) const;
   void SendPreview(const Work& work);
-  void SendPicture(int slot, const Contender& contender, SentPicture& sent);
+  void SendPicture(int slot, const PassRenderer& renderer, SentPicture& sent);
   void SendState();
   void SendPixel(int x, int y);
   void SendExr(int slot);
   void SendText(const char* kind, const std::string& text);
 
-  const Stage& stage_;
+  const LiveScene& live_scene_;
   std::string command_;
   Send send_;
-  Eye eye_;
+  CameraPose pose_;
   std::uint64_t view_ = 0;  // counts eyes
   std::array<Slot, kSlots> slots_;
-  std::vector<std::shared_ptr<Contender>> others_;  // of this view, put aside
+  std::vector<std::shared_ptr<PassRenderer>> others_;  // of this view, put aside
   Pace pace_ = Pace::kTime;
   bool paused_ = false, state_drawn_ = true;
   Layer layer_ = Layer::kNone;

@@ -21,9 +21,9 @@ constexpr int kMostReduced = 16;
 
 // How many samples per pixel there are after the next pass of `seconds`; twice as many at
 // most, since rates are not known well at first.
-std::uint64_t NextSpp(const Contender& contender, double seconds) {
-  const std::uint64_t unit = contender.film().groups().unit, spp = contender.spp();
-  const double step = std::min(contender.rate() * seconds, std::max(1.0, double(spp)));
+std::uint64_t NextSpp(const PassRenderer& renderer, double seconds) {
+  const std::uint64_t unit = renderer.film().groups().unit, spp = renderer.spp();
+  const double step = std::min(renderer.rate() * seconds, std::max(1.0, double(spp)));
   const auto units = static_cast<std::uint64_t>(std::max(1.0, step / double(unit)));
   return spp + units * unit;
 }
@@ -34,7 +34,7 @@ int Session::PreviewFactor(const Slot& slot) const {
   const double samples =
       slot.preview_rate > 0 ? slot.preview_rate * kPreviewSeconds : kFirstPreviewSamples;
   const double pixels =
-      double(RenderedPixels(stage_.job.loaded->description.film).pixels());
+      double(RenderedPixels(live_scene_.job.loaded->description.film).pixels());
   return std::clamp(static_cast<int>(std::ceil(std::sqrt(pixels / samples))), 1,
                     kMostReduced);
 }
@@ -51,17 +51,17 @@ std::optional<Work> Session::NextPreview() {
   for (int i = 0; i < kSlots; ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(i)];
     if (!slot.strategy || slot.previewed) continue;
-    if (slot.contender && slot.contender->spp() > 0) {
+    if (slot.renderer && slot.renderer->spp() > 0) {
       slot.previewed = true;
       continue;
     }
     const int factor = PreviewFactor(slot);
     const auto reduced = [&](const Strategy& strategy) {
-      return std::make_shared<Contender>(
-          stage_, MakeView(stage_, eye_, std::max(2, factor)), strategy);
+      return std::make_shared<PassRenderer>(
+          live_scene_, MakeView(live_scene_, pose_, std::max(2, factor)), strategy);
     };
-    if (factor == 1 && !slot.contender) slot.contender = Make(i);
-    auto preview = factor == 1 ? slot.contender : reduced(*slot.strategy);
+    if (factor == 1 && !slot.renderer) slot.renderer = Make(i);
+    auto preview = factor == 1 ? slot.renderer : reduced(*slot.strategy);
     // What has to be learned first would not be there in time.
     if (NeedsTraining(preview->plan())) preview = reduced(Strategy{});
     const std::uint64_t unit = preview->film().groups().unit;
@@ -71,7 +71,7 @@ std::optional<Work> Session::NextPreview() {
 }
 
 std::optional<Work> Session::NextPass() {
-  const auto cost = [&](const Contender& c) {
+  const auto cost = [&](const PassRenderer& c) {
     return pace_ == Pace::kTime ? c.cpu_seconds() : double(c.spp());
   };
   std::optional<Work> work;
@@ -79,16 +79,16 @@ std::optional<Work> Session::NextPass() {
   for (int i = 0; i < kSlots; ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(i)];
     if (!slot.strategy) continue;
-    if (!slot.contender) slot.contender = Make(i);
-    other_spp = std::max(other_spp, double(slot.contender->spp()));
-    if (work && cost(*work->contender) <= cost(*slot.contender)) continue;
-    work = Work{slot.contender, 0, i, false};
+    if (!slot.renderer) slot.renderer = Make(i);
+    other_spp = std::max(other_spp, double(slot.renderer->spp()));
+    if (work && cost(*work->renderer) <= cost(*slot.renderer)) continue;
+    work = Work{slot.renderer, 0, i, false};
   }
   if (!work) return work;
   const double elapsed = SecondsSince(began_);
-  work->spp = NextSpp(*work->contender, std::clamp(elapsed / 4, 0.2, 2.0));
+  work->spp = NextSpp(*work->renderer, std::clamp(elapsed / 4, 0.2, 2.0));
   const auto most = static_cast<std::uint64_t>(other_spp);
-  if (pace_ == Pace::kSamples && work->contender->spp() < most) {
+  if (pace_ == Pace::kSamples && work->renderer->spp() < most) {
     work->spp = std::min(work->spp, most);
   }
   if (work->spp > kMostSamplesPerPixel) return std::nullopt;
@@ -99,8 +99,8 @@ void Session::Done(const Work& work, bool stopped) {
   if (!work.preview || stopped) return;
   Slot& slot = slots_[static_cast<std::size_t>(work.slot)];
   slot.previewed = true;
-  const double pixels = double(work.contender->view().window.pixels());
-  if (work.contender->rate() > 0) slot.preview_rate = work.contender->rate() * pixels;
+  const double pixels = double(work.renderer->view().window.pixels());
+  if (work.renderer->rate() > 0) slot.preview_rate = work.renderer->rate() * pixels;
   SendPreview(work);
 }
 

@@ -23,21 +23,21 @@ json LookJson(const Look& look) {
           {"low", e.low},    {"high", e.high},          {"why", look.error.why}};
 }
 
-json LooksJson(const Contender& contender) {
+json LooksJson(const PassRenderer& renderer) {
   json looks = json::array();
-  for (const Look& look : contender.looks()) looks.push_back(LookJson(look));
+  for (const Look& look : renderer.looks()) looks.push_back(LookJson(look));
   return looks;
 }
 
-json StagesJson(const Contender& contender) {
+json StagesJson(const PassRenderer& renderer) {
   json stages = json::array();
-  for (const StageProfile& stage : contender.stages()) {
-    if (stage.calls == 0) continue;
+  for (const StageProfile& live_scene : renderer.stages()) {
+    if (live_scene.calls == 0) continue;
     json filled = nullptr;  // parts of tasks have no lanes
-    if (stage.lane_slots > 0) filled = stage.Occupancy();
-    stages.push_back({{"name", stage.name},
-                      {"seconds", stage.seconds},
-                      {"items", stage.items},
+    if (live_scene.lane_slots > 0) filled = live_scene.Occupancy();
+    stages.push_back({{"name", live_scene.name},
+                      {"seconds", live_scene.seconds},
+                      {"items", live_scene.items},
                       {"filled", filled}});
   }
   return stages;
@@ -45,40 +45,40 @@ json StagesJson(const Contender& contender) {
 
 json OmittedJson(const Plan& plan) {
   json omitted = json::array();
-  for (const OmittedStage& stage : plan.omitted) {
-    omitted.push_back({{"name", stage.stage.name}, {"reason", stage.reason}});
+  for (const OmittedStage& live_scene : plan.omitted) {
+    omitted.push_back(
+        {{"name", live_scene.live_scene.name}, {"reason", live_scene.reason}});
   }
   return omitted;
 }
 
-json ContenderJson(const Contender& contender, const std::string& command) {
-  const RunCounts& counts = contender.record().counts;
-  const std::string strategy = ToText(contender.strategy());
-  return {
-      {"strategy", strategy},
-      {"spp", contender.spp()},
-      {"samples", counts.samples},
-      {"invalid", counts.health.Total()},
-      {"rays", counts.rays_closest + counts.rays_shadow},
-      {"seconds", contender.cpu_seconds()},
-      {"training", contender.training()},
-      {"looks", LooksJson(contender)},
-      {"stages", StagesJson(contender)},
-      {"omitted", OmittedJson(contender.plan())},
-      {"notes", contender.plan().notes},
-      {"command", fmt::format("{} -o out.exr --spp {} --strategy {}", command,
-                              std::max<std::uint64_t>(1, contender.spp()), strategy)}};
+json PassJson(const PassRenderer& renderer, const std::string& command) {
+  const RunCounts& counts = renderer.record().counts;
+  const std::string strategy = ToText(renderer.strategy());
+  return {{"strategy", strategy},
+          {"spp", renderer.spp()},
+          {"samples", counts.samples},
+          {"invalid", counts.health.Total()},
+          {"rays", counts.rays_closest + counts.rays_shadow},
+          {"seconds", renderer.cpu_seconds()},
+          {"training", renderer.training()},
+          {"looks", LooksJson(renderer)},
+          {"stages", StagesJson(renderer)},
+          {"omitted", OmittedJson(renderer.plan())},
+          {"notes", renderer.plan().notes},
+          {"command", fmt::format("{} -o out.exr --spp {} --strategy {}", command,
+                                  std::max<std::uint64_t>(1, renderer.spp()), strategy)}};
 }
 
 json SlotJson(const StateOfSlot& slot, const std::string& command) {
   json out = {{"name", slot.name}, {"refused", slot.refused}};
-  if (slot.contender != nullptr) out.update(ContenderJson(*slot.contender, command));
+  if (slot.renderer != nullptr) out.update(PassJson(*slot.renderer, command));
   return out;
 }
 
 json RatioJson(const StateOfPage& state) {
-  const Contender* const a = state.slots[0].contender;
-  const Contender* const b = state.slots[1].contender;
+  const PassRenderer* const a = state.slots[0].renderer;
+  const PassRenderer* const b = state.slots[1].renderer;
   if (a == nullptr || b == nullptr || a == b) return nullptr;
   const Ratio ratio = EfficiencyOf(*a, *b, state.pace);
   json out = {{"why", ratio.why}};
@@ -109,31 +109,31 @@ const char* KindName(CameraKind kind) {
 
 }  // namespace
 
-std::string HelloText(const Stage& stage) {
-  const SceneDescription& scene = stage.job.loaded->description;
+std::string HelloText(const LiveScene& live_scene) {
+  const SceneDescription& scene = live_scene.job.loaded->description;
   const PixelRect window = RenderedPixels(scene.film);
   json notes = json::array();
   for (const Note& note : scene.notes) {
     notes.push_back(note.where.ToString() + ": " + note.message);
   }
   return DumpJson({{"kind", "hello"},
-                   {"scene", stage.path},
+                   {"scene", live_scene.path},
                    {"width", window.width()},
                    {"height", window.height()},
                    {"x0", window.x0},
                    {"y0", window.y0},
-                   {"eye", ToJson(stage.eye)},
+                   {"eye", ToJson(live_scene.pose)},
                    {"camera", KindName(scene.camera.kind)},
                    {"mirrored", scene.camera.world_from_camera.SwapsHandedness()},
                    {"strategies", StrategiesJson()},
                    {"scene_strategy", ToText(scene.strategy)},
                    {"layers", LayersJson()},
                    {"confidence", kEstimateConfidence},
-                   {"threads", ThreadCount(stage.job.settings.threads)},
-                   {"target", stage.job.plan.options.target.name()},
+                   {"threads", ThreadCount(live_scene.job.settings.threads)},
+                   {"target", live_scene.job.plan.options.target.name()},
                    {"version", FullVersion()},
-                   {"load_seconds", stage.job.loaded->load_seconds},
-                   {"build_seconds", stage.job.loaded->build_seconds},
+                   {"load_seconds", live_scene.job.loaded->load_seconds},
+                   {"build_seconds", live_scene.job.loaded->build_seconds},
                    {"notes", notes}});
 }
 
@@ -142,8 +142,8 @@ std::string StateText(const StateOfPage& state, const std::string& command) {
   for (const StateOfSlot& slot : state.slots) slots.push_back(SlotJson(slot, command));
   return DumpJson({{"kind", "state"},
                    {"view", state.view},
-                   {"eye", ToJson(state.eye)},
-                   {"moved", !(state.eye == state.stage.eye)},
+                   {"eye", ToJson(state.pose)},
+                   {"moved", !(state.pose == state.live_scene.pose)},
                    {"pace", state.pace == Pace::kTime ? "time" : "samples"},
                    {"paused", state.paused},
                    {"slots", slots},

@@ -42,20 +42,20 @@ Film ReducedFilm(const Film& film, int factor) {
 
 }  // namespace
 
-Stage::Stage(const std::string& scene, const RenderSettings& settings)
+LiveScene::Stage(const std::string& scene, const RenderSettings& settings)
     : path(scene), job(PrepareJob(scene, settings)) {
   job.plan.options.spectral_film = false;  // nobody sees more than colours
-  eye = EyeOf(job.loaded->description.camera, DistanceToMiddle(job));
+  pose = PoseOf(job.loaded->description.camera, DistanceToMiddle(job));
 }
 
-View MakeView(const Stage& stage, const Eye& eye, int factor) {
-  const SceneDescription& scene = stage.job.loaded->description;
-  const CompiledScene& compiled = *stage.job.scene.compiled;
+View MakeView(const LiveScene& live_scene, const CameraPose& pose, int factor) {
+  const SceneDescription& scene = live_scene.job.loaded->description;
+  const CompiledScene& compiled = *live_scene.job.scene.compiled;
   const WorldFrame frame = {compiled.center, compiled.scale};
   View view;
-  view.eye = eye;
+  view.pose = pose;
   view.factor = factor;
-  view.described = MovedCamera(scene.camera, stage.eye, eye);
+  view.described = MovedCamera(scene.camera, live_scene.pose, pose);
   view.film = factor > 1 ? ReducedFilm(scene.film, factor) : scene.film;
   Camera camera = view.described;
   // What is seen does not change by a rounded size.

@@ -2,7 +2,7 @@
 // made anew when a page moves the camera. Trees, lights and textures stay.
 #pragma once
 
-#include "src/measure/live/eye.h"
+#include "src/measure/live/camera_pose.h"
 #include "src/render/job/job.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/description.h"
@@ -10,23 +10,23 @@
 namespace lanelight::live {
 
 /// A scene that pages look at, compiled once.
-struct Stage {
+struct LiveScene {
   std::string path;  // of the scene file
   Job job;
-  Eye eye;  // of the scene's own camera
+  CameraPose pose;  // of the scene's own camera
 
   /// Compiles the scene. Throws InputError as PrepareJob does.
-  Stage(const std::string& scene, const RenderSettings& settings);
+  LiveScene(const std::string& scene, const RenderSettings& settings);
 };
 
 struct View : CompiledView {
-  Eye eye;
+  CameraPose pose;
   int factor = 1;  // one pixel of it stands for so many of the image in each direction
   Camera described;
   PixelRect window;
 };
 
-/// Throws InputError for an eye that cannot be.
-View MakeView(const Stage& stage, const Eye& eye, int factor);
+/// Throws InputError for an pose that cannot be.
+View MakeView(const LiveScene& live_scene, const CameraPose& pose, int factor);
 
 }  // namespace lanelight::live

@@ -27,27 +27,27 @@ double StandardDeviation(const std::vector<double>& values) {
   return std::sqrt(squares / double(values.size() - 1));
 }
 
-class Pilots {
+class TimedRenders {
  public:
-  Pilots(const Job& job, const std::vector<Strategy>& strategies, double seconds,
+  TimedRenders(const Job& job, const std::vector<Strategy>& strategies, double seconds,
          const std::atomic<bool>* stop)
       : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
 
   std::vector<Calibration> Run() {
     for (std::size_t i = 0; i < strategies_.size() && !Stopped(); ++i) {
-      pilots_.push_back({WarmUp(strategies_[i]), {}, {}});
+      renders_.push_back({WarmUp(strategies_[i]), {}, {}});
     }
-    for (int round = 0; round < kPilotRounds; ++round) {
-      for (std::size_t i = 0; i < pilots_.size() && !Stopped(); ++i) Measure(i);
+    for (int round = 0; round < kTimedRounds; ++round) {
+      for (std::size_t i = 0; i < renders_.size() && !Stopped(); ++i) Measure(i);
     }
     if (Stopped()) return {};
     std::vector<Calibration> out;
-    for (const Pilot& pilot : pilots_) out.push_back(Evaluate(pilot));
+    for (const TimedStrategy& timed : renders_) out.push_back(Evaluate(timed));
     return out;
   }
 
  private:
-  struct Pilot {
+  struct TimedStrategy {
     std::uint64_t spp = 1;
     // Of the processor; `few`: of a quarter of the samples.
     std::vector<double> seconds, few;
@@ -76,10 +76,10 @@ class Pilots {
     return double(spp) * error.relmse.value / (kSmallError * kSmallError);
   }
 
-  // Renders of doubling size until one is as long as a pilot: its samples. What they
+  // Renders of doubling size until one takes as long as a timed one: its samples. What they
   // load, build and allocate for the first time does not count.
   std::uint64_t WarmUp(const Strategy& strategy) {
-    const double wanted = std::clamp(seconds_ / 2, kShortestPilot, kLongestPilot);
+    const double wanted = std::clamp(seconds_ / 2, kMinTimedSeconds, kMaxTimedSeconds);
     std::uint64_t spp = 1;
     Render(strategy, spp);
     // A half, or the next would be too long.
@@ -91,50 +91,50 @@ class Pilots {
   }
 
   void Measure(std::size_t i) {
-    Pilot& pilot = pilots_[i];
-    pilot.few.push_back(SecondsOf(Render(strategies_[i], pilot.FewSpp()).result).cpu);
-    const JobRun run = Render(strategies_[i], pilot.spp);
+    TimedStrategy& timed = renders_[i];
+    timed.few.push_back(SecondsOf(Render(strategies_[i], timed.FewSpp()).result).cpu);
+    const JobRun run = Render(strategies_[i], timed.spp);
     const Seconds taken = SecondsOf(run.result);
-    pilot.for_small_error = ForSmallError(run.film, pilot.spp);
-    pilot.seconds.push_back(taken.cpu);
+    timed.for_small_error = ForSmallError(run.film, timed.spp);
+    timed.seconds.push_back(taken.cpu);
     wall_per_cpu_.push_back(taken.wall / taken.cpu);
   }
 
-  Calibration Evaluate(const Pilot& pilot) const {
+  Calibration Evaluate(const TimedStrategy& timed) const {
     std::vector<double> logarithms;
-    for (double s : pilot.seconds) logarithms.push_back(std::log(s));
+    for (double s : timed.seconds) logarithms.push_back(std::log(s));
     // The standard error of a median of normal values.
     const double spread = StandardDeviation(logarithms) *
                           std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
     const double samples =
         SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
-                        {double(pilot.spp), stat::Median(pilot.seconds)},
-                        {double(pilot.FewSpp()), stat::Median(pilot.few)});
-    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, pilot.for_small_error};
+                        {double(timed.spp), stat::Median(timed.seconds)},
+                        {double(timed.FewSpp()), stat::Median(timed.few)});
+    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, timed.for_small_error};
   }
 
   const Job& job_;
   const std::vector<Strategy>& strategies_;
   double seconds_;
   const std::atomic<bool>* stop_;
-  std::vector<Pilot> pilots_;
+  std::vector<TimedStrategy> renders_;
   std::vector<double> wall_per_cpu_;
 };
 
 }  // namespace
 
-double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& few) {
-  const double mean = pilot.seconds / pilot.samples;
-  const double more = pilot.samples - few.samples;
-  const double slope = more > 0 ? (pilot.seconds - few.seconds) / more : mean;
+double SamplesOfBudget(double budget, const TimedRender& timed, const TimedRender& few) {
+  const double mean = timed.seconds / timed.samples;
+  const double more = timed.samples - few.samples;
+  const double slope = more > 0 ? (timed.seconds - few.seconds) / more : mean;
   const double of_sample = std::clamp(slope, mean / 4, mean);
-  return (budget - (pilot.seconds - of_sample * pilot.samples)) / of_sample;
+  return (budget - (timed.seconds - of_sample * timed.samples)) / of_sample;
 }
 
 std::vector<Calibration> Calibrate(const Job& job,
                                    const std::vector<Strategy>& strategies,
                                    double seconds, const std::atomic<bool>* stop) {
-  return Pilots(job, strategies, seconds, stop).Run();
+  return TimedRenders(job, strategies, seconds, stop).Run();
 }
 
 std::uint64_t DefaultLargest(const Calibration& baseline) {

@@ -10,29 +10,29 @@
 
 namespace lanelight {
 
-/// What pilots say of a strategy's speed.
+/// What timed renders say of a strategy's speed.
 struct Calibration {
   double samples = 1;  // per pixel in the budget, at least 1
-  /// Standard error of log(samples), by the scatter of the pilots.
+  /// Standard error of log(samples), by the scatter of the timed renders.
   double spread = 0;
-  /// Samples per pixel for a relative error of kSmallError, by the pilots' own estimates;
+  /// Samples per pixel for a relative error of kSmallError, by the timed renders' own estimates;
   /// infinite where they state none.
   double for_small_error = std::numeric_limits<double>::infinity();
 };
 
-struct PilotTime {
+struct TimedRender {
   double samples = 0, seconds = 0;
 };
 
-/// How many samples a budget is enough for, by the line through two pilots: what a render
+/// How many samples a budget is enough for, by the line through two timed renders: what a render
 /// takes before its first sample, to learn or to set up, is the same for all sizes. What
-/// a sample takes is the longer pilot's mean at most, and a quarter of it at least: noise
+/// a sample takes is the longer timed's mean at most, and a quarter of it at least: noise
 /// may turn the line around.
-double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& few);
+double SamplesOfBudget(double budget, const TimedRender& timed, const TimedRender& few);
 
 /// Calibrates strategies to `seconds` of wall clock each. After renders that warm up
-/// caches and tables and find a size, pilots of about half the budget (between
-/// kShortestPilot and kLongestPilot), and of a quarter of their samples, run kPilotRounds
+/// caches and tables and find a size, timed renders of about half the budget (between
+/// kMinTimedSeconds and kMaxTimedSeconds), and of a quarter of their samples, run kTimedRounds
 /// times, in turns (A B C A B C ...), so that a change of the machine's speed meets all
 /// alike; medians count, and a line through both sizes. Strategies are
 /// compared by processor time, which does not count other programs; how much wall clock
@@ -40,8 +40,8 @@ double SamplesOfBudget(double budget, const PilotTime& pilot, const PilotTime& f
 std::vector<Calibration> Calibrate(const Job& job,
                                    const std::vector<Strategy>& strategies,
                                    double seconds, const std::atomic<bool>* stop);
-inline constexpr int kPilotRounds = 5;
-inline constexpr double kShortestPilot = 0.02, kLongestPilot = 1;
+inline constexpr int kTimedRounds = 5;
+inline constexpr double kMinTimedSeconds = 0.02, kMaxTimedSeconds = 1;
 
 /// The largest sample count of a study that is asked for neither counts nor a budget:
 /// what kDefaultStudySeconds are enough for, but at least kLeastLargest, or as many as

@@ -72,19 +72,20 @@ std::map<std::size_t, Costs> BaselineCosts(const std::vector<CellGroup>& groups,
   return costs;
 }
 
-struct Contender {
+struct StrategyCosts {
   std::string strategy;
   Costs costs;
 };
 
-Json LeaderJson(const std::vector<Contender>& contenders, const std::string& baseline) {
+Json LeaderJson(const std::vector<StrategyCosts>& strategies,
+                const std::string& baseline) {
   std::vector<Costs> all;
-  for (const Contender& c : contenders) all.push_back(c.costs);
+  for (const StrategyCosts& c : strategies) all.push_back(c.costs);
   const auto paired = PairedCosts(all);
   if (paired[0].empty()) return nullptr;
   std::size_t base = 0, best = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (contenders[i].strategy == baseline) base = i;
+    if (strategies[i].strategy == baseline) base = i;
   }
   const double confidence =
       1 - stat::SidakLevel(1 - kSweepConfidence, static_cast<int>(all.size()) - 1);
@@ -93,8 +94,8 @@ Json LeaderJson(const std::vector<Contender>& contenders, const std::string& bas
     ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
     if (ratios.back().value > ratios[best].value) best = ratios.size() - 1;
   }
-  Json json = {{"best", contenders[best].strategy},
-               {"baseline", contenders[base].strategy},
+  Json json = {{"best", strategies[best].strategy},
+               {"baseline", strategies[base].strategy},
                {"efficiency", best == base ? IntervalJson(WithoutBounds(1))
                                            : IntervalJson(ratios[best])},
                {"strategies", all.size()},
@@ -190,12 +191,12 @@ Json GroupsJson(const std::vector<CellGroup>& groups, const std::vector<Json>& c
 
 Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& cells,
                  const std::string& baseline) {
-  std::map<std::size_t, std::vector<Contender>> contexts;
+  std::map<std::size_t, std::vector<StrategyCosts>> contexts;
   std::map<std::size_t, const CellGroup*> samples;
   for (const CellGroup& group : groups) {
     Costs costs = CostsOf(group, cells);
-    std::vector<Contender>& in = contexts[group.context];
-    if (costs.empty() || std::any_of(in.begin(), in.end(), [&](const Contender& c) {
+    std::vector<StrategyCosts>& in = contexts[group.context];
+    if (costs.empty() || std::any_of(in.begin(), in.end(), [&](const StrategyCosts& c) {
           return c.strategy == group.strategy;
         })) {
       continue;
@@ -205,9 +206,9 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   }
   std::map<std::string, Json> last;  // by scene
   std::vector<std::string> order;
-  for (const auto& [context, contenders] : contexts) {
-    if (contenders.size() < 2) continue;
-    Json leader = LeaderJson(contenders, baseline);
+  for (const auto& [context, strategies] : contexts) {
+    if (strategies.size() < 2) continue;
+    Json leader = LeaderJson(strategies, baseline);
     if (leader.is_null()) continue;
     leader["values"] = ContextOf(*samples[context]);
     const std::string scene = leader["values"].at(Key(Axis::kScene));

@@ -7,13 +7,13 @@
 #include <set>
 
 #include "src/measure/sweep/cell_render.h"
-#include "src/measure/sweep/pilot.h"
+#include "src/measure/sweep/probe_render.h"
 #include "src/measure/sweep/sweep_folder.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kPilotSeconds = 0.2;  // of each
+constexpr double kProbeSeconds = 0.2;  // of each
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kReportBytes = 12e3;
 
@@ -32,14 +32,14 @@ class Predictor {
   Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
       : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
 
-  SweepPrediction Predict(std::size_t most_pilots);
+  SweepPrediction Predict(std::size_t max_probes);
 
  private:
   void FindCombinations(SweepPrediction& out);
-  void RenderPilots(std::size_t most, SweepPrediction& out);
+  void RenderProbes(std::size_t most, SweepPrediction& out);
   double SampleSeconds(const std::string& scene, const std::string& strategy) const;
   double MeanLog(const std::string& scene) const;
-  const Pilot* Nearest(const std::string& scene, const std::string& strategy) const;
+  const ProbeRender* Nearest(const std::string& scene, const std::string& strategy) const;
   void PredictCell(const SweepCell& cell, bool first_of_scene, CellPrediction& p) const;
 
   const Sweep& sweep_;
@@ -47,14 +47,14 @@ class Predictor {
   const std::atomic<bool>& stop_;
   CellRenderer renderer_;
   std::vector<Combination> combinations_;
-  std::map<std::pair<std::string, std::string>, Pilot> pilots_;  // scene, strategy
+  std::map<std::pair<std::string, std::string>, ProbeRender> pilots_;  // scene, strategy
   std::map<std::pair<std::string, std::string>, std::string> failures_;
 };
 
-SweepPrediction Predictor::Predict(std::size_t most_pilots) {
+SweepPrediction Predictor::Predict(std::size_t max_probes) {
   SweepPrediction out;
   FindCombinations(out);
-  RenderPilots(most_pilots, out);
+  RenderProbes(max_probes, out);
   std::set<std::string> begun;
   for (const SweepCell& cell : sweep_.cells) {
     CellPrediction& p = out.cells[cell.index];
@@ -80,15 +80,15 @@ void Predictor::FindCombinations(SweepPrediction& out) {
 
 // Every step-th of them, so that all scenes and strategies have their turn; in grid
 // order, so that no scene is compiled twice.
-void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
+void Predictor::RenderProbes(std::size_t most, SweepPrediction& out) {
   const std::size_t count = std::min(most, combinations_.size());
   for (std::size_t i = 0; i < count && !stop_; ++i) {
     const Combination& c = combinations_[i * combinations_.size() / count];
     try {
       const Job job = renderer_.Prepare(*c.cell);
       pilots_[{c.scene, c.strategy}] =
-          RenderPilot(job, kPilotSeconds, sweep_.settings.render.image.half);
-      ++out.pilots;
+          RenderProbe(job, kProbeSeconds, sweep_.settings.render.image.half);
+      ++out.probes;
     } catch (const std::exception& error) {
       failures_[{c.scene, c.strategy}] = error.what();
     }
@@ -100,10 +100,10 @@ void Predictor::RenderPilots(std::size_t most, SweepPrediction& out) {
 double Predictor::MeanLog(const std::string& scene) const {
   double sum = 0, all = 0;
   int count = 0;
-  for (const auto& [key, pilot] : pilots_) {
-    all += std::log(pilot.sample_seconds);
+  for (const auto& [key, probe] : pilots_) {
+    all += std::log(probe.sample_seconds);
     if (key.first != scene) continue;
-    sum += std::log(pilot.sample_seconds);
+    sum += std::log(probe.sample_seconds);
     ++count;
   }
   return count > 0 ? sum / count : all / double(pilots_.size());
@@ -115,35 +115,35 @@ double Predictor::SampleSeconds(const std::string& scene,
   if (own != pilots_.end()) return own->second.sample_seconds;
   double ratio = 0;
   int count = 0;
-  for (const auto& [key, pilot] : pilots_) {
+  for (const auto& [key, probe] : pilots_) {
     if (key.second != strategy) continue;
-    ratio += std::log(pilot.sample_seconds) - MeanLog(key.first);
+    ratio += std::log(probe.sample_seconds) - MeanLog(key.first);
     ++count;
   }
   return std::exp(MeanLog(scene) + (count > 0 ? ratio / count : 0));
 }
 
-// Of the same scene and strategy; else of the scene; else any; null without pilots.
-const Pilot* Predictor::Nearest(const std::string& scene,
-                                const std::string& strategy) const {
+// Of the same scene and strategy; else of the scene; else any; null without probes.
+const ProbeRender* Predictor::Nearest(const std::string& scene,
+                                      const std::string& strategy) const {
   const auto own = pilots_.find({scene, strategy});
   if (own != pilots_.end()) return &own->second;
-  for (const auto& [key, pilot] : pilots_) {
-    if (key.first == scene) return &pilot;
+  for (const auto& [key, probe] : pilots_) {
+    if (key.first == scene) return &probe;
   }
   return pilots_.empty() ? nullptr : &pilots_.begin()->second;
 }
 
 // Samples per pixel that the cell will have, at `pixel_seconds` a sample of every pixel.
-double SamplesOf(const RenderSettings& settings, const Pilot& pilot,
+double SamplesOf(const RenderSettings& settings, const ProbeRender& probe,
                  double pixel_seconds) {
-  double spp = double(settings.spp.value_or(pilot.spp));
+  double spp = double(settings.spp.value_or(probe.spp));
   if (!settings.seconds && !HasTarget(settings)) return spp;
   if (!settings.spp) spp = std::numeric_limits<double>::infinity();
   if (settings.seconds) spp = std::min(spp, *settings.seconds / pixel_seconds);
-  if (settings.target_relmse) spp = std::min(spp, pilot.relmse / *settings.target_relmse);
+  if (settings.target_relmse) spp = std::min(spp, probe.relmse / *settings.target_relmse);
   if (settings.target_rmse) {
-    spp = std::min(spp, pilot.mse / (*settings.target_rmse * *settings.target_rmse));
+    spp = std::min(spp, probe.mse / (*settings.target_rmse * *settings.target_rmse));
   }
   return std::isfinite(spp) ? std::max(1.0, spp) : kUnknown;
 }
@@ -157,24 +157,24 @@ void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
     return;
   }
   p.seconds = p.bytes = kUnknown;
-  const Pilot* pilot = Nearest(scene, strategy);
-  if (pilot == nullptr) return;
+  const ProbeRender* probe = Nearest(scene, strategy);
+  if (probe == nullptr) return;
   p.measured = pilots_.count({scene, strategy}) > 0;
   RenderSettings settings = sweep_.settings.render;
   ApplyValues(cell.values, settings);
-  const double pixel_seconds = SampleSeconds(scene, strategy) * pilot->pixels;
-  p.seconds = SamplesOf(settings, *pilot, pixel_seconds) * pixel_seconds;
-  if (first_of_scene) p.seconds += pilot->load_seconds + pilot->build_seconds;
-  p.bytes = pilot->bytes_per_pixel * pilot->pixels + kReportBytes;
-  if (settings.image.png) p.bytes += 3 * pilot->pixels;  // at most
+  const double pixel_seconds = SampleSeconds(scene, strategy) * probe->pixels;
+  p.seconds = SamplesOf(settings, *probe, pixel_seconds) * pixel_seconds;
+  if (first_of_scene) p.seconds += probe->load_seconds + probe->build_seconds;
+  p.bytes = probe->bytes_per_pixel * probe->pixels + kReportBytes;
+  if (settings.image.png) p.bytes += 3 * probe->pixels;  // at most
 }
 
 }  // namespace
 
-SweepPrediction Predict(const Sweep& sweep, const std::string& out, int most_pilots,
+SweepPrediction Predict(const Sweep& sweep, const std::string& out, int max_probes,
                         const std::atomic<bool>& stop) {
   return Predictor(sweep, SweepFolder(out, sweep), stop)
-      .Predict(static_cast<std::size_t>(most_pilots));
+      .Predict(static_cast<std::size_t>(max_probes));
 }
 
 }  // namespace lanelight

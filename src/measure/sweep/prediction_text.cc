@@ -64,11 +64,11 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
   if (sums.unknown > 0)
     text += fmt::format(", {} take nobody knows how long", sums.unknown);
   text += fmt::format("\n{} of {} combinations of scene and strategy were tried",
-                      prediction.pilots, prediction.combinations);
+                      prediction.probes, prediction.combinations);
   if (sums.estimated > 0) {
     text += fmt::format("; {} cells (~) are judged by the others", sums.estimated);
   }
-  if (prediction.pilots == 0) return text + "\n";
+  if (prediction.probes == 0) return text + "\n";
   return text + fmt::format("\nthe rest: {} on this machine by one process, {}\n",
                             DurationText(sums.seconds), BytesText(sums.bytes));
 }

@@ -44,7 +44,7 @@ std::int64_t Milliseconds() {
 std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
   const Strategy& strategy = job.scene.strategy;
   if (part.count == 1) {
-    return MakePartition(job.window, job.OpenEnded() ? kPilotSpp : job.spp, strategy)
+    return MakePartition(job.window, job.OpenEnded() ? kTrainingSpp : job.spp, strategy)
         .tiles;
   }
   return TilesOfPart(job.window, part, strategy.MayReuse() ? kReuseTile : 1);

@@ -28,7 +28,7 @@ const char* Name(Bound bound);
 
 enum class RowKind { kStage, kPart, kPilot, kOutside };
 /// Name of the row of kPilot.
-inline constexpr const char* kPilotRowName = "pilot passes";
+inline constexpr const char* kPilotRowName = "training passes";
 /// "stage", "task", "pilot", "outside".
 const char* Name(RowKind kind);
 

@@ -151,7 +151,7 @@ bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& sc
   const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
   // Towards a target nobody knows: as many as that takes at least.
   const std::uint64_t own =
-      HasTarget(settings) ? kPilotSpp : static_cast<std::uint64_t>(scene.sampler.spp);
+      HasTarget(settings) ? kTrainingSpp : static_cast<std::uint64_t>(scene.sampler.spp);
   const double samples = double(settings.spp.value_or(own)) * double(pixels);
   return samples >= double(DecidedBy(pixels));
 }

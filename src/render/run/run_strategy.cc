@@ -51,7 +51,7 @@ std::uint64_t RunStrategy::PlannedTraining() const {
     return SamplesWithin(options_.seconds,
                          {scene_, plan_.options, &tables_, run_.seed, &watcher});
   }
-  return decides ? DecidedBy(pixels) : std::max(pixels * kPilotSpp, kLeastPilot);
+  return decides ? DecidedBy(pixels) : std::max(pixels * kTrainingSpp, kMinTrainingSamples);
 }
 
 void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {

@@ -12,7 +12,7 @@ namespace {
 // Renders without a sample count are divided as if they had many samples.
 std::uint64_t PlannedSpp(const RunOptions& options) {
   const bool open_ended = options.seconds > 0 || options.samples_needed;
-  return open_ended || options.spp == 0 ? kPilotSpp : options.spp;
+  return open_ended || options.spp == 0 ? kTrainingSpp : options.spp;
 }
 
 }  // namespace

@@ -94,11 +94,11 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& usual,
   const Squares tiles = SquaresOf(scene_, work, counted, kReuseTile);
   const Squares squares = SquaresOf(scene_, work, counted, kSquare);
   const auto by_tiles = [&](const TrainingSamples& samples, double price) {
-    return PilotMeasure{price * samples.Cost(),
+    return TrialMeasure{price * samples.Cost(),
                         Summed(RelativeVariances(samples, work, image), tiles)};
   };
   const auto by_squares = [&](const TrainingSamples& samples, double price) {
-    PilotMeasure measure = {price * samples.Cost(), {}};
+    TrialMeasure measure = {price * samples.Cost(), {}};
     for (const std::vector<std::size_t>& square : squares) {
       const double pixels = double(square.size());
       measure.variances.push_back(pixels * VarianceOfMean(samples, work, image, square));

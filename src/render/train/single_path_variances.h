@@ -1,5 +1,5 @@
 // What a strategy that splits paths would have for variance without splitting, from its
-// own pilot pass.
+// own training pass.
 #pragma once
 
 #include <vector>

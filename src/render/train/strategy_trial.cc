@@ -34,7 +34,7 @@ bool IsSure(const std::vector<double>& variances) {
 
 // Both estimate the same; but what has seen less bright samples than the other tells
 // nothing new, and where it is all noise it may be negative.
-PilotMeasure Both(const PilotMeasure& own, PilotMeasure single) {
+TrialMeasure Both(const TrialMeasure& own, TrialMeasure single) {
   if (single.Variance() < own.Variance()) return own;
   for (std::size_t i = 0; i < own.variances.size(); ++i) {
     single.variances[i] = (own.variances[i] + single.variances[i]) / 2;
@@ -76,12 +76,12 @@ bool IsFew(const std::vector<double>& variances) {
 
 }  // namespace
 
-PilotGain TriedStrategy::Told() const {
+TrialGain TriedStrategy::Told() const {
   return IsToldByTheRest() ? GainWithoutWorst(measure, usual) : GainOf(measure, usual);
 }
 
-PilotGain TriedStrategy::Gain() const {
-  PilotGain gain = Told();
+TrialGain TriedStrategy::Gain() const {
+  TrialGain gain = Told();
   if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
   gain.log = std::min(gain.log, gain.least);
   return gain;
@@ -99,7 +99,7 @@ bool TriedStrategy::IsToldByTheRest() const {
 }
 
 double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
-  const PilotGain told = Told();
+  const TrialGain told = Told();
   const double must = std::log(must_gain);
   if (told.least - standard_errors * told.standard_error <= must || MissesLight()) {
     return 0;
@@ -162,9 +162,9 @@ TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
   return samples;
 }
 
-PilotLight StrategyTrial::LightOf(const TrainingSamples& samples,
-                                  const PilotMeasure& measure) const {
-  PilotLight light;
+TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
+                                  const TrialMeasure& measure) const {
+  TrialLight light;
   for (std::size_t i = 0; i < samples.colors.size(); ++i) {
     const std::uint32_t pixel = work_.pixels[i / work_.spp];
     for (int c = 0; c < 3; ++c) {
@@ -204,7 +204,7 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
                                    PlannedStrategy(usual.scene, usual.options));
   tried.paired = records && !IsSure(usual.measure.variances);
   if (!tried.paired) return;
-  PilotMeasure single = usual.measure;
+  TrialMeasure single = usual.measure;
   single.variances =
       SinglePathVariances(samples, work_, *image_, tried.tables.path_values,
                           ExposureOf(scene_), tried.measure.variances);

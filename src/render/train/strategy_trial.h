@@ -18,7 +18,7 @@
 namespace lanelight {
 
 /// What a pass found of the image's light, pixels weighed as relative errors weigh them.
-struct PilotLight {
+struct TrialLight {
   double sum = 0, standard_error = 0;
 };
 
@@ -34,10 +34,10 @@ struct TriedStrategy {
   /// path that survives with a higher probability is divided by a larger number, so no
   /// sample varies more.
   bool lives_longer = false;
-  PilotMeasure measure;  // of its own pass
+  TrialMeasure measure;  // of its own pass
   bool paired = false;   // its paths have told of `usual` as well
-  PilotMeasure usual;    // of the usual strategy: what `measure` is compared with
-  PilotLight light, usual_light;
+  TrialMeasure usual;    // of the usual strategy: what `measure` is compared with
+  TrialLight light, usual_light;
 
   /// Clearly less than the usual strategy has found: what is missing comes in bright
   /// samples too rare to be seen, and so the variance is not seen either.
@@ -52,10 +52,10 @@ struct TriedStrategy {
 
   /// How many times as efficient as the usual one it is, by all pixels; by all but the
   /// worst thousandth if it is told by the rest.
-  PilotGain Told() const;
+  TrialGain Told() const;
   /// The same without any one pixel, and if it is not paired without the worst
   /// thousandth, whichever is least.
-  PilotGain Gain() const;
+  TrialGain Gain() const;
   /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
   /// errors, and it neither misses light nor is carried by few; else 0.
   double Beyond(double must_gain, double standard_errors) const;
@@ -73,7 +73,7 @@ struct TriedBlocks {
   bool pays_per_pixel = false, pays = false;
   /// How many times as efficient it is, by pixels and by squares of 8 x 8 of them: errors
   /// of the pixels of a block have much in common, so that a filter takes less away.
-  PilotGain gain;
+  TrialGain gain;
   double per_pixel = 1, filtered = 1;
 };
 
@@ -113,7 +113,7 @@ class StrategyTrial {
   TrainingSamples Render(const TriedStrategy& tried, const PlanOptions& options,
                          const TrainingWork& work);
   void Measure(TriedStrategy& tried, const TriedStrategy& usual);
-  PilotLight LightOf(const TrainingSamples& samples, const PilotMeasure& measure) const;
+  TrialLight LightOf(const TrainingSamples& samples, const TrialMeasure& measure) const;
   TriedBlocks CompareBlocks(const TriedStrategy& usual, const PlanOptions& blocks,
                             const TrainingWork& work, double must_gain);
 

@@ -177,7 +177,7 @@ class Decider {
 }  // namespace
 
 std::uint64_t DecidedBy(std::uint64_t pixels) {
-  return std::clamp(pixels * kPilotSpp, kLeastDecidedBy, kMostDecidedBy);
+  return std::clamp(pixels * kTrainingSpp, kLeastDecidedBy, kMostDecidedBy);
 }
 
 TrainingOutcome TrainDecision(const TrainingContext& context) {

@@ -25,14 +25,14 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kMostPilotSamples = 240'000;
+constexpr std::uint64_t kMaxTrainingSamples = 240'000;
 // Fewer samples than this in a pass say too little of variances to choose by them.
 constexpr std::uint64_t kLeastPassSamples = 256;
 // A splitting rule is chosen if the passes find it this much better: copies cost more
 // than their rays, and the passes are short.
 constexpr double kMargin = 0.87;
 
-struct Candidate : PilotMeasure {
+struct Candidate : TrialMeasure {
   Roulette roulette = Roulette::kThroughput;
   double scale = 1;
 
@@ -59,8 +59,8 @@ class Pilot {
         watcher_(context.options.stop),
         efficiency_(plan_.features.Has(Feature::kEfficiencyRoulette)) {
     const std::uint64_t planned = options_.planned_samples;
-    samples_ = efficiency_ ? std::min(planned * 3 / 400, kMostPilotSamples / 4)
-                           : std::min(planned / 25, kMostPilotSamples);
+    samples_ = efficiency_ ? std::min(planned * 3 / 400, kMaxTrainingSamples / 4)
+                           : std::min(planned / 25, kMaxTrainingSamples);
     work_ = MakeTrainingWork(scene_, std::max<std::uint64_t>(samples_, 1));
   }
 

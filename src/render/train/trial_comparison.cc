@@ -20,7 +20,7 @@ struct PixelScores {
 };
 
 // Those that count.
-std::vector<PixelScores> Pixels(const PilotMeasure& other, const PilotMeasure& usual) {
+std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& usual) {
   LL_CHECK_EQ(other.variances.size(), usual.variances.size());
   std::vector<PixelScores> pixels;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
@@ -42,13 +42,13 @@ double RobustMean(std::vector<double> values) {
          static_cast<double>(values.size());
 }
 
-double PilotMeasure::Variance() const {
+double TrialMeasure::Variance() const {
   return std::accumulate(variances.begin(), variances.end(), 0.0);
 }
 
-double PilotMeasure::Score() const { return cost * RobustMean(variances); }
+double TrialMeasure::Score() const { return cost * RobustMean(variances); }
 
-PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
+TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& usual) {
   LL_CHECK_EQ(other.variances.size(), usual.variances.size());
   const double others = other.Variance(), usuals = usual.Variance();
   const auto log_ratio = [&](double without_usual, double without_other) {
@@ -58,7 +58,7 @@ PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
     if (u <= 0) return -kMost;
     return o <= 0 ? kMost : std::log(usual.cost * u / (other.cost * o));
   };
-  PilotGain gain;
+  TrialGain gain;
   gain.log = gain.least = gain.most = log_ratio(0, 0);
   if (others <= 0 || usuals <= 0) return gain;
   double squares = 0;
@@ -73,8 +73,8 @@ PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual) {
   return gain;
 }
 
-PilotGain GainWithoutWorst(const PilotMeasure& other, const PilotMeasure& usual) {
-  PilotMeasure kept = {other.cost, {}}, kept_usual = {usual.cost, {}};
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& usual) {
+  TrialMeasure kept = {other.cost, {}}, kept_usual = {usual.cost, {}};
   for (const PixelScores& pixel : Pixels(other, usual)) {
     kept.variances.push_back(pixel.other / other.cost);
     kept_usual.variances.push_back(pixel.usual / usual.cost);
@@ -88,7 +88,7 @@ double EffectivePixels(const std::vector<double>& variances) {
   return squares > 0 ? sum * sum / squares : 0;
 }
 
-bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
+bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& usual, double margin,
                      double standard_errors) {
   const std::vector<PixelScores> pixels = Pixels(other, usual);
   double sum = 0, squares = 0;

@@ -8,7 +8,7 @@
 namespace lanelight {
 
 /// What passes with one strategy have shown, by pixel.
-struct PilotMeasure {
+struct TrialMeasure {
   double cost = 1;                // of a sample (TrainingSamples::Cost)
   std::vector<double> variances;  // of a sample, relative (RelativeVariances)
 
@@ -22,11 +22,11 @@ struct PilotMeasure {
 /// Both have the same pixels. `other` is better: its variance times cost is below
 /// `margin` of that of `usual`, and that by so many standard errors of the difference
 /// pixel by pixel. The worst thousandth of the pixels, by either, counts in neither.
-bool IsClearlyBetter(const PilotMeasure& other, const PilotMeasure& usual, double margin,
+bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& usual, double margin,
                      double standard_errors = 2);
 
 /// How many times as efficient another strategy is, by all pixels.
-struct PilotGain {
+struct TrialGain {
   double log = 0;             // natural
   double standard_error = 0;  // of it, by the scatter of both over the pixels
   /// Without any one of the pixels. One bright sample may be in both measures (copies of
@@ -36,9 +36,9 @@ struct PilotGain {
 /// Both have the same pixels. None without error in either; the least number if nothing
 /// of the usual error was seen (variances may be negative), and the largest if none of
 /// the other's.
-PilotGain GainOf(const PilotMeasure& other, const PilotMeasure& usual);
+TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& usual);
 /// The same without the worst thousandth of the pixels, by either.
-PilotGain GainWithoutWorst(const PilotMeasure& other, const PilotMeasure& usual);
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& usual);
 
 /// Pixels of equal variance that would scatter as much: 1 if a single one carries all,
 /// and 0 of no variance. Its inverse is the square of the relative error of the

@@ -32,8 +32,8 @@ struct ProfileOptions {
 };
 
 /// How many samples the image will have must not change what is learned before it.
-inline constexpr std::uint64_t kPilotSpp = 32;
-inline constexpr std::uint64_t kLeastPilot = 1u << 16;  // samples, of small images
+inline constexpr std::uint64_t kTrainingSpp = 32;
+inline constexpr std::uint64_t kMinTrainingSamples = 1u << 16;  // samples, of small images
 
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
@@ -61,7 +61,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call
   ProfileOptions profiling;  // if `profile`
-  /// roulette=efficiency keeps its rule even where the pilot passes prefer another.
+  /// roulette=efficiency keeps its rule even where the training passes prefer another.
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
@@ -69,8 +69,8 @@ struct RunOptions {
   std::vector<PixelRect> windows;
   /// Renders these tiles of the image only, disjoint; empty: all of it.
   std::vector<PixelRect> tiles;
-  /// What pilot passes are sized for; 0: kPilotSpp samples of every pixel of the image,
-  /// and kLeastPilot at least. With decide=pilot DecidedBy (src/render/train/training.h),
+  /// What training passes are sized for; 0: kTrainingSpp samples of every pixel of the image,
+  /// and kMinTrainingSamples at least. With decide=pilot DecidedBy (src/render/train/training.h),
   /// or what the time budget is enough for.
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int32_t kCoarse = 4;
 // Records of the coarser cell that count as much as the finer cell's own.
 constexpr double kBorrowed = 8;
-// Of the mean of all cells, what a cell is worth at least: a short pilot pass may have
+// Of the mean of all cells, what a cell is worth at least: a short training pass may have
 // missed what lights it.
 constexpr double kLeastValue = 0.1;
 

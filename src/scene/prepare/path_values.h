@@ -1,5 +1,5 @@
 // What a path is worth, for the roulettes that split: a coarse cache over space and
-// orientation, and the brightness of the pixels, both estimated by pilot passes
+// orientation, and the brightness of the pixels, both estimated by training passes
 // (src/render/train/train_path_values.cc). The values steer the number of copies and
 // never enter the image.
 #pragma once

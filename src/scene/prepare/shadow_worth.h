@@ -1,5 +1,5 @@
 // What a shadow ray must add to be traced for certain, for shadow-roulette=contribution:
-// estimated by a pilot pass (src/render/train/train_shadow_worth.cc). It steers
+// estimated by a training pass (src/render/train/train_shadow_worth.cc). It steers
 // probabilities and never enters the image.
 #pragma once
 

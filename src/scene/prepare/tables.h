@@ -9,8 +9,8 @@ namespace lanelight {
 struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 struct StrategyTables {
-  PathValues path_values;    // adjoint, efficiency: set by the pilot passes
-  ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a pilot pass
+  PathValues path_values;    // adjoint, efficiency: set by the training passes
+  ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a training pass
 };
 
 /// What the strategy of the scene needs, and nothing else.

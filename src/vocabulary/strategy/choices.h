@@ -72,9 +72,9 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
   X(Luminance, STAGE, ({kRoulette}), "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
     "f / s or 0, s = min(1, max(FLOOR = 0.05, Y(beta))), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; pilot pass", \
+  X(Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
     "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
-  X(Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; pilot passes", \
+  X(Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
     "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
 
 #define LANELIGHT_LIGHT_SELECTIONS(X)                                                     \

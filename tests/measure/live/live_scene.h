@@ -8,10 +8,11 @@
 namespace lanelight::live {
 
 /// The Cornell box in 32 x 24 pixels.
-inline Stage SmallStage(int width = 32, int height = 24) {
+inline LiveScene SmallLiveScene(int width = 32, int height = 24) {
   RenderSettings settings;
   settings.resolution = {width, height};
-  return Stage(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt", settings);
+  return LiveScene(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt",
+                   settings);
 }
 
 }  // namespace lanelight::live

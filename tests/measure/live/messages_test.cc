@@ -12,10 +12,10 @@
 namespace lanelight::live {
 namespace {
 
-class NobodyElse : public Attendant {
+class NobodyElse : public PassObserver {
  public:
   bool Due() const override { return false; }
-  void Attend() override {}
+  void Observe() override {}
 };
 
 struct ReadPicture {
@@ -41,8 +41,8 @@ ReadPicture Read(const std::string& message) {
 
 TEST_CASE("messages that are not understood are refused, with what would be right",
           "[live]") {
-  Stage stage = SmallStage();
-  Session session(stage, "", [](const std::string&, bool) {});
+  LiveScene live_scene = SmallLiveScene();
+  Session session(live_scene, "", [](const std::string&, bool) {});
   const auto obey = [&](const std::string& text) { session.Do(ParseMessage(text)); };
   const std::string deep(100000, '[');
   for (const std::string& text :
@@ -64,14 +64,14 @@ TEST_CASE("messages that are not understood are refused, with what would be righ
 }
 
 TEST_CASE("a picture has the film's numbers, once, and then what has changed", "[live]") {
-  Stage stage = SmallStage(80, 70);
-  Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
+  LiveScene live_scene = SmallLiveScene(80, 70);
+  PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
   NobodyElse nobody;
   const std::atomic<bool> never{false};
-  contender.Pass(8, nobody, never);
+  renderer.Pass(8, nobody, never);
   SentPicture sent;
   sent.layer = Layer::kError;
-  const ReadPicture picture = Read(EncodePicture(contender, {{"slot", 1}}, sent));
+  const ReadPicture picture = Read(EncodePicture(renderer, {{"slot", 1}}, sent));
   CHECK(picture.head.at("slot") == 1);
   CHECK(picture.head.at("layer") == "error");
   REQUIRE(picture.head.at("squares").size() == 4);
@@ -79,33 +79,33 @@ TEST_CASE("a picture has the film's numbers, once, and then what has changed", "
   CHECK(picture.values.size() == 80u * 70 * 5);
   // The first pixel of the last square.
   const std::size_t at = picture.values.size() - 16 * 6 * 5;
-  const Rgb mean = contender.film().Mean(64, 64);
-  const Rgb variance = contender.film().Variance(64, 64);
+  const Rgb mean = renderer.film().Mean(64, 64);
+  const Rgb variance = renderer.film().Variance(64, 64);
   for (std::size_t c = 0; c < 3; ++c) {
     CHECK(float(picture.values[at + c]) == Approx(mean[int(c)]).epsilon(1e-3));
   }
   CHECK(float(picture.values[at + 3]) == 8);
   CHECK(float(picture.values[at + 16 * 6 * 4]) ==
         Approx(std::sqrt((variance[0] + variance[1] + variance[2]) / 3)).epsilon(1e-3));
-  CHECK(EncodePicture(contender, {{"slot", 1}}, sent).empty());
-  contender.Pass(9, nobody, never);
-  CHECK(Read(EncodePicture(contender, {}, sent)).head.at("squares").size() == 4);
+  CHECK(EncodePicture(renderer, {{"slot", 1}}, sent).empty());
+  renderer.Pass(9, nobody, never);
+  CHECK(Read(EncodePicture(renderer, {}, sent)).head.at("squares").size() == 4);
 }
 
 TEST_CASE("the numbers of a pixel are exact, and unknown where they are", "[live]") {
-  Stage stage = SmallStage();
-  Contender contender(stage, MakeView(stage, stage.eye, 1), Strategy{});
+  LiveScene live_scene = SmallLiveScene();
+  PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
   NobodyElse nobody;
   const std::atomic<bool> never{false};
-  contender.Pass(1, nobody, never);
-  CHECK(PixelJson(contender, 3, 4).at("error").is_null());
-  contender.Pass(8, nobody, never);
-  const nlohmann::json pixel = PixelJson(contender, 3, 4);
-  CHECK(pixel.at("value")[1] == contender.film().Mean(3, 4)[1]);
-  CHECK(pixel.at("error")[2] == std::sqrt(contender.film().Variance(3, 4)[2]));
+  renderer.Pass(1, nobody, never);
+  CHECK(PixelJson(renderer, 3, 4).at("error").is_null());
+  renderer.Pass(8, nobody, never);
+  const nlohmann::json pixel = PixelJson(renderer, 3, 4);
+  CHECK(pixel.at("value")[1] == renderer.film().Mean(3, 4)[1]);
+  CHECK(pixel.at("error")[2] == std::sqrt(renderer.film().Variance(3, 4)[2]));
   CHECK(pixel.at("samples") == 8);
-  CHECK(PixelJson(contender, 32, 4).is_null());
-  CHECK(PixelJson(contender, 0, 24).is_null());
+  CHECK(PixelJson(renderer, 32, 4).is_null());
+  CHECK(PixelJson(renderer, 0, 24).is_null());
 }
 
 }  // namespace lanelight::live

@@ -21,7 +21,7 @@ namespace {
 // A server that runs, and where it is.
 class RunningServer {
  public:
-  RunningServer() : server_(stage_, "", 0), thread_([this] { server_.Run(stop_); }) {
+  RunningServer() : server_(live_scene_, "", 0), thread_([this] { server_.Run(stop_); }) {
     const std::string address = server_.address();
     const std::size_t slash = address.find('/', 7);
     host = address.substr(7, slash - 7);
@@ -33,13 +33,13 @@ class RunningServer {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
   }
-  Stage& stage() { return stage_; }
+  LiveScene& live_scene() { return live_scene_; }
 
   std::string host, path;
   std::uint16_t port = 0;
 
  private:
-  Stage stage_ = SmallStage();
+  LiveScene live_scene_ = SmallLiveScene();
   std::atomic<bool> stop_{false};
   Server server_;
   std::thread thread_;
@@ -170,7 +170,7 @@ TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
   RunningServer server;
   // Another address of this machine's loopback.
   CHECK(Connect(INADDR_LOOPBACK + 1, server.port) < 0);
-  CHECK_THROWS_WITH(Server(server.stage(), "", server.port),
+  CHECK_THROWS_WITH(Server(server.live_scene(), "", server.port),
                     Catch::Contains("cannot be had"));
 }
 

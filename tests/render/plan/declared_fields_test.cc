@@ -105,7 +105,7 @@ class Checker {
            (splits ? kMostCopies : 1);
   }
 
-  // What pilot passes and the roulettes that split go by: any values do.
+  // What training passes and the roulettes that split go by: any values do.
   void MakePathValues() {
     PathValues& v = tables_.path_values;
     const Geometry& g = scene_.compiled->geometry;

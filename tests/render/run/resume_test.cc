@@ -85,7 +85,7 @@ TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
   }
 }
 
-TEST_CASE("a roulette that the pilot passes prefer is kept", "[resume]") {
+TEST_CASE("a roulette that the training passes prefer is kept", "[resume]") {
   Request request;
   request.strategy = "points=sobol,roulette=efficiency";
   request.keep_roulette = false;

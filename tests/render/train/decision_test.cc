@@ -217,10 +217,10 @@ TEST_CASE("the pilot of a decision takes a few percent of what it is planned for
 
 namespace {
 
-PilotMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
+TrialMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
   std::mt19937 engine(seed);
   std::exponential_distribution<double> scatter(1 / variance);
-  PilotMeasure m;
+  TrialMeasure m;
   m.cost = cost;
   for (int i = 0; i < 2000; ++i) m.variances.push_back(scatter(engine));
   return m;
@@ -229,7 +229,7 @@ PilotMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
 }  // namespace
 
 TEST_CASE("one strategy is clearly better only by variance times cost", "[decision]") {
-  const PilotMeasure usual = MeasureOf(3, 1);
+  const TrialMeasure usual = MeasureOf(3, 1);
   // Planted: the cost, or the variance, left out would turn these around.
   CHECK_FALSE(IsClearlyBetter(MeasureOf(6, 0.7), usual, 0.95));
   CHECK_FALSE(IsClearlyBetter(MeasureOf(2, 1.6), usual, 0.95));
@@ -242,9 +242,9 @@ TEST_CASE("one strategy is clearly better only by variance times cost", "[decisi
 }
 
 TEST_CASE("single pixels do not decide", "[decision]") {
-  const PilotMeasure usual = MeasureOf(1, 1);
-  PilotMeasure lucky = usual, unlucky = MeasureOf(1, 0.8);
-  PilotMeasure bright = usual;
+  const TrialMeasure usual = MeasureOf(1, 1);
+  TrialMeasure lucky = usual, unlucky = MeasureOf(1, 0.8);
+  TrialMeasure bright = usual;
   bright.variances[700] = 1e6;
   CHECK_FALSE(IsClearlyBetter(lucky, bright, 0.95));
   unlucky.variances[31] = 1e6;
@@ -264,9 +264,9 @@ TEST_CASE("single pixels do not decide", "[decision]") {
 }
 
 TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
-  const PilotMeasure usual = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
+  const TrialMeasure usual = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
   // Means of 2000 exponential variables each: a standard error of 0.032 together.
-  const PilotGain gain = GainOf(other, usual);
+  const TrialGain gain = GainOf(other, usual);
   CHECK(gain.standard_error == Approx(0.0316).epsilon(0.1));
   CHECK(std::abs(gain.log - std::log(3 / 4.2)) < 5 * gain.standard_error);
   CHECK(GainOf(usual, other).log == Approx(-gain.log));
@@ -274,13 +274,13 @@ TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
   CHECK(GainOf(usual, usual).standard_error == 0);
   // Two pixels of 2000 carry most of the error. Planted: left out, as the worst
   // thousandth.
-  PilotMeasure rare = MeasureOf(1, 1, 3);
+  TrialMeasure rare = MeasureOf(1, 1, 3);
   rare.variances[5] = rare.variances[1700] = 3000;
-  const PilotGain of_rare = GainOf(MeasureOf(1, 1, 3), rare);
+  const TrialGain of_rare = GainOf(MeasureOf(1, 1, 3), rare);
   CHECK(of_rare.log == Approx(std::log(4)).epsilon(0.1));
   CHECK(of_rare.standard_error > 0.4);
   // Nothing was seen of one, or of both.
-  const PilotMeasure none = {1, std::vector<double>(2000)};
+  const TrialMeasure none = {1, std::vector<double>(2000)};
   CHECK(GainOf(none, none).log == 0);
   CHECK(GainOf(none, usual).log > 10);
   CHECK(GainOf(usual, none).log < -10);

@@ -59,7 +59,7 @@ class TaskFixture {
     run_ = MakeRunParameters(scene_, plan);
     run_.tables = &tables_;
     copies_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;
-    if (NeedsTraining(plan)) MakePilotTables();
+    if (NeedsTraining(plan)) MakeTrainedTables();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan, run_);
     TilePixels({0, 0, 32, 32}, 32, &pixels_);
     buffer_.resize(std::size_t{Rows()} * kPlanes);
@@ -87,7 +87,7 @@ class TaskFixture {
   std::uint32_t Rows() const { return 32 * 32 * kSamples * copies_; }
 
   // What roulettes that have a pilot go by.
-  void MakePilotTables() {
+  void MakeTrainedTables() {
     TrainingOptions options;
     options.planned_samples = 100000;
     options.keep_roulette = true;

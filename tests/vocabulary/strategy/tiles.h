@@ -17,7 +17,7 @@ inline stat::ImageEstimate EstimateWith(const SceneDescription& scene,
   options.spp = spp;
   options.seed = seed;
   options.strategy = strategy;
-  options.planned_samples = kLeastPilot;  // what is learned need not be good
+  options.planned_samples = kMinTrainingSamples;  // what is learned need not be good
   const Rendered render = RenderDescription(scene, options);
   CHECK(render.result.health.Total() == 0);
   return Estimate(render);

@@ -39,8 +39,8 @@ std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
   scene.quality = {length > 500 ? std::uint64_t{16} : 64, length > 5000 ? 256u : 4096u,
                    depth, 4};
   scene.spared = [&](const std::string& strategy) {
-    const bool long_pilot = HasPilot(strategy) && length > effort(50.0, 2000.0);
-    if (long_pilot) return std::string("its pilot alone is 65536 paths of this length");
+    const bool long_training = HasTraining(strategy) && length > effort(50.0, 2000.0);
+    if (long_training) return std::string("its pilot alone is 65536 paths of this length");
     // Squared weights of an event: 4/3 in the mean for uniform directions, 1 / (1 - q).
     const bool grows =
         Is(strategy, "directions=uniform") || Is(strategy, "roulette=constant");
@@ -105,7 +105,7 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
   scene.quality = {64, 4096, 200};
   scene.chance = [=](const std::string& strategy) {
     // Roulette by the path's own throughput keeps what is left of it.
-    const bool none = Is(strategy, "roulette=none") || HasPilot(strategy);
+    const bool none = Is(strategy, "roulette=none") || HasTraining(strategy);
     if (none) return 1.0;
     if (Is(strategy, "roulette=luminance")) {
       // 0.05 at each of the sheets of 1e-3 but the first.

@@ -27,7 +27,7 @@ constexpr double kLeastHits = 40;
 
 // Its pilot, which has the default roulette, saw too little for a rule of its own.
 bool FoundNothing(const std::string& strategy, const RunResult& result) {
-  return HasPilot(strategy) && result.roulette == Roulette::kThroughput;
+  return HasTraining(strategy) && result.roulette == Roulette::kThroughput;
 }
 
 Point Measure(const StrategyScene& scene, const std::string& strategy,
@@ -72,7 +72,7 @@ bool FindsLightsByChance(const std::string& strategy) {
   return strategy == "directions=uniform" || strategy == "directions=bsdf";
 }
 
-bool HasPilot(const std::string& strategy) {
+bool HasTraining(const std::string& strategy) {
   return strategy == "roulette=adjoint" || strategy == "roulette=efficiency";
 }
 

@@ -27,7 +27,7 @@ struct StrategyScene {
 /// Directions that know nothing of lights: tiny ones are found by chance.
 bool FindsLightsByChance(const std::string& strategy);
 /// Renders a pilot of its own first.
-bool HasPilot(const std::string& strategy);
+bool HasTraining(const std::string& strategy);
 
 /// One point for each choice, all others as by default; series are called what
 /// --strategy takes. Seconds are without pilots, which are the same for any length.

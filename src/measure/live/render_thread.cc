@@ -1,4 +1,4 @@
-#include "src/measure/live/laboratory.h"
+#include "src/measure/live/render_thread.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -22,10 +22,12 @@ constexpr double kPictureShare = 0.1;
 
 }  // namespace
 
-Laboratory::Laboratory(const Stage& stage, std::string command)
-    : stage_(stage), command_(std::move(command)), thread_([this] { Loop(); }) {}
+RenderThread::RenderThread(const LiveScene& live_scene, std::string command)
+    : live_scene_(live_scene),
+      command_(std::move(command)),
+      thread_([this] { Loop(); }) {}
 
-Laboratory::~Laboratory() {
+RenderThread::~RenderThread() {
   {
     const std::lock_guard lock(mutex_);
     quit_ = true;
@@ -35,19 +37,19 @@ Laboratory::~Laboratory() {
   thread_.join();
 }
 
-int Laboratory::Enter(Send send) {
+int RenderThread::Enter(Send send) {
   const auto shared = std::make_shared<Send>(std::move(send));
   int session = 0;
   {
     const std::lock_guard lock(mutex_);
     session = next_session_++;
-    doors_[session] = shared;
+    senders_[session] = shared;
   }
   Push({session, shared, std::nullopt});
   return session;
 }
 
-void Laboratory::Receive(int session, const std::string& message) {
+void RenderThread::Receive(int session, const std::string& message) {
   try {
     Push({session, nullptr, ParseMessage(message)});
   } catch (const InputError& error) {
@@ -55,73 +57,73 @@ void Laboratory::Receive(int session, const std::string& message) {
   }
 }
 
-void Laboratory::Leave(int session) {
+void RenderThread::Leave(int session) {
   {
     const std::lock_guard lock(mutex_);
-    doors_.erase(session);
+    senders_.erase(session);
   }
   Push({session, nullptr, std::nullopt});
 }
 
-void Laboratory::Push(Wish wish) {
+void RenderThread::Push(Request request) {
   {
     const std::lock_guard lock(mutex_);
-    (wish.IsUrgent() ? stop_ : waiting_) = true;
-    wishes_.push_back(std::move(wish));
+    (request.IsUrgent() ? stop_ : waiting_) = true;
+    requests_.push_back(std::move(request));
   }
   woken_.notify_all();
 }
 
-void Laboratory::Tell(int session, const std::string& what) {
+void RenderThread::Tell(int session, const std::string& what) {
   const std::lock_guard lock(mutex_);
-  const auto door = doors_.find(session);
-  if (door == doors_.end()) return;
-  (*door->second)(DumpJson({{"kind", "refused"}, {"text", what}}), false);
+  const auto sender = senders_.find(session);
+  if (sender == senders_.end()) return;
+  (*sender->second)(DumpJson({{"kind", "refused"}, {"text", what}}), false);
 }
 
-void Laboratory::TakeWishes(bool all) {
-  std::vector<Wish> wishes;
+void RenderThread::TakeRequests(bool all) {
+  std::vector<Request> requests;
   {
     const std::lock_guard lock(mutex_);
-    std::vector<Wish> later;
-    for (Wish& wish : wishes_) {
-      (all || !wish.IsUrgent() ? wishes : later).push_back(std::move(wish));
+    std::vector<Request> later;
+    for (Request& request : requests_) {
+      (all || !request.IsUrgent() ? requests : later).push_back(std::move(request));
     }
-    wishes_ = std::move(later);
+    requests_ = std::move(later);
     waiting_ = false;
   }
-  for (const Wish& wish : wishes) {
+  for (const Request& request : requests) {
     try {
-      Grant(wish);
+      Serve(request);
     } catch (const InputError& error) {
-      Tell(wish.session, error.message());
+      Tell(request.session, error.message());
     }
   }
 }
 
-void Laboratory::Grant(const Wish& wish) {
-  if (wish.enter) {
+void RenderThread::Serve(const Request& request) {
+  if (request.enter) {
     // Whoever has left meanwhile is not there to be sent anything.
-    Send send = [this, session = wish.session](std::string message, bool binary) {
+    Send send = [this, session = request.session](std::string message, bool binary) {
       const std::lock_guard lock(mutex_);
-      const auto door = doors_.find(session);
-      if (door != doors_.end()) (*door->second)(std::move(message), binary);
+      const auto sender = senders_.find(session);
+      if (sender != senders_.end()) (*sender->second)(std::move(message), binary);
     };
-    sessions_[wish.session] =
-        std::make_shared<Session>(stage_, command_, std::move(send));
+    sessions_[request.session] =
+        std::make_shared<Session>(live_scene_, command_, std::move(send));
     return;
   }
-  const auto session = sessions_.find(wish.session);
+  const auto session = sessions_.find(request.session);
   if (session == sessions_.end()) return;
-  if (wish.command) {
-    session->second->Do(*wish.command);
+  if (request.command) {
+    session->second->Do(*request.command);
   } else {
     sessions_.erase(session);
   }
 }
 
 // Sessions take turns.
-std::optional<Laboratory::Running> Laboratory::Choose() {
+std::optional<RenderThread::Running> RenderThread::Choose() {
   auto at = sessions_.upper_bound(last_session_);
   for (std::size_t i = 0; i < sessions_.size(); ++i, ++at) {
     if (at == sessions_.end()) at = sessions_.begin();
@@ -137,36 +139,36 @@ std::optional<Laboratory::Running> Laboratory::Choose() {
   return std::nullopt;
 }
 
-void Laboratory::Render(const Running& running) {
+void RenderThread::Render(const Running& running) {
   const Work& work = running.work;
   try {
-    work.contender->Pass(work.spp, *this, work.preview ? stop_all_ : stop_);
-    running.session->Done(work, work.contender->spp() < work.spp);
+    work.renderer->Pass(work.spp, *this, work.preview ? stop_all_ : stop_);
+    running.session->Done(work, work.renderer->spp() < work.spp);
   } catch (const InputError& error) {
     running.session->Refuse(work.slot, error.message());
   }
 }
 
-void Laboratory::Wait(Clock::time_point since) {
+void RenderThread::Wait(Clock::time_point since) {
   auto until = since + std::chrono::seconds(1);
   for (const auto& [number, session] : sessions_) {
     if (session->When() > since) until = std::min(until, session->When());
   }
   std::unique_lock lock(mutex_);
-  woken_.wait_until(lock, until, [this] { return quit_ || !wishes_.empty(); });
+  woken_.wait_until(lock, until, [this] { return quit_ || !requests_.empty(); });
 }
 
-void Laboratory::Loop() {
+void RenderThread::Loop() {
   while (true) {
     {
       const std::lock_guard lock(mutex_);
       if (quit_) return;
       stop_ = false;
     }
-    TakeWishes(true);
+    TakeRequests(true);
     const auto now = Clock::now();
     const auto running = Choose();
-    const bool first = running && running->work.contender->spp() == 0;
+    const bool first = running && running->work.renderer->spp() == 0;
     if (running) Render(*running);
     // The first whole picture does not wait for its turn.
     if (!running || first || Microseconds() >= publish_at_) Publish();
@@ -174,14 +176,14 @@ void Laboratory::Loop() {
   }
 }
 
-bool Laboratory::Due() const { return waiting_ || Microseconds() >= publish_at_; }
+bool RenderThread::Due() const { return waiting_ || Microseconds() >= publish_at_; }
 
-void Laboratory::Attend() {
-  TakeWishes(false);
+void RenderThread::Observe() {
+  TakeRequests(false);
   if (Microseconds() >= publish_at_) Publish();
 }
 
-void Laboratory::Publish() {
+void RenderThread::Publish() {
   const std::int64_t begin = Microseconds();
   double interval = 0.5;
   for (const auto& [number, session] : sessions_) {

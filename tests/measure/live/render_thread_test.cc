@@ -1,5 +1,5 @@
 // Pages that come, ask and go, without sockets.
-#include "src/measure/live/laboratory.h"
+#include "src/measure/live/render_thread.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -12,8 +12,8 @@ namespace {
 // A page that draws all that it is sent at once.
 class PretendedPage {
  public:
-  explicit PretendedPage(Laboratory& laboratory) : laboratory_(laboratory) {
-    number_ = laboratory.Enter([this](std::string message, bool binary) {
+  explicit PretendedPage(RenderThread& render_thread) : render_thread_(render_thread) {
+    number_ = render_thread.Enter([this](std::string message, bool binary) {
       const std::lock_guard lock(mutex_);
       if (binary) {
         ++pictures_;
@@ -27,9 +27,9 @@ class PretendedPage {
   }
   ~PretendedPage() { Leave(); }
 
-  void Ask(const std::string& message) { laboratory_.Receive(number_, message); }
+  void Ask(const std::string& message) { render_thread_.Receive(number_, message); }
   void Leave() {
-    if (number_ != 0) laboratory_.Leave(number_);
+    if (number_ != 0) render_thread_.Leave(number_);
     number_ = 0;
   }
   std::size_t Received() {
@@ -66,7 +66,7 @@ class PretendedPage {
   }
 
  private:
-  Laboratory& laboratory_;
+  RenderThread& render_thread_;
   int number_ = 0;
   std::mutex mutex_;
   std::condition_variable come_;
@@ -82,9 +82,9 @@ std::string ChooseText(int slot, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "lanelight render box.pbrt");
-  PretendedPage page(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "lanelight render box.pbrt");
+  PretendedPage page(render_thread);
   REQUIRE(page.Until([&] { return page.Last("hello").is_object(); }));
   CHECK(page.Last("hello").at("width") == 32);
   CHECK(page.Last("hello").at("strategies").at("presets").size() == AllPresets().size());
@@ -103,9 +103,9 @@ TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") 
 }
 
 TEST_CASE("two strategies take turns at equal samples", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "");
-  PretendedPage page(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "");
+  PretendedPage page(render_thread);
   page.Ask(R"({"do": "pace", "by": "samples"})");
   page.Ask(ChooseText(0, "paper-plain"));
   page.Ask(ChooseText(1, "paper-roulette"));
@@ -120,9 +120,9 @@ TEST_CASE("two strategies take turns at equal samples", "[live]") {
 }
 
 TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "");
-  PretendedPage page(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "");
+  PretendedPage page(render_thread);
   page.Ask("no JSON");
   REQUIRE(page.Until([&] { return page.Last("refused").is_object(); }));
   CHECK_THAT(page.Last("refused")["text"].get<std::string>(), Catch::Contains("JSON"));
@@ -140,9 +140,9 @@ TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
 }
 
 TEST_CASE("a strategy that was left goes on where it was", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "");
-  PretendedPage page(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "");
+  PretendedPage page(render_thread);
   page.Ask(ChooseText(0, "default"));
   REQUIRE(page.UntilSpp(0, 32));
   page.Ask(ChooseText(0, "paper-plain"));
@@ -158,15 +158,15 @@ TEST_CASE("a strategy that was left goes on where it was", "[live]") {
 }
 
 TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "");
-  PretendedPage page(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "");
+  PretendedPage page(render_thread);
   page.Ask(ChooseText(0, "default"));
   REQUIRE(page.UntilSpp(0, 4));
   CHECK(page.Last("state").at("moved") == false);
-  Eye eye = stage.eye;
-  eye.fov = 50;
-  page.Ask(nlohmann::json{{"do", "camera"}, {"eye", ToJson(eye)}}.dump());
+  CameraPose pose = live_scene.pose;
+  pose.fov = 50;
+  page.Ask(nlohmann::json{{"do", "camera"}, {"eye", ToJson(pose)}}.dump());
   REQUIRE(page.Until([&] { return page.Last("state").at("moved") == true; }));
   CHECK(page.Last("state").at("eye").at("fov") == 50);
   REQUIRE(page.UntilSpp(0, 4));
@@ -177,9 +177,9 @@ TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") 
 }
 
 TEST_CASE("who has left is sent nothing any more, and others are", "[live]") {
-  Stage stage = SmallStage();
-  Laboratory laboratory(stage, "");
-  PretendedPage leaves(laboratory), stays(laboratory);
+  LiveScene live_scene = SmallLiveScene();
+  RenderThread render_thread(live_scene, "");
+  PretendedPage leaves(render_thread), stays(render_thread);
   leaves.Ask(ChooseText(0, "default"));
   stays.Ask(ChooseText(0, "paper-plain"));
   REQUIRE(leaves.UntilSpp(0, 4));

@@ -1,4 +1,4 @@
-// The one thread that renders for all pages, and their wishes on the way to it.
+// The one thread that renders for all pages, and their requests on the way to it.
 #pragma once
 
 #include <atomic>
@@ -15,17 +15,17 @@
 
 namespace lanelight::live {
 
-class Laboratory : private Attendant {
+class RenderThread : private PassObserver {
  public:
   /// `command`: as of Session.
-  Laboratory(const Stage& stage, std::string command);
+  RenderThread(const LiveScene& live_scene, std::string command);
   /// Stops what is being rendered.
-  ~Laboratory() override;
-  Laboratory(const Laboratory&) = delete;
-  Laboratory& operator=(const Laboratory&) = delete;
+  ~RenderThread() override;
+  RenderThread(const RenderThread&) = delete;
+  RenderThread& operator=(const RenderThread&) = delete;
 
   // From any thread, and none of them waits for a render:
-  /// A page opens; the number of its session. `send` is called by the laboratory's
+  /// A page opens; the number of its session. `send` is called by the render_thread's
   /// thread, until Leave has returned.
   int Enter(Send send);
   /// A message of the page. What is wrong with it is sent back.
@@ -34,7 +34,7 @@ class Laboratory : private Attendant {
   void Leave(int session);
 
  private:
-  struct Wish {
+  struct Request {
     int session = 0;
     std::shared_ptr<Send> enter;            // a new session
     std::optional<nlohmann::json> command;  // neither: it leaves
@@ -47,32 +47,32 @@ class Laboratory : private Attendant {
   };
 
   void Loop();
-  void Push(Wish wish);
+  void Push(Request request);
   /// Those that do not change what is being rendered, or all.
-  void TakeWishes(bool all);
-  void Grant(const Wish& wish);
+  void TakeRequests(bool all);
+  void Serve(const Request& request);
   std::optional<Running> Choose();
   void Render(const Running& running);
   /// Until something is asked for, or a session is due that was not at `since`.
   void Wait(std::chrono::steady_clock::time_point since);
   bool Due() const override;
-  void Attend() override;
+  void Observe() override;
   void Publish();
   void Tell(int session, const std::string& what);
 
-  const Stage& stage_;
+  const LiveScene& live_scene_;
   const std::string command_;
 
   std::mutex mutex_;  // of the next five
   std::condition_variable woken_;
-  std::vector<Wish> wishes_;
-  std::map<int, std::shared_ptr<Send>> doors_;  // of sessions that have not left
+  std::vector<Request> requests_;
+  std::map<int, std::shared_ptr<Send>> senders_;  // of sessions that have not left
   int next_session_ = 1;
   bool quit_ = false;
 
   std::atomic<bool> stop_{false};            // ends the pass
   std::atomic<bool> stop_all_{false};        // and previews, which are short, too
-  std::atomic<bool> waiting_{false};         // wishes are
+  std::atomic<bool> waiting_{false};         // requests are
   std::atomic<std::int64_t> publish_at_{0};  // microseconds of the steady clock
   // Of the thread alone:
   std::map<int, std::shared_ptr<Session>> sessions_;

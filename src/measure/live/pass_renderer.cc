@@ -1,4 +1,4 @@
-#include "src/measure/live/contender.h"
+#include "src/measure/live/pass_renderer.h"
 
 #include <algorithm>
 #include <cstring>
@@ -28,8 +28,8 @@ bool HasControl(const Plan& plan) {
   return SamplePlanes(plan.features).Has(PlaneGroup::kNumbers);
 }
 
-Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {
-  Job job = stage.job;
+Job JobOf(const LiveScene& live_scene, const View& view, const Strategy& strategy) {
+  Job job = live_scene.job;
   job.scene.view = std::make_shared<const CompiledView>(view);
   job.window = view.window;
   return WithStrategy(std::move(job), strategy);
@@ -37,24 +37,24 @@ Job JobOf(const Stage& stage, const View& view, const Strategy& strategy) {
 
 }  // namespace
 
-// Goes on from what the contender has, and keeps what the pass comes to.
-class Contender::Keeper : public RunKeeper {
+// Goes on from what the renderer has, and keeps what the pass comes to.
+class PassRenderer::Keeper : public RunKeeper {
  public:
-  Keeper(Contender& contender, FilmAccumulator* before, Attendant& attendant)
-      : contender_(contender), before_(before), attendant_(attendant) {}
+  Keeper(PassRenderer& renderer, FilmAccumulator* before, PassObserver& observer)
+      : renderer_(renderer), before_(before), observer_(observer) {}
 
   bool Restore(RunState& state) override {
-    if (contender_.record_.counts.samples == 0) return false;
+    if (renderer_.record_.counts.samples == 0) return false;
     if (before_ != nullptr) CopyFilm(state.films);
-    static_cast<RunRecord&>(state) = contender_.record_;
+    static_cast<RunRecord&>(state) = renderer_.record_;
     return true;
   }
-  bool Due() const override { return attendant_.Due(); }
+  bool Due() const override { return observer_.Due(); }
   void Keep(RunState& state) override {
-    contender_.record_ = std::move(static_cast<RunRecord&>(state));
+    renderer_.record_ = std::move(static_cast<RunRecord&>(state));
     const Stopwatch watch;
-    attendant_.Attend();
-    contender_.attended_seconds_ += watch.CpuSeconds();
+    observer_.Observe();
+    renderer_.observed_seconds_ += watch.CpuSeconds();
   }
 
  private:
@@ -66,27 +66,28 @@ class Contender::Keeper : public RunKeeper {
     }
   }
 
-  Contender& contender_;
+  PassRenderer& renderer_;
   FilmAccumulator* before_;  // null: the pass goes on with the film itself
-  Attendant& attendant_;
+  PassObserver& observer_;
 };
 
-Contender::Contender(const Stage& stage, View view, const Strategy& strategy)
+PassRenderer::PassRenderer(const LiveScene& live_scene, View view,
+                           const Strategy& strategy)
     : view_(std::move(view)),
-      job_(JobOf(stage, view_, strategy)),
+      job_(JobOf(live_scene, view_, strategy)),
       film_(MakeFilm(job_)),
       has_control_(HasControl(job_.plan)),
       cost_(view_.film.width, view_.film.height) {}
 
-void Contender::Pass(std::uint64_t spp, Attendant& attendant,
-                     const std::atomic<bool>& stop) {
+void PassRenderer::Pass(std::uint64_t spp, PassObserver& observer,
+                        const std::atomic<bool>& stop) {
   const bool goes_on = record_.counts.samples > 0;
   std::optional<FilmAccumulator> before;
   if (has_control_ && goes_on) {
     before = std::move(film_);
     film_ = MakeFilm(job_);
   }
-  Keeper keeper(*this, before ? &*before : nullptr, attendant);
+  Keeper keeper(*this, before ? &*before : nullptr, observer);
   RunOptions options;
   options.spp = spp;
   options.seed = job_.seed;
@@ -113,11 +114,11 @@ void Contender::Pass(std::uint64_t spp, Attendant& attendant,
   LookIfDue(stop);
 }
 
-void Contender::Fit() {
+void PassRenderer::Fit() {
   if (has_control_ && record_.counts.samples > 0) film_.FitControl();
 }
 
-void Contender::LookIfDue(const std::atomic<bool>& stop) {
+void PassRenderer::LookIfDue(const std::atomic<bool>& stop) {
   if (spp_ < kFirstLook) return;
   if (!looks_.empty()) {
     const Look& last = looks_.back();
@@ -132,7 +133,7 @@ void Contender::LookIfDue(const std::atomic<bool>& stop) {
   if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
 }
 
-std::size_t Contender::Bytes() const {
+std::size_t PassRenderer::Bytes() const {
   return view_.window.pixels() *
          FilmAccumulator::BytesPerPixel(film_.groups(), Auxiliary::kNone);
 }

@@ -13,27 +13,27 @@ struct Camera;  // src/scene/description/description.h
 namespace lanelight::live {
 
 /// In the space and units of the scene file.
-struct Eye {
+struct CameraPose {
   Vec3d position, target{0, 0, 1}, up{0, 1, 0};
   double fov = 90;   // degrees, of the shorter side; of perspective cameras
   double lens = 0;   // radius
   double focus = 1;  // distance that is sharp
 
-  friend bool operator==(const Eye&, const Eye&) = default;
+  friend bool operator==(const CameraPose&, const CameraPose&) = default;
 };
 
 /// That of a camera; it looks at the point that is `distance` in front of it.
-Eye EyeOf(const Camera& camera, double distance);
+CameraPose PoseOf(const Camera& camera, double distance);
 
 /// The camera, moved as a rigid body from where `from` is to where `to` is, with the lens
 /// of `to`. Mirrors and scales that the camera has stay. If both are equal, so are the
-/// cameras, bit by bit. Throws InputError for an eye that cannot be.
-Camera MovedCamera(const Camera& camera, const Eye& from, const Eye& to);
+/// cameras, bit by bit. Throws InputError for an pose that cannot be.
+Camera MovedCamera(const Camera& camera, const CameraPose& from, const CameraPose& to);
 
-nlohmann::json ToJson(const Eye& eye);
+nlohmann::json ToJson(const CameraPose& pose);
 /// Throws nlohmann::json::exception for what is missing or no number, InputError for a
 /// place, direction or lens that cannot be.
-Eye EyeFromJson(const nlohmann::json& json);
+CameraPose CameraPoseFromJson(const nlohmann::json& json);
 
 /// The lines of pbrt-v4 that state this camera, to be put in the place of the file's own.
 std::string PbrtText(const Camera& camera);

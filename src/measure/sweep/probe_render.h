@@ -7,7 +7,7 @@
 
 namespace lanelight {
 
-struct Pilot {
+struct ProbeRender {
   double pixels = 0;      // of the image
   std::uint64_t spp = 0;  // the scene's own
   double load_seconds = 0, build_seconds = 0;
@@ -19,9 +19,9 @@ struct Pilot {
 };
 
 /// Renders windows that are spread over the image, for about `seconds`, and no less than
-/// kPilotSamples per pixel of them. `half`: colours of the file in 16 bits.
-Pilot RenderPilot(const Job& job, double seconds, bool half);
+/// kProbeSamples per pixel of them. `half`: colours of the file in 16 bits.
+ProbeRender RenderProbe(const Job& job, double seconds, bool half);
 
-inline constexpr std::uint64_t kPilotSamples = 4;
+inline constexpr std::uint64_t kProbeSamples = 4;
 
 }  // namespace lanelight

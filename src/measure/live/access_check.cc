@@ -1,4 +1,4 @@
-#include "src/measure/live/door.h"
+#include "src/measure/live/access_check.h"
 
 #include <fmt/format.h>
 
@@ -6,37 +6,37 @@
 
 namespace lanelight::live {
 
-bool Door::IsOwnHost(const std::string& host) const {
+bool AccessCheck::IsOwnHost(const std::string& host) const {
   return host == fmt::format("127.0.0.1:{}", port_) ||
          host == fmt::format("localhost:{}", port_);
 }
 
-std::string Door::Address() const {
+std::string AccessCheck::Address() const {
   return fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
 }
 
-Decision Door::Decide(const Visit& visit) const {
-  if (!IsOwnHost(visit.host)) {
+Decision AccessCheck::Decide(const HttpRequest& request) const {
+  if (!IsOwnHost(request.host)) {
     return {Answer::kRefused, 403, "the Host of the request is not this server's"};
   }
-  if (visit.method != "GET") {
+  if (request.method != "GET") {
     return {Answer::kRefused, 405, "only GET is understood"};
   }
-  const std::size_t end = visit.target.find('/', 1);
+  const std::size_t end = request.target.find('/', 1);
   const bool has_token =
-      end != std::string::npos && visit.target[0] == '/' &&
-      SameToken(std::string_view(visit.target).substr(1, end - 1), token_);
+      end != std::string::npos && request.target[0] == '/' &&
+      SameToken(std::string_view(request.target).substr(1, end - 1), token_);
   if (!has_token) {
     return {Answer::kRefused, 404,
             "there is nothing here; the address that `lanelight live` prints has a token "
             "in it"};
   }
-  const std::string rest = visit.target.substr(end);
-  if (rest == "/" && !visit.upgrade) return {Answer::kPage, 200, ""};
-  if (rest != "/socket" || !visit.upgrade) {
+  const std::string rest = request.target.substr(end);
+  if (rest == "/" && !request.upgrade) return {Answer::kPage, 200, ""};
+  if (rest != "/socket" || !request.upgrade) {
     return {Answer::kRefused, 404, "only the page and its socket are here"};
   }
-  if (visit.origin != "http://" + visit.host) {
+  if (request.origin != "http://" + request.host) {
     return {Answer::kRefused, 403, "the Origin of the socket is not this server's page"};
   }
   return {Answer::kSocket, 101, ""};

@@ -1,5 +1,5 @@
 // The camera that a page moves.
-#include "src/measure/live/eye.h"
+#include "src/measure/live/camera_pose.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -38,34 +38,34 @@ Camera ParsedCamera(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("an eye is where the camera is, in units of the scene", "[live]") {
-  const Eye eye = EyeOf(OddCamera(), 5);
-  CHECK(Length(eye.position - Vec3d{1, 2, 3}) < 1e-12);
-  CHECK(Length(eye.target - eye.position) == Approx(5));
-  CHECK(eye.lens == Approx(0.05));
-  CHECK(eye.focus == Approx(3));
+TEST_CASE("an pose is where the camera is, in units of the scene", "[live]") {
+  const CameraPose pose = PoseOf(OddCamera(), 5);
+  CHECK(Length(pose.position - Vec3d{1, 2, 3}) < 1e-12);
+  CHECK(Length(pose.target - pose.position) == Approx(5));
+  CHECK(pose.lens == Approx(0.05));
+  CHECK(pose.focus == Approx(3));
 }
 
 TEST_CASE("a camera that is not moved keeps its bits, and a moved one its mirror",
           "[live]") {
   const Camera camera = OddCamera();
-  const Eye eye = EyeOf(camera, 5);
-  CHECK(MovedCamera(camera, eye, eye).world_from_camera == camera.world_from_camera);
-  Eye moved = eye;
+  const CameraPose pose = PoseOf(camera, 5);
+  CHECK(MovedCamera(camera, pose, pose).world_from_camera == camera.world_from_camera);
+  CameraPose moved = pose;
   moved.position = {7, 8, 9};
   moved.fov = 50;
   moved.focus = 4;
-  const Camera other = MovedCamera(camera, eye, moved);
+  const Camera other = MovedCamera(camera, pose, moved);
   CHECK(other.world_from_camera.SwapsHandedness() ==
         camera.world_from_camera.SwapsHandedness());
   CHECK(other.fov == 50);
   CHECK(other.lens_radius == camera.lens_radius);
   CHECK(other.focal_distance == Approx(8));
-  const Eye seen = EyeOf(other, Length(moved.target - moved.position));
+  const CameraPose seen = PoseOf(other, Length(moved.target - moved.position));
   CHECK(Length(seen.position - moved.position) < 1e-12);
   CHECK(Length(seen.target - moved.target) < 1e-12);
   // And back.
-  CheckNear(MovedCamera(other, moved, eye).world_from_camera, camera.world_from_camera);
+  CheckNear(MovedCamera(other, moved, pose).world_from_camera, camera.world_from_camera);
 }
 
 TEST_CASE("the text of a camera is that camera again", "[live]") {
@@ -85,31 +85,32 @@ TEST_CASE("the text of a camera is that camera again", "[live]") {
 }
 
 TEST_CASE("eyes as JSON, and those that cannot be", "[live]") {
-  const Eye eye = EyeOf(OddCamera(), 5);
-  CHECK(EyeFromJson(ToJson(eye)) == eye);
+  const CameraPose pose = PoseOf(OddCamera(), 5);
+  CHECK(CameraPoseFromJson(ToJson(pose)) == pose);
   const auto refused = [&](const char* member, const nlohmann::json& value) {
-    nlohmann::json json = ToJson(eye);
+    nlohmann::json json = ToJson(pose);
     json[member] = value;
     INFO(member);
-    CHECK_THROWS_AS(EyeFromJson(json), InputError);
+    CHECK_THROWS_AS(CameraPoseFromJson(json), InputError);
   };
-  refused("target", ToJson(eye)["position"]);
+  refused("target", ToJson(pose)["position"]);
   refused("up", {0, 0, 0});
-  const Vec3d ahead = eye.target - eye.position;
+  const Vec3d ahead = pose.target - pose.position;
   refused("up", {ahead.x, ahead.y, ahead.z});
   refused("position", {std::numeric_limits<double>::infinity(), 0, 0});
   refused("fov", 180);
   refused("fov", 0);
   refused("lens", -1);
   refused("focus", 0);
-  nlohmann::json lacking = ToJson(eye);
+  nlohmann::json lacking = ToJson(pose);
   lacking.erase("up");
-  CHECK_THROWS_AS(EyeFromJson(lacking), nlohmann::json::exception);
+  CHECK_THROWS_AS(CameraPoseFromJson(lacking), nlohmann::json::exception);
 }
 
 TEST_CASE("a reduced view shows what the whole one does", "[live]") {
-  const Stage stage = SmallStage(33, 24);
-  const View whole = MakeView(stage, stage.eye, 1), half = MakeView(stage, stage.eye, 2);
+  const LiveScene live_scene = SmallLiveScene(33, 24);
+  const View whole = MakeView(live_scene, live_scene.pose, 1),
+             half = MakeView(live_scene, live_scene.pose, 2);
   CHECK(whole.film.width == 33);
   CHECK(half.film.width == 17);
   CHECK(half.film.height == 12);

@@ -1,5 +1,5 @@
 // Who may come in.
-#include "src/measure/live/door.h"
+#include "src/measure/live/access_check.h"
 
 #include <catch2/catch.hpp>
 #include <set>
@@ -11,14 +11,16 @@ namespace {
 
 const std::string kDoorToken = "0123456789abcdef0123456789abcdef";
 
-Visit PageVisit() { return {"GET", "/" + kDoorToken + "/", "127.0.0.1:8080", "", false}; }
-Visit SocketVisit() {
+HttpRequest PageVisit() {
+  return {"GET", "/" + kDoorToken + "/", "127.0.0.1:8080", "", false};
+}
+HttpRequest SocketVisit() {
   return {"GET", "/" + kDoorToken + "/socket", "127.0.0.1:8080", "http://127.0.0.1:8080",
           true};
 }
 
-unsigned StatusOf(const Visit& visit) {
-  return Door(8080, kDoorToken).Decide(visit).status;
+unsigned StatusOf(const HttpRequest& request) {
+  return AccessCheck(8080, kDoorToken).Decide(request).status;
 }
 
 }  // namespace
@@ -38,32 +40,32 @@ TEST_CASE("tokens are long, different, and compared as a whole", "[live]") {
 }
 
 TEST_CASE("the page and its socket are behind the token", "[live]") {
-  const Door door(8080, kDoorToken);
-  CHECK(door.Address() == "http://127.0.0.1:8080/" + kDoorToken + "/");
-  CHECK(door.Decide(PageVisit()).answer == Answer::kPage);
-  CHECK(door.Decide(SocketVisit()).answer == Answer::kSocket);
+  const AccessCheck access(8080, kDoorToken);
+  CHECK(access.Address() == "http://127.0.0.1:8080/" + kDoorToken + "/");
+  CHECK(access.Decide(PageVisit()).answer == Answer::kPage);
+  CHECK(access.Decide(SocketVisit()).answer == Answer::kSocket);
   for (const char* target : {"/", "", "x", "//", "/0123456789abcdef0123456789abcdee/",
                              "/0123456789abcdef0123456789abcdef", "/favicon.ico"}) {
-    Visit visit = PageVisit();
-    visit.target = target;
+    HttpRequest request = PageVisit();
+    request.target = target;
     INFO(target);
-    CHECK(door.Decide(visit).answer == Answer::kRefused);
-    CHECK(StatusOf(visit) == 404);
-    visit = SocketVisit();
-    visit.target = target + std::string("socket");
-    CHECK(door.Decide(visit).answer == Answer::kRefused);
+    CHECK(access.Decide(request).answer == Answer::kRefused);
+    CHECK(StatusOf(request) == 404);
+    request = SocketVisit();
+    request.target = target + std::string("socket");
+    CHECK(access.Decide(request).answer == Answer::kRefused);
   }
 }
 
 TEST_CASE("names that were pointed at the loopback are refused", "[live]") {
   for (const char* host : {"", "evil.example:8080", "127.0.0.1", "127.0.0.1:80",
                            "127.0.0.1:8080.evil.example", "0.0.0.0:8080", "[::1]:8080"}) {
-    Visit visit = PageVisit();
-    visit.host = host;
+    HttpRequest request = PageVisit();
+    request.host = host;
     INFO(host);
-    CHECK(StatusOf(visit) == 403);
+    CHECK(StatusOf(request) == 403);
   }
-  Visit local = PageVisit();
+  HttpRequest local = PageVisit();
   local.host = "localhost:8080";
   CHECK(StatusOf(local) == 200);
 }
@@ -71,12 +73,12 @@ TEST_CASE("names that were pointed at the loopback are refused", "[live]") {
 TEST_CASE("sockets of other pages are refused", "[live]") {
   for (const char* origin : {"", "null", "http://evil.example", "http://127.0.0.1",
                              "https://127.0.0.1:8080", "http://localhost:8080"}) {
-    Visit visit = SocketVisit();
-    visit.origin = origin;
+    HttpRequest request = SocketVisit();
+    request.origin = origin;
     INFO(origin);
-    CHECK(StatusOf(visit) == 403);
+    CHECK(StatusOf(request) == 403);
   }
-  Visit post = PageVisit();
+  HttpRequest post = PageVisit();
   post.method = "POST";
   CHECK(StatusOf(post) == 405);
 }

@@ -1,4 +1,4 @@
-#include "src/measure/live/eye.h"
+#include "src/measure/live/camera_pose.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 namespace lanelight::live {
 namespace {
 
-Transform WorldFromEye(const Eye& eye) {
-  return Transform::LookAt(eye.position, eye.target, eye.up).Inverse();
+Transform WorldFromEye(const CameraPose& pose) {
+  return Transform::LookAt(pose.position, pose.target, pose.up).Inverse();
 }
 
 double UnitOf(const Camera& camera) {
@@ -24,28 +24,28 @@ bool IsFinite(Vec3d v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-void CheckEye(const Eye& eye) {
-  const Vec3d forward = eye.target - eye.position;
-  if (!IsFinite(eye.position) || !IsFinite(eye.target) || !IsFinite(eye.up) ||
+void CheckEye(const CameraPose& pose) {
+  const Vec3d forward = pose.target - pose.position;
+  if (!IsFinite(pose.position) || !IsFinite(pose.target) || !IsFinite(pose.up) ||
       !(Length(forward) > 0)) {
     throw InputError(
         "the camera's position, target and up must be finite, and the "
         "target another point than the position");
   }
-  const double sine = Length(Cross(forward, eye.up)) / Length(forward) / Length(eye.up);
+  const double sine = Length(Cross(forward, pose.up)) / Length(forward) / Length(pose.up);
   if (!(sine > 1e-6)) {
     throw InputError("the camera's up must not be along its line of sight");
   }
-  if (!(eye.fov > 0 && eye.fov < 180)) {
+  if (!(pose.fov > 0 && pose.fov < 180)) {
     throw InputError(fmt::format(
-        "a field of view of {} degrees; it must be above 0 and below 180", eye.fov));
+        "a field of view of {} degrees; it must be above 0 and below 180", pose.fov));
   }
-  if (!(eye.lens >= 0 && std::isfinite(eye.lens))) {
-    throw InputError(fmt::format("a lens of radius {}; it must be 0 or more", eye.lens));
+  if (!(pose.lens >= 0 && std::isfinite(pose.lens))) {
+    throw InputError(fmt::format("a lens of radius {}; it must be 0 or more", pose.lens));
   }
-  if (!(eye.focus > 0 && std::isfinite(eye.focus))) {
+  if (!(pose.focus > 0 && std::isfinite(pose.focus))) {
     throw InputError(
-        fmt::format("a focus at a distance of {}; it must be above 0", eye.focus));
+        fmt::format("a focus at a distance of {}; it must be above 0", pose.focus));
   }
 }
 
@@ -65,20 +65,20 @@ Vec3d VectorOf(const nlohmann::json& json) {
 
 }  // namespace
 
-Eye EyeOf(const Camera& camera, double distance) {
+CameraPose PoseOf(const Camera& camera, double distance) {
   const Transform& t = camera.world_from_camera;
   const double unit = UnitOf(camera);
-  Eye eye;
-  eye.position = t.Point({0, 0, 0});
-  eye.target = eye.position + t.Vector({0, 0, 1}) / unit * distance;
-  eye.up = Normalize(t.Vector({0, 1, 0}));
-  eye.fov = camera.fov;
-  eye.lens = camera.lens_radius * unit;
-  eye.focus = camera.focal_distance * unit;
-  return eye;
+  CameraPose pose;
+  pose.position = t.Point({0, 0, 0});
+  pose.target = pose.position + t.Vector({0, 0, 1}) / unit * distance;
+  pose.up = Normalize(t.Vector({0, 1, 0}));
+  pose.fov = camera.fov;
+  pose.lens = camera.lens_radius * unit;
+  pose.focus = camera.focal_distance * unit;
+  return pose;
 }
 
-Camera MovedCamera(const Camera& camera, const Eye& from, const Eye& to) {
+Camera MovedCamera(const Camera& camera, const CameraPose& from, const CameraPose& to) {
   CheckEye(to);
   if (from == to) return camera;
   Camera moved = camera;
@@ -92,25 +92,25 @@ Camera MovedCamera(const Camera& camera, const Eye& from, const Eye& to) {
   return moved;
 }
 
-nlohmann::json ToJson(const Eye& eye) {
-  return {{"position", ArrayOf(eye.position)},
-          {"target", ArrayOf(eye.target)},
-          {"up", ArrayOf(eye.up)},
-          {"fov", eye.fov},
-          {"lens", eye.lens},
-          {"focus", eye.focus}};
+nlohmann::json ToJson(const CameraPose& pose) {
+  return {{"position", ArrayOf(pose.position)},
+          {"target", ArrayOf(pose.target)},
+          {"up", ArrayOf(pose.up)},
+          {"fov", pose.fov},
+          {"lens", pose.lens},
+          {"focus", pose.focus}};
 }
 
-Eye EyeFromJson(const nlohmann::json& json) {
-  Eye eye;
-  eye.position = VectorOf(json.at("position"));
-  eye.target = VectorOf(json.at("target"));
-  eye.up = VectorOf(json.at("up"));
-  eye.fov = json.at("fov").get<double>();
-  eye.lens = json.at("lens").get<double>();
-  eye.focus = json.at("focus").get<double>();
-  CheckEye(eye);
-  return eye;
+CameraPose CameraPoseFromJson(const nlohmann::json& json) {
+  CameraPose pose;
+  pose.position = VectorOf(json.at("position"));
+  pose.target = VectorOf(json.at("target"));
+  pose.up = VectorOf(json.at("up"));
+  pose.fov = json.at("fov").get<double>();
+  pose.lens = json.at("lens").get<double>();
+  pose.focus = json.at("focus").get<double>();
+  CheckEye(pose);
+  return pose;
 }
 
 std::string PbrtText(const Camera& camera) {

@@ -1,4 +1,4 @@
-#include "src/measure/sweep/pilot.h"
+#include "src/measure/sweep/probe_render.h"
 
 #include <unistd.h>
 
@@ -50,15 +50,15 @@ double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
 
 }  // namespace
 
-Pilot RenderPilot(const Job& job, double seconds, bool half) {
+ProbeRender RenderProbe(const Job& job, double seconds, bool half) {
   const std::vector<PixelRect> windows = SpreadWindows(job.window);
   const int width = windows.front().width() * static_cast<int>(windows.size());
   const int height = windows.front().height();
-  Pilot pilot;
-  pilot.pixels = double(job.window.pixels());
-  pilot.spp = static_cast<std::uint64_t>(job.loaded->description.sampler.spp);
-  pilot.load_seconds = job.loaded->load_seconds;
-  pilot.build_seconds = job.loaded->build_seconds;
+  ProbeRender probe;
+  probe.pixels = double(job.window.pixels());
+  probe.spp = static_cast<std::uint64_t>(job.loaded->description.sampler.spp);
+  probe.load_seconds = job.loaded->load_seconds;
+  probe.build_seconds = job.loaded->build_seconds;
   RunOptions options;
   options.windows = windows;
   options.seed = job.seed;
@@ -66,20 +66,20 @@ Pilot RenderPilot(const Job& job, double seconds, bool half) {
   // The first render fills caches; the last one measures.
   Job windowed = job;
   windowed.window = {0, 0, width, height};
-  for (options.spp = kPilotSamples;; options.spp *= 4) {
+  for (options.spp = kProbeSamples;; options.spp *= 4) {
     FilmAccumulator film = MakeFilm(windowed);
     const RunResult result = Run(job.scene, job.plan, options, film);
-    pilot.sample_seconds =
+    probe.sample_seconds =
         result.seconds / double(std::max<std::uint64_t>(1, result.samples));
     if (4 * result.seconds < seconds && options.spp < 1024) continue;
     const ErrorEstimate error = EstimateError(film);
     if (error.available) {
-      pilot.relmse = error.relmse.value * double(options.spp);
-      pilot.mse = error.rmse.value * error.rmse.value * double(options.spp);
+      probe.relmse = error.relmse.value * double(options.spp);
+      probe.mse = error.rmse.value * error.rmse.value * double(options.spp);
     }
-    pilot.bytes_per_pixel =
+    probe.bytes_per_pixel =
         FileBytes(film, job, half) / double(film.width()) / film.height();
-    return pilot;
+    return probe;
   }
 }
 

@@ -8,7 +8,7 @@
 namespace lanelight::live {
 
 /// What a request says of itself; what it does not have is empty.
-struct Visit {
+struct HttpRequest {
   std::string method, target, host, origin;
   bool upgrade = false;  // it asks for a WebSocket
 };
@@ -25,11 +25,12 @@ struct Decision {
 /// the loopback (DNS rebinding) is not. A socket's Origin must be this very server: pages
 /// of others may open sockets to anywhere, and browsers tell whose page it is. The page
 /// lies at /TOKEN/ and its socket at /TOKEN/socket; without the token nothing is there.
-class Door {
+class AccessCheck {
  public:
-  Door(std::uint16_t port, std::string token) : port_(port), token_(std::move(token)) {}
+  AccessCheck(std::uint16_t port, std::string token)
+      : port_(port), token_(std::move(token)) {}
 
-  Decision Decide(const Visit& visit) const;
+  Decision Decide(const HttpRequest& request) const;
   /// "http://127.0.0.1:PORT/TOKEN/".
   std::string Address() const;
 

@@ -15,13 +15,13 @@
 namespace lanelight::live {
 
 /// Who may interrupt a pass for a moment.
-class Attendant {
+class PassObserver {
  public:
-  virtual ~Attendant() = default;
-  /// Called often, from any thread: whether Attend is due, true until it is called.
+  virtual ~PassObserver() = default;
+  /// Called often, from any thread: whether Observe is due, true until it is called.
   virtual bool Due() const = 0;
   /// By the thread that renders, with nothing in flight: films may be read.
-  virtual void Attend() = 0;
+  virtual void Observe() = 0;
 };
 
 /// How far the error had fallen after so many samples per pixel.
@@ -31,14 +31,14 @@ struct Look {
   ErrorEstimate error;
 };
 
-class Contender {
+class PassRenderer {
  public:
   /// Throws InputError if the scene does not take the strategy.
-  Contender(const Stage& stage, View view, const Strategy& strategy);
+  PassRenderer(const LiveScene& live_scene, View view, const Strategy& strategy);
 
   /// Renders until all pixels have `spp` samples, or `stop` is set; then some pixels may
   /// have more than others. A later pass goes on from there.
-  void Pass(std::uint64_t spp, Attendant& attendant, const std::atomic<bool>& stop);
+  void Pass(std::uint64_t spp, PassObserver& observer, const std::atomic<bool>& stop);
   /// The correction by a control variate, where there is one, knows all samples so far.
   void Fit();
 
@@ -48,14 +48,14 @@ class Contender {
   const FilmAccumulator& film() const { return film_; }
   const CostMap& cost() const { return cost_; }
   const RunRecord& record() const { return record_; }
-  /// Of all passes, by stage and part of tasks.
+  /// Of all passes, by live_scene and part of tasks.
   const std::vector<StageProfile>& stages() const { return stages_; }
   /// Errors, estimated now and then, the last one some time ago.
   const std::vector<Look>& looks() const { return looks_; }
   /// Samples per pixel that all pixels have.
   std::uint64_t spp() const { return spp_; }
   /// Processor time of its rendering, training included, looks and pictures not.
-  double cpu_seconds() const { return record_.counts.cpu_seconds - attended_seconds_; }
+  double cpu_seconds() const { return record_.counts.cpu_seconds - observed_seconds_; }
   /// Samples per pixel and second of the last passes; 0 before the first.
   double rate() const { return rate_; }
   /// What it has learned before, if it has: one line.
@@ -76,7 +76,7 @@ class Contender {
   std::vector<StageProfile> stages_;
   std::vector<Look> looks_;
   std::uint64_t spp_ = 0;
-  double attended_seconds_ = 0, look_seconds_ = 0, rate_ = 0;
+  double observed_seconds_ = 0, look_seconds_ = 0, rate_ = 0;
 };
 
 }  // namespace lanelight::live
