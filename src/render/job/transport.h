@@ -4,7 +4,9 @@
 #include <span>
 #include <string>
 
+#include "src/base/core/source_location.h"
 #include "src/vocabulary/path/scene_kinds.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 

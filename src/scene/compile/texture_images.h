@@ -11,7 +11,7 @@
 
 #include "src/base/image/image.h"
 #include "src/scene/compiled/texture_table.h"
-#include "src/scene/description/note.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/scene/compiled/texture_table.h"
+#include "src/scene/description/description.h"
 
 namespace lanelight {
 

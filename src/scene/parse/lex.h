@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "src/base/core/error.h"
+#include "src/base/core/source_location.h"
 
 namespace lanelight {
 
