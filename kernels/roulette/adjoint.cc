@@ -10,8 +10,8 @@
 //               middle plays harder and was measured to have up to twice the variance)
 //   unbiased    for any Psi and I: they only steer r; the training's samples are not used
 //   variance    paths into the dark end early, paths into the light are split; pays where
-//               Psi varies much along paths (light behind a door), loses its training pass
-//               and the noise of Psi where all paths are alike
+//               Psi varies much along paths (light behind a door), loses its training
+//               pass and the noise of Psi where all paths are alike
 //   no data     cells that no training path met: roulette on the throughput
 //   cost        two gathers of tables and a hash per vertex; the training pass
 //   source      Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting

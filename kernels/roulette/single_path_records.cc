@@ -141,25 +141,26 @@ Stage SinglePathAfterStage() {
           .resolve = Always<SinglePathAfter>};
 }
 Stage SinglePathDecisionStage() {
-  return {.name = "single_path_decision",
-          .meaning =
-              "what roulette would add to the second moment of a training path that splits",
-          .input = QueueId::kScattered,
-          .role = StageRole::kRecord,
-          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
-          .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
-          .writes = fields::kRisk,
-          .resolve = Always<SinglePathDecision>};
-}
-Stage SinglePathEndStage() {
   return {
-      .name = "single_path_end",
-      .meaning = "writes what a finished training path would have brought without splitting",
-      .input = QueueId::kDone,
+      .name = "single_path_decision",
+      .meaning =
+          "what roulette would add to the second moment of a training path that splits",
+      .input = QueueId::kScattered,
       .role = StageRole::kRecord,
       .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
-      .reads = kTransport | FieldSet{Field::output, Field::pixel},
-      .resolve = Always<SinglePathEnd>};
+      .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
+      .writes = fields::kRisk,
+      .resolve = Always<SinglePathDecision>};
+}
+Stage SinglePathEndStage() {
+  return {.name = "single_path_end",
+          .meaning =
+              "writes what a finished training path would have brought without splitting",
+          .input = QueueId::kDone,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
+          .reads = kTransport | FieldSet{Field::output, Field::pixel},
+          .resolve = Always<SinglePathEnd>};
 }
 
 LANELIGHT_END_KERNELS

@@ -106,9 +106,9 @@ bool Save(const CompareCommandOptions& options, const std::vector<NamedImage>& t
   return PrintProblems(saver.problems());
 }
 
-int ExitCode(const CompareCommandOptions& options,
-             const std::vector<ImageComparison>& comparisons,
-             const std::vector<bool>& over) {
+int ComparisonCode(const CompareCommandOptions& options,
+                   const std::vector<ImageComparison>& comparisons,
+                   const std::vector<bool>& over) {
   int code = kExitGood;
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     if (!over[i]) continue;
@@ -140,7 +140,7 @@ int Compare(CompareCommandOptions options) {
   }
   Print(options.json ? JsonText(comparisons, over) : Texts(comparisons));
   if (!Save(options, tests, reference, comparisons)) return kExitBadInput;
-  return ExitCode(options, comparisons, over);
+  return ComparisonCode(options, comparisons, over);
 }
 
 void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {

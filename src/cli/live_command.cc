@@ -31,7 +31,7 @@ std::string CommandLine(const SceneOptions& options) {
 }
 
 int Live(const LiveCommandOptions& options) {
-  const live::Stage live_scene(options.scene.scene, options.scene.settings);
+  const live::LiveScene live_scene(options.scene.scene, options.scene.settings);
   PrintNotes(live_scene.job);
   live::Server server(live_scene, CommandLine(options.scene), options.port);
   const InterruptGuard interrupt(kLiveInterruptText);

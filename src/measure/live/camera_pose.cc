@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
+#include "src/base/core/transform.h"
+#include "src/scene/description/description.h"
 #include "src/vocabulary/path/scene_kinds.h"
 
 namespace lanelight::live {

@@ -48,7 +48,7 @@ class PassRenderer {
   const FilmAccumulator& film() const { return film_; }
   const CostMap& cost() const { return cost_; }
   const RunRecord& record() const { return record_; }
-  /// Of all passes, by live_scene and part of tasks.
+  /// Of all passes, by stage and part of tasks.
   const std::vector<StageProfile>& stages() const { return stages_; }
   /// Errors, estimated now and then, the last one some time ago.
   const std::vector<Look>& looks() const { return looks_; }

@@ -31,13 +31,13 @@ json LooksJson(const PassRenderer& renderer) {
 
 json StagesJson(const PassRenderer& renderer) {
   json stages = json::array();
-  for (const StageProfile& live_scene : renderer.stages()) {
-    if (live_scene.calls == 0) continue;
+  for (const StageProfile& stage : renderer.stages()) {
+    if (stage.calls == 0) continue;
     json filled = nullptr;  // parts of tasks have no lanes
-    if (live_scene.lane_slots > 0) filled = live_scene.Occupancy();
-    stages.push_back({{"name", live_scene.name},
-                      {"seconds", live_scene.seconds},
-                      {"items", live_scene.items},
+    if (stage.lane_slots > 0) filled = stage.Occupancy();
+    stages.push_back({{"name", stage.name},
+                      {"seconds", stage.seconds},
+                      {"items", stage.items},
                       {"filled", filled}});
   }
   return stages;
@@ -45,9 +45,8 @@ json StagesJson(const PassRenderer& renderer) {
 
 json OmittedJson(const Plan& plan) {
   json omitted = json::array();
-  for (const OmittedStage& live_scene : plan.omitted) {
-    omitted.push_back(
-        {{"name", live_scene.live_scene.name}, {"reason", live_scene.reason}});
+  for (const OmittedStage& s : plan.omitted) {
+    omitted.push_back({{"name", s.stage.name}, {"reason", s.reason}});
   }
   return omitted;
 }

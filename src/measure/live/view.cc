@@ -42,9 +42,9 @@ Film ReducedFilm(const Film& film, int factor) {
 
 }  // namespace
 
-LiveScene::Stage(const std::string& scene, const RenderSettings& settings)
+LiveScene::LiveScene(const std::string& scene, const RenderSettings& settings)
     : path(scene), job(PrepareJob(scene, settings)) {
-  job.plan.options.spectral_film = false;  // nobody sees more than colours
+  job.plan.options.spectral_film = false;  // pages show colours only
   pose = PoseOf(job.loaded->description.camera, DistanceToMiddle(job));
 }
 

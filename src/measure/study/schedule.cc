@@ -30,7 +30,7 @@ double StandardDeviation(const std::vector<double>& values) {
 class TimedRenders {
  public:
   TimedRenders(const Job& job, const std::vector<Strategy>& strategies, double seconds,
-         const std::atomic<bool>* stop)
+               const std::atomic<bool>* stop)
       : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
 
   std::vector<Calibration> Run() {
@@ -76,8 +76,8 @@ class TimedRenders {
     return double(spp) * error.relmse.value / (kSmallError * kSmallError);
   }
 
-  // Renders of doubling size until one takes as long as a timed one: its samples. What they
-  // load, build and allocate for the first time does not count.
+  // Renders of doubling size until one takes as long as a timed one: its samples. What
+  // they load, build and allocate for the first time does not count.
   std::uint64_t WarmUp(const Strategy& strategy) {
     const double wanted = std::clamp(seconds_ / 2, kMinTimedSeconds, kMaxTimedSeconds);
     std::uint64_t spp = 1;

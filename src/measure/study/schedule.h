@@ -15,8 +15,8 @@ struct Calibration {
   double samples = 1;  // per pixel in the budget, at least 1
   /// Standard error of log(samples), by the scatter of the timed renders.
   double spread = 0;
-  /// Samples per pixel for a relative error of kSmallError, by the timed renders' own estimates;
-  /// infinite where they state none.
+  /// Samples per pixel for a relative error of kSmallError, by the timed renders' own
+  /// estimates; infinite where they state none.
   double for_small_error = std::numeric_limits<double>::infinity();
 };
 
@@ -24,17 +24,17 @@ struct TimedRender {
   double samples = 0, seconds = 0;
 };
 
-/// How many samples a budget is enough for, by the line through two timed renders: what a render
-/// takes before its first sample, to learn or to set up, is the same for all sizes. What
-/// a sample takes is the longer timed's mean at most, and a quarter of it at least: noise
-/// may turn the line around.
+/// How many samples a budget is enough for, by the line through two timed renders: what a
+/// render takes before its first sample, to learn or to set up, is the same for all
+/// sizes. What a sample takes is the longer timed's mean at most, and a quarter of it at
+/// least: noise may turn the line around.
 double SamplesOfBudget(double budget, const TimedRender& timed, const TimedRender& few);
 
 /// Calibrates strategies to `seconds` of wall clock each. After renders that warm up
 /// caches and tables and find a size, timed renders of about half the budget (between
-/// kMinTimedSeconds and kMaxTimedSeconds), and of a quarter of their samples, run kTimedRounds
-/// times, in turns (A B C A B C ...), so that a change of the machine's speed meets all
-/// alike; medians count, and a line through both sizes. Strategies are
+/// kMinTimedSeconds and kMaxTimedSeconds), and of a quarter of their samples, run
+/// kTimedRounds times, in turns (A B C A B C ...), so that a change of the machine's
+/// speed meets all alike; medians count, and a line through both sizes. Strategies are
 /// compared by processor time, which does not count other programs; how much wall clock
 /// that is, is common to all. Empty if `stop` was set.
 std::vector<Calibration> Calibrate(const Job& job,

@@ -51,7 +51,8 @@ std::uint64_t RunStrategy::PlannedTraining() const {
     return SamplesWithin(options_.seconds,
                          {scene_, plan_.options, &tables_, run_.seed, &watcher});
   }
-  return decides ? DecidedBy(pixels) : std::max(pixels * kTrainingSpp, kMinTrainingSamples);
+  return decides ? DecidedBy(pixels)
+                 : std::max(pixels * kTrainingSpp, kMinTrainingSamples);
 }
 
 void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {

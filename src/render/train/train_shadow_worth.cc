@@ -1,6 +1,6 @@
-// A training pass, from which shadow-roulette=contribution learns how bright the pixels are
-// and how noisy a sample is for its rays. It takes about 1 percent of the planned samples
-// and stops growing at 60 000 paths.
+// A training pass, from which shadow-roulette=contribution learns how bright the pixels
+// are and how noisy a sample is for its rays. It takes about 1 percent of the planned
+// samples and stops growing at 60 000 paths.
 #include <fmt/format.h>
 
 #include <algorithm>

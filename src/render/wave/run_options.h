@@ -33,7 +33,8 @@ struct ProfileOptions {
 
 /// How many samples the image will have must not change what is learned before it.
 inline constexpr std::uint64_t kTrainingSpp = 32;
-inline constexpr std::uint64_t kMinTrainingSamples = 1u << 16;  // samples, of small images
+inline constexpr std::uint64_t kMinTrainingSamples = 1u
+                                                     << 16;  // samples, of small images
 
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
@@ -69,9 +70,9 @@ struct RunOptions {
   std::vector<PixelRect> windows;
   /// Renders these tiles of the image only, disjoint; empty: all of it.
   std::vector<PixelRect> tiles;
-  /// What training passes are sized for; 0: kTrainingSpp samples of every pixel of the image,
-  /// and kMinTrainingSamples at least. With decide=pilot DecidedBy (src/render/train/training.h),
-  /// or what the time budget is enough for.
+  /// What training passes are sized for; 0: kTrainingSpp samples of every pixel of the
+  /// image, and kMinTrainingSamples at least. With decide=pilot DecidedBy
+  /// (src/render/train/training.h), or what the time budget is enough for.
   std::uint64_t planned_samples = 0;
   /// Keeps the state while the run goes on; null: nobody does.
   RunKeeper* keeper = nullptr;

@@ -56,7 +56,8 @@ class CellRecords {
 
 /// Sets values.survive (and .split, if `efficiency`) from records of values.grid. Cells
 /// with few records borrow from the coarser cell around them; what is worth less than a
-/// tenth of the mean counts as that much: a short training pass may have missed its light.
+/// tenth of the mean counts as that much: a short training pass may have missed its
+/// light.
 void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values);
 
 /// Colours of the pixels of an image from a few samples: means over tiles of 8x8 pixels,

@@ -10,7 +10,8 @@ namespace lanelight::test {
 namespace {
 
 struct Measured {
-  double variance = 0, rays = 0;  // relative, of a pixel; in all, training passes included
+  double variance = 0,
+         rays = 0;  // relative, of a pixel; in all, training passes included
   Roulette roulette = Roulette::kNone;
   std::string note;
   double Efficiency() const { return 1 / (variance * rays); }
@@ -93,7 +94,8 @@ TEST_CASE("where efficiency falls back the image is the simple roulette's",
   CHECK(chosen.result.rays_closest == simple.result.rays_closest);
 }
 
-TEST_CASE("training passes take a small share of what they are planned for", "[roulette]") {
+TEST_CASE("training passes take a small share of what they are planned for",
+          "[roulette]") {
   for (const char* roulette : {"adjoint", "efficiency"}) {
     for (std::uint64_t spp : {1, 16, 256}) {
       TestRender t;

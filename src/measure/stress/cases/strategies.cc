@@ -40,7 +40,8 @@ std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
                    depth, 4};
   scene.spared = [&](const std::string& strategy) {
     const bool long_training = HasTraining(strategy) && length > effort(50.0, 2000.0);
-    if (long_training) return std::string("its pilot alone is 65536 paths of this length");
+    if (long_training)
+      return std::string("its pilot alone is 65536 paths of this length");
     // Squared weights of an event: 4/3 in the mean for uniform directions, 1 / (1 - q).
     const bool grows =
         Is(strategy, "directions=uniform") || Is(strategy, "roulette=constant");
