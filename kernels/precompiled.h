@@ -1,4 +1,4 @@
-// What all kernel files include of others, compiled once before them. Nothing of
+// Precompiled headers of other projects for all kernel files. Nothing of
 // Highway's own that differs by target may be here, and no table of the scene: a change
 // of one compiles only the kernels that read it.
 #pragma once

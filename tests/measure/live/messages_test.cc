@@ -12,7 +12,7 @@
 namespace lanelight::live {
 namespace {
 
-class NobodyElse : public PassObserver {
+class NoObserver : public PassObserver {
  public:
   bool Due() const override { return false; }
   void Observe() override {}
@@ -66,9 +66,9 @@ TEST_CASE("messages that are not understood are refused, with what would be righ
 TEST_CASE("a picture has the film's numbers, once, and then what has changed", "[live]") {
   LiveScene live_scene = SmallLiveScene(80, 70);
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
-  NobodyElse nobody;
+  NoObserver observer;
   const std::atomic<bool> never{false};
-  renderer.Pass(8, nobody, never);
+  renderer.Pass(8, observer, never);
   SentPicture sent;
   sent.layer = Layer::kError;
   const ReadPicture picture = Read(EncodePicture(renderer, {{"slot", 1}}, sent));
@@ -88,18 +88,18 @@ TEST_CASE("a picture has the film's numbers, once, and then what has changed", "
   CHECK(float(picture.values[at + 16 * 6 * 4]) ==
         Approx(std::sqrt((variance[0] + variance[1] + variance[2]) / 3)).epsilon(1e-3));
   CHECK(EncodePicture(renderer, {{"slot", 1}}, sent).empty());
-  renderer.Pass(9, nobody, never);
+  renderer.Pass(9, observer, never);
   CHECK(Read(EncodePicture(renderer, {}, sent)).head.at("squares").size() == 4);
 }
 
 TEST_CASE("the numbers of a pixel are exact, and unknown where they are", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
-  NobodyElse nobody;
+  NoObserver observer;
   const std::atomic<bool> never{false};
-  renderer.Pass(1, nobody, never);
+  renderer.Pass(1, observer, never);
   CHECK(PixelJson(renderer, 3, 4).at("error").is_null());
-  renderer.Pass(8, nobody, never);
+  renderer.Pass(8, observer, never);
   const nlohmann::json pixel = PixelJson(renderer, 3, 4);
   CHECK(pixel.at("value")[1] == renderer.film().Mean(3, 4)[1]);
   CHECK(pixel.at("error")[2] == std::sqrt(renderer.film().Variance(3, 4)[2]));

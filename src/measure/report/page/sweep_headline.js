@@ -9,10 +9,8 @@ function whereText(values) {
 
 function certaintyText({ equals, seeds, strategies }) {
   if (seeds < 3) {
-    return (
-      `with ${seeds} ${seeds === 1 ? "seed" : "seeds"} nobody can say whether that is ` +
-      "chance; three or more give intervals"
-    );
+    const are = seeds === 1 ? "1 seed is" : `${seeds} seeds are`;
+    return `${are} too few for intervals; use 3 or more`;
   }
   if (!known(equals)) return "too many strategies to say how many are as good";
   if (equals > 0) return `${equals} of the other ${strategies - 1} may be as good`;

@@ -1,0 +1,203 @@
+// What a trial concludes of the variances and costs that it has measured.
+#include <catch2/catch.hpp>
+#include <numeric>
+#include <random>
+
+#include "src/render/train/path_records.h"
+#include "src/render/train/strategy_trial.h"
+#include "src/render/train/trial_comparison.h"
+#include "tests/agreement/agreement.h"
+
+namespace lanelight::test {
+namespace {
+
+TrialMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
+  std::mt19937 engine(seed);
+  std::exponential_distribution<double> scatter(1 / variance);
+  TrialMeasure m;
+  m.cost = cost;
+  for (int i = 0; i < 2000; ++i) m.variances.push_back(scatter(engine));
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("one strategy is clearly better only by variance times cost", "[decision]") {
+  const TrialMeasure usual = MeasureOf(3, 1);
+  // Planted: the cost, or the variance, left out would turn these around.
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(6, 0.7), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(2, 1.6), usual, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(6, 0.4), usual, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(2, 1.2), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(usual, MeasureOf(6, 0.4), 0.95));
+  // By less than the margin.
+  CHECK(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.87));
+}
+
+TEST_CASE("single pixels do not decide", "[decision]") {
+  const TrialMeasure usual = MeasureOf(1, 1);
+  TrialMeasure lucky = usual, unlucky = MeasureOf(1, 0.8);
+  TrialMeasure bright = usual;
+  bright.variances[700] = 1e6;
+  CHECK_FALSE(IsClearlyBetter(lucky, bright, 0.95));
+  unlucky.variances[31] = 1e6;
+  CHECK(IsClearlyBetter(unlucky, usual, 0.95));
+  // One in twenty is the strategy's own.
+  for (std::size_t i = 0; i < unlucky.variances.size(); i += 20) {
+    unlucky.variances[i] = 100;
+  }
+  CHECK_FALSE(IsClearlyBetter(unlucky, usual, 0.95));
+  // Equal ones from other samples: a difference of chance, by two standard errors about
+  // one time in fifty, and by 5 percent as well.
+  int better = 0;
+  for (unsigned seed = 2; seed < 102; ++seed) {
+    better += IsClearlyBetter(MeasureOf(1, 1, seed), usual, 0.95);
+  }
+  CHECK(better < 5);
+}
+
+TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
+  const TrialMeasure usual = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
+  // Means of 2000 exponential variables each: a standard error of 0.032 together.
+  const TrialGain gain = GainOf(other, usual);
+  CHECK(gain.standard_error == Approx(0.0316).epsilon(0.1));
+  CHECK(std::abs(gain.log - std::log(3 / 4.2)) < 5 * gain.standard_error);
+  CHECK(GainOf(usual, other).log == Approx(-gain.log));
+  CHECK(GainOf(usual, usual).log == 0);
+  CHECK(GainOf(usual, usual).standard_error == 0);
+  // Two pixels of 2000 carry most of the error. Planted: left out, as the worst
+  // thousandth.
+  TrialMeasure rare = MeasureOf(1, 1, 3);
+  rare.variances[5] = rare.variances[1700] = 3000;
+  const TrialGain of_rare = GainOf(MeasureOf(1, 1, 3), rare);
+  CHECK(of_rare.log == Approx(std::log(4)).epsilon(0.1));
+  CHECK(of_rare.standard_error > 0.4);
+  // Nothing was seen of one, or of both.
+  const TrialMeasure none = {1, std::vector<double>(2000)};
+  CHECK(GainOf(none, none).log == 0);
+  CHECK(GainOf(none, usual).log > 10);
+  CHECK(GainOf(usual, none).log < -10);
+}
+
+TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
+  TriedStrategy entry;
+  entry.paired = true;
+  entry.measure = MeasureOf(1, 1, 2);
+  entry.usual = MeasureOf(3, 1, 2);
+  CHECK(entry.Beyond(1.05, 2) == Approx(std::log(3 / 1.05)));
+  // Both have met the same bright samples: the gain is as large, and looks as sure.
+  const auto bright = [&](std::size_t pixels) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      entry.measure.variances[90 * i] = entry.usual.variances[90 * i] = 1e5;
+    }
+  };
+  bright(3);
+  CHECK(entry.Gain().log == Approx(std::log(3)).epsilon(0.1));
+  CHECK(EffectivePixels(entry.measure.variances) == Approx(3).epsilon(0.1));
+  CHECK(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 2) == 0);
+  bright(20);
+  CHECK_FALSE(entry.IsCarriedByFew());
+  CHECK_FALSE(entry.IsToldByTheRest());
+  CHECK(entry.Beyond(1.05, 2) > 1);
+  // No error at all is not carried by anything.
+  entry.measure = {1, std::vector<double>(2000)};
+  CHECK_FALSE(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 2) > 10);
+}
+
+// Where few pixels carry the error, a roulette that is milder than the default is judged
+// by all others. Planted: by the few as well; any other change as if it were one.
+TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]") {
+  TriedStrategy entry;
+  entry.measure = MeasureOf(1.2, 0.5, 2);
+  entry.usual = MeasureOf(1, 1, 2);
+  // A bright sample that the usual strategy has not met, though it may.
+  entry.measure.variances[700] = 1e5;
+  CHECK(entry.IsCarriedByFew());
+  CHECK(entry.Beyond(1.05, 0.5) == 0);
+  CHECK(entry.Gain().log < -2);
+  entry.lives_longer = true;
+  CHECK(entry.IsToldByTheRest());
+  CHECK(entry.Beyond(1.05, 0.5) ==
+        Approx(std::log(1 / (1.2 * 0.5) / 1.05)).epsilon(0.02));
+  // Not better, by all others either.
+  entry.measure.cost = 2.2;
+  CHECK(entry.Beyond(1.05, 0.5) == 0);
+}
+
+TEST_CASE("paths live longer by a milder roulette alone", "[decision]") {
+  const PreparedScene scene = PrepareScene(SplitRoom());
+  const TrainingOptions training;
+  const auto lives_longer = [&](const std::string& given, const std::string& changes) {
+    PlanOptions options = WithChanges(scene, {}, given);
+    StrategyTrial trial(scene, training, 1, 1 << 16);
+    TriedStrategy usual = ToTry(scene, options, "", 1);
+    TriedStrategy tried = ToTry(scene, options, changes, 1);
+    trial.Begin(1024);
+    REQUIRE(trial.Try(usual, usual));
+    REQUIRE(trial.Try(tried, usual));
+    CHECK_FALSE(usual.lives_longer);
+    return tried.lives_longer;
+  };
+  CHECK(lives_longer("", "roulette=throughput:0:2:4"));
+  CHECK(lives_longer("", "roulette=throughput:0.2"));
+  CHECK(lives_longer("", "roulette=none"));
+  CHECK_FALSE(lives_longer("", "roulette=throughput:0:1"));
+  CHECK_FALSE(lives_longer("", "roulette=throughput:0:2:0.5"));
+  CHECK_FALSE(lives_longer("", "roulette=constant"));
+  CHECK_FALSE(lives_longer("", "roulette=adjoint"));
+  CHECK_FALSE(lives_longer("", "roulette=none,directions=bsdf"));
+  CHECK_FALSE(lives_longer("roulette=none", "roulette=throughput:0:2:4"));
+}
+
+TEST_CASE("variances of samples that depend on each other are of their observations",
+          "[decision]") {
+  // Pixels of four observations, whose samples take turns: all of one are the same.
+  std::mt19937 engine(5);
+  std::normal_distribution<float> normal(1, 0.25f);
+  TrainingWork work;
+  work.spp = 8;
+  TrainingSamples samples;
+  samples.observations = 4;
+  for (std::uint32_t pixel = 0; pixel < 64 * 64; ++pixel) {
+    work.pixels.push_back(pixel);
+    float of_one[4];
+    for (float& v : of_one) v = normal(engine);
+    for (std::uint32_t k = 0; k < work.spp; ++k) {
+      const float v = of_one[k % 4];
+      samples.colors.push_back({v, v, v});
+    }
+  }
+  const ImageGuess image(64, 64, work.pixels, samples.colors);
+  const double weight = 1 / (1 + 0.01);
+  // Two samples of an observation are worth one. 2 sigma^4 / 3 is the variance of each
+  // pixel's; six standard errors: 2e-9.
+  const auto mean = [](const std::vector<double>& values) {
+    double sum = 0;
+    for (double v : values) sum += v;
+    return sum / double(values.size());
+  };
+  const double noise = 6 * std::sqrt(2.0 / 3 / (64 * 64)) + 0.02;
+  CHECK(mean(RelativeVariances(samples, work, image)) ==
+        Approx(2 * 0.0625 * weight).epsilon(noise));
+  // The mean of 16 pixels that are independent has a sixteenth of that, and of pixels
+  // that are one and the same as much as each.
+  std::vector<std::size_t> square(16), one(16, 7);
+  double of_means = 0;
+  for (std::size_t first = 0; first < work.pixels.size(); first += 16) {
+    std::iota(square.begin(), square.end(), first);
+    of_means += VarianceOfMean(samples, work, image, square) / (64 * 64 / 16);
+  }
+  CHECK(of_means ==
+        Approx(2 * 0.0625 * weight / 16).epsilon(6 * std::sqrt(2.0 / 3 / 256)));
+  CHECK(VarianceOfMean(samples, work, image, one) ==
+        Approx(VarianceOfMean(samples, work, image, std::span(one).first(1))));
+  // Planted: as if all were independent.
+  samples.observations = 8;
+  CHECK(mean(RelativeVariances(samples, work, image)) <
+        2 * 0.0625 * weight * (1 - 2 * noise));
+}
+
+}  // namespace lanelight::test
