@@ -123,8 +123,14 @@ TEST_CASE("ranges that were cancelled are scheduled again", "[scheduler]") {
   scheduler.Cancel();
   CHECK_FALSE(scheduler.Next(watch));
   CHECK(Levels(scheduler) == std::vector<std::uint64_t>{0});
-  scheduler.Begin({0, 8, 8}, {});
-  CHECK(Is(scheduler.Next(watch), 0, 0, 8));
+  // Samples that waited for the cancelled range are gone.
+  scheduler.Begin({0, 8, 4}, {});
+  const auto again = scheduler.Next(watch);
+  REQUIRE(Is(again, 0, 0, 4));
+  samples = SamplesOf(*again);
+  scheduler.Done(*again, samples, [](TaskSamples&) {});
+  CHECK(Levels(scheduler) == std::vector<std::uint64_t>{4});
+  CHECK(Is(scheduler.Next(watch), 0, 4, 8));
 }
 
 TEST_CASE("a scheduler releases idle tiles and adopts tiles of others", "[scheduler]") {
