@@ -61,8 +61,7 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
   text += fmt::format("\n{} cells, {} combinations excluded; {} are done",
                       sweep.cells.size(), sweep.excluded, sums.done);
   if (sums.failing > 0) text += fmt::format(", {} will fail", sums.failing);
-  if (sums.unknown > 0)
-    text += fmt::format(", {} take an unknown time", sums.unknown);
+  if (sums.unknown > 0) text += fmt::format(", {} take an unknown time", sums.unknown);
   text += fmt::format("\n{} of {} combinations of scene and strategy were tried",
                       prediction.probes, prediction.combinations);
   if (sums.estimated > 0) {
