@@ -24,7 +24,7 @@ HWY_INLINE VI ChoiceCodes(const SurfaceReader<Bsdf>& reader, const Slots& slots)
   const DI di;
   const PathColumns& path = reader.wave.path;
   const ShadingFrame frame =
-      reader.ShadingFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
+      reader.ReadFrame(Gather3(path.ng_x, path.ng_y, path.ng_z, slots), slots);
   const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
   const VF scale = Splat(1 << kBitsOfProbability);
   const VF p = Bsdf::FirstLobe(Bsdf::Load(reader.Inputs(slots)), wo);

@@ -33,7 +33,7 @@ struct GlossyVertices {
     const ReuseColumns& c = block.second;
     at = Gather3(c.x, c.y, c.z, records);
     const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, records);
-    frame = reader.ShadingFrame(ng, records);
+    frame = reader.ReadFrame(ng, records);
     material = Bsdf::Load(reader.Inputs(records));
   }
   HWY_INLINE V3 ToLight(const Slots& records) const {

@@ -90,7 +90,7 @@ struct Receivers {
         beta(Gather3(path().beta_r, path().beta_g, path().beta_b, records)),
         p_error(Gather(path().p_error, records)),
         depth(Gather(path().depth, records)),
-        frame(reader.ShadingFrame(ng, records)),
+        frame(reader.ReadFrame(ng, records)),
         material(Bsdf::Load(reader.Inputs(records))) {
     wo = frame.ToLocal(-Gather3(path().d_x, path().d_y, path().d_z, records));
   }

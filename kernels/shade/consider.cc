@@ -39,7 +39,7 @@ HWY_INLINE VF Worth(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
                     const Slots& slots) {
   const PathColumns& p = reader.wave.path;
   const ShadingFrame frame =
-      reader.ShadingFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
+      reader.ReadFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
   const V3 wo = frame.ToLocal(-Gather3(p.d_x, p.d_y, p.d_z, slots));
   const V3 wi = frame.ToLocal(Gather3(p.ls_x, p.ls_y, p.ls_z, slots));
   const V3 light = Mul(Gather3(p.beta_r, p.beta_g, p.beta_b, slots),

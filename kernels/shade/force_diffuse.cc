@@ -29,7 +29,7 @@ HWY_NOINLINE V3 SampledReflectance(const SurfaceReader<Bsdf>& reader,
                                    const Slots& slots) {
   const PathColumns& p = reader.wave.path;
   const ShadingFrame frame =
-      reader.ShadingFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
+      reader.ReadFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
   const V3 wo = frame.ToLocal(-Gather3(p.d_x, p.d_y, p.d_z, slots));
   VF u[4];
   DrawPoints(reader.wave, slots, u);

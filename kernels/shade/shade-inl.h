@@ -91,7 +91,7 @@ struct SurfaceReader {
     }
   }
 
-  HWY_INLINE ShadingFrame ShadingFrame(V3 ng, const Slots& slots) const {
+  HWY_INLINE ShadingFrame ReadFrame(V3 ng, const Slots& slots) const {
     const PathColumns& path = wave.path;
     V3 n = ng;
     if (path.ns_x != nullptr) n = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
@@ -201,7 +201,7 @@ struct Shader : SurfaceReader<Bsdf> {
   HWY_INLINE void operator()(const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
     const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
-    const ShadingFrame frame = this->ShadingFrame(ng, slots);
+    const ShadingFrame frame = this->ReadFrame(ng, slots);
     const V3 wo = frame.ToLocal(-Gather3(path.d_x, path.d_y, path.d_z, slots));
     const V3 beta = Gather3(path.beta_r, path.beta_g, path.beta_b, slots);
     const Material material = Bsdf::Load(this->Inputs(slots));
