@@ -23,8 +23,7 @@ import texts
 OTHER_FLAGS = {
     "array": "Slurm's sbatch", "signal": "Slurm's sbatch", "kill-on-bad-exit": "Slurm's srun",
     "joblog": "GNU parallel", "resume-failed": "GNU parallel", "retries": "GNU parallel",
-    "termseq": "GNU parallel", "map-by": "Open MPI's mpirun", "mca": "Open MPI's mpirun",
-    "branch-sim": "callgrind", "dump-instr": "callgrind", "install": "cmake",
+    "termseq": "GNU parallel", "mca": "Open MPI's mpirun", "install": "cmake",
     "component": "cmake --install", "flag": "stands for any (src/cli/completion_bash.cc)"}
 # Files that are not of this tree.
 OTHER_FILES = {}
@@ -320,7 +319,7 @@ def main():
         print(f"{file}:{number}: {what}")
     unused = [name for table in allowed for name in table if name not in check.used]
     for name in unused:
-        print(f"{OWN}: nobody speaks of {name} any more: take it out")
+        print(f"{OWN}: {name} is not mentioned any more: remove it")
     sys.exit(1 if check.found or unused else 0)
 
 
