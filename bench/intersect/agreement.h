@@ -1,4 +1,5 @@
-// Whether hits are right: against double precision on a sample, and against the peer.
+// Decides whether hits are right: against double precision on a sample, and against the
+// peer.
 #pragma once
 
 #include "bench/intersect/compare.h"

@@ -55,7 +55,7 @@ HWY_INLINE void StoreGbuffer(const Wave& wave, const Slots& slots, VI output) {
           slots, output);
 }
 
-// What a film that keeps spectra takes of a sample: radiance, which no exposure changes.
+// Stores the radiance of a sample for films that keep spectra; exposure does not apply.
 HWY_INLINE void StoreRadiance(const Wave& wave, const Slots& slots, MF bad, VI output) {
   const PathColumns& p = wave.path;
   V3 radiance = Gather3(p.l_r, p.l_g, p.l_b, slots);
@@ -82,7 +82,7 @@ HWY_INLINE MF InBuffer(const Wave& wave, VI output) {
 template <bool kSigned, bool kAov>
 void Accumulate(Wave& wave) {
   const PathColumns& p = wave.path;
-  // With reuse=block a sample is light until its block has been connected.
+  // With reuse=block, a sample is an amount of light until its block has been connected.
   const bool is_light = wave.run->planes.Has(PlaneGroup::kWeight);
   const bool keeps_spectra = wave.run->planes.Has(PlaneGroup::kRadiance);
   const VF exposure = Splat(is_light ? 1.0f : wave.run->exposure);

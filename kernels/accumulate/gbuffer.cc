@@ -1,5 +1,5 @@
-// Where the first hit is: what pbrt-v4's GBufferFilm keeps of it (Pharr, Jakob and
-// Humphreys 2023, section 5.4.3). A miss leaves the zeros that the camera stage wrote.
+// Stores the first hit as pbrt-v4's GBufferFilm does (Pharr, Jakob and Humphreys 2023,
+// section 5.4.3). A miss leaves the zeros that the camera stage wrote.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
@@ -25,7 +25,8 @@ HWY_INLINE VF Slope(const GbufferSpace& space, float scale, V3 ng, V3 sight, V3 
   return Bounded(hn::Div(change, Splat(scale)));
 }
 
-// What the stage says of: point, geometric and shading normal, and the next pixels.
+// The stored values: point, geometric and shading normal, and their change to the next
+// pixels.
 struct FirstHit {
   V3 p, ng, ns;
   PixelSteps steps;
@@ -40,8 +41,8 @@ HWY_INLINE FirstHit LoadHit(const Wave& wave, const Slots& slots) {
   return {p, ng, ns, StepsOfPaths(wave, slots, p)};
 }
 
-// As a camera that moves sees it at the times of paths, and as the one that has not moved
-// would see the same, in whose space it is then said.
+// Returns the hit in the space of the camera at the start of its motion, as the moving
+// camera sees it at the path's time.
 HWY_NOINLINE FirstHit SeenAtStart(const Wave& wave, const Slots& slots, FirstHit hit) {
   const MovedSpace moved =
       SpaceAt(OneMotion{wave.camera->motion}, Gather(wave.path.time, slots));

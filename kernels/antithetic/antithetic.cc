@@ -6,9 +6,8 @@
 //               azimuths. Numbers that are not paired are independent in both samples
 //   unbiased    u' is as uniform as u
 //   variance    (1 + rho) sigma^2 / (2N) for N pairs, rho the correlation of f(u) and
-//               f(u'): 0 if f is linear in the reflected numbers (with equal others), a
-//               gain where f is monotonic in them, a loss where it is symmetric about the
-//               middle (at worst twice the variance)
+// f(u'): 0 if f is linear in the reflected numbers, a gain if f is monotonic in them, a
+// loss if it is symmetric about the middle (at worst twice the variance)
 //   dependence  a pair is one observation
 //   cost        a few instructions per number; half of the hashes could be spared
 //   source      Hammersley and Morton 1956; the paper's equation 6

@@ -1,5 +1,5 @@
-// What a material policy is: parameters, Eval, Sample, in the local frame of the shading
-// normal (+z). The skeleton kernels/shade/shade-inl.h turns each into a stage.
+// A material policy has parameters, Eval and Sample, in the local frame of the shading
+// normal (+z). kernels/shade/shade-inl.h turns each policy into a stage.
 //
 //   struct XBsdf : PlainBsdf {
 //     what PlainBsdf below has, where it is otherwise
@@ -50,7 +50,7 @@ struct BsdfSample {
   VF pdf, eta_scale;
 };
 
-/// What a material is like unless it says otherwise.
+/// The default traits of a material.
 struct PlainBsdf {
   static constexpr bool kSpecular = false;     // only delta directions: no Eval, no
                                                // light samples
@@ -65,8 +65,8 @@ struct PlainBsdf {
   static constexpr bool kByWavelength = false;  // Load looks at the path's wavelengths
 };
 
-/// Where material parameters come from: the table, or columns filled by the texture
-/// stage. The same for every path of a scene, hence resolved once per call of a stage.
+/// The source of material parameters: the table, or columns filled by the texture stage.
+/// It is the same for all paths of a scene, so it is resolved once per stage call.
 struct MaterialSource {
   const MaterialTable* table;
   const float *color0_r, *color0_g, *color0_b, *alpha_x, *alpha_y;
@@ -133,7 +133,7 @@ struct MaterialInputs {
   LANELIGHT_INLINE VF AlphaY() const {
     return Varying(source.alpha_by_path, source.alpha_y, source.table->alpha_y);
   }
-  /// Of the metal below a coat.
+  /// Returns the roughness of the metal below a coat.
   LANELIGHT_INLINE VF Alpha2X() const {
     return Varying(source.coat_by_path, source.alpha2_x, source.table->alpha2_x);
   }
@@ -144,7 +144,7 @@ struct MaterialInputs {
     return Varying(source.coat_by_path, source.coat_thickness,
                    source.table->coat_thickness);
   }
-  /// Of the medium in a coat.
+  /// Returns the albedo of the medium in a coat.
   LANELIGHT_INLINE V3 CoatAlbedo() const {
     const MaterialSource& s = source;
     return s.medium_by_path
@@ -155,7 +155,7 @@ struct MaterialInputs {
   LANELIGHT_INLINE VF CoatG() const {
     return Varying(source.medium_by_path, source.coat_g, source.table->coat_g);
   }
-  /// Of glass without a coat.
+  /// Returns the index of glass without a coat.
   LANELIGHT_INLINE VF Eta() const {
     return Varying(source.eta != nullptr, source.eta, source.table->eta);
   }

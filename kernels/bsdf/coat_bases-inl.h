@@ -1,6 +1,6 @@
-// What lies below a medium that scatters (coated_medium-inl.h): Load, whether the base
-// is a mirror, Sample, Eval, and the proxy of the density of the
-// whole coat (coated_conductor-inl.h says what that is).
+// The bases below a scattering medium (coated_medium-inl.h). Each has Load, Sample, Eval,
+// says whether it is a mirror, and has the density proxy of the whole coat
+// (coated_conductor-inl.h).
 #ifndef LANELIGHT_BSDF_COAT_BASES_INL_H_
 #define LANELIGHT_BSDF_COAT_BASES_INL_H_
 

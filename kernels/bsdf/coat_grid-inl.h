@@ -33,7 +33,8 @@ struct CoatCell {
     return cell;
   }
 
-  /// What light that leaves the base meets again of it.
+  /// Returns the fraction of the light leaving the base that the coat reflects back to
+  /// it.
   LANELIGHT_INLINE VF Internal(const MaterialTable& t) const {
     VF sum = hn::Zero(DF());
     for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,6 @@
-// Lacquered metal: a dielectric coat over a conductor, by a random walk between the two
-// layers (the position-free walk of Guo, Hasan and Zhao 2018, as in pbrt-v4's
-// LayeredBxDF, whose depth limit and absorbing medium are kept).
+// Lacquered metal: a dielectric coat over a conductor, simulated by a random walk between
+// the two layers (position-free walk of Guo, Hasan and Zhao 2018). Depth limit and
+// absorbing medium are those of pbrt-v4's LayeredBxDF.
 #ifndef LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
 #define LANELIGHT_BSDF_COATED_CONDUCTOR_INL_H_
 
@@ -53,9 +53,10 @@ struct CoatedConductorBsdf : PlainBsdf {
     return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
   }
 
-  /// The proxy q (see above), both directions on the upper side: the coat's reflection,
-  /// the metal's as seen through it (refraction widens slopes by eta, a rough coat adds
-  /// its own), and a tenth of a cosine lobe so that it never vanishes.
+  /// The proxy q (see above), both directions on the upper side. It sums the coat's
+  /// reflection, the metal's reflection as seen through the coat, and a tenth of a cosine
+  /// lobe so that it never vanishes. Refraction widens slopes by eta; a rough coat adds
+  /// its own.
   LANELIGHT_LONG_BSDF_CALL static VF Proxy(const Params& p, V3 wo, V3 wi) {
     const V3 m = Normalize(wo + wi);
     const auto widened = [&](VF metal, VF coat) HWY_ATTR {

@@ -61,7 +61,7 @@ struct CoatedMediumBsdf : PlainBsdf {
   LANELIGHT_INLINE static MF Deeper(const Params& p, int depth) {
     return hn::RebindMask(DF(), hn::Gt(p.depth, hn::Set(DI(), depth)));
   }
-  /// What of the light survives a way of that height.
+  /// Returns the fraction of light that survives a path of this height along w.
   LANELIGHT_INLINE static VF Passes(VF height, V3 w) {
     return Exp(hn::Neg(hn::Div(height, hn::Max(hn::Abs(w.z), Splat(1e-6f)))));
   }

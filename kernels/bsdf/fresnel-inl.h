@@ -7,7 +7,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What a smooth dielectric interface does to light at incident cosine c.
+/// Reflectance and refraction of a smooth dielectric interface at incident cosine c.
 struct Interface {
   VF reflectance;
   VF cos_t;  // cosine of the refracted direction; 0 under total internal reflection

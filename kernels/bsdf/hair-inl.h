@@ -117,7 +117,7 @@ struct HairBsdf : PlainBsdf {
         .absorption = AbsorptionOf(in.Color0(), n)};
   }
 
-  /// What makes much hair of this roughness around reflect that colour.
+  /// Returns the absorption that gives much hair of this roughness that reflectance.
   LANELIGHT_INLINE static V3 AbsorptionOf(V3 reflectance, VF n) {
     VF k = MulAddScalar(n, 0.245f, Splat(5.574f));
     k = hn::MulAdd(k, n, Splat(-10.73f));
@@ -138,8 +138,8 @@ struct HairBsdf : PlainBsdf {
     return power;
   }
 
-  /// What a direction wo makes of the lobes: mean inclines, angles around, light in each
-  /// and the probability of choosing it.
+  /// The lobes for a direction wo: mean inclinations, azimuths, attenuation, and the
+  /// probability of choosing each.
   struct Lobes {
     Incline o[kLobes];
     VF phi_o, turn[kLobes - 1];

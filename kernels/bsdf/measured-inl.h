@@ -73,7 +73,7 @@ struct MeasuredBsdf : PlainBsdf {
     VF x, y, sine;
   };
 
-  /// What is the same for all directions that go with a known one.
+  /// Values shared by all directions that are paired with a known one.
   struct Known {
     const MeasuredTable& table;
     RecordWords<MeasuredRecord> record;

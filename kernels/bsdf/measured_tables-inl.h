@@ -1,5 +1,5 @@
-// Bilinear functions of measured reflectance (src/scene/compiled/measured.h), and the
-// maps of the unit square to itself that their integrals are, each linear between the
+// Bilinear functions of measured reflectance (src/scene/compiled/measured.h). Also the
+// maps of the unit square to itself that invert their integrals, linear between the
 // slices around a known direction.
 #ifndef LANELIGHT_BSDF_MEASURED_TABLES_INL_H_
 #define LANELIGHT_BSDF_MEASURED_TABLES_INL_H_
@@ -68,7 +68,8 @@ struct MeasuredFunction {
         width(record.I(offset + 4)),
         height(record.I(offset + 8)) {}
 
-  /// Where a point lies: in the cell with this first number, at (x, y) of it.
+  /// A point in a cell: the index of the cell's first number, and the coordinates (x, y)
+  /// in it.
   struct Place {
     VI cell, row;
     VF x, y;
@@ -95,12 +96,12 @@ struct MeasuredFunction {
     const VF above = Lerp(p.x, Gather(values, high), Gather(values, hn::Add(high, one)));
     return Lerp(p.y, below, above);
   }
-  /// Of a function with one slice.
+  /// Returns the value of a function with one slice.
   LANELIGHT_INLINE VF Single(VF x, VF y) const {
     const Place p = PlaceOf(x, y);
     return Between(at, p.cell, p);
   }
-  /// Of one with three slices for each.
+  /// Returns the value of a function with three slices per direction.
   LANELIGHT_INLINE V3 Color(VF x, VF y) const {
     const Place p = PlaceOf(x, y);
     const VI size = hn::Mul(width, height), three = hn::Set(DI(), 3);
@@ -154,7 +155,7 @@ struct MeasuredMap : MeasuredFunction {
     VF x, y, pdf;
   };
 
-  /// Where a point of this density comes from; the density there.
+  /// Returns the point that maps to (x, y), and the density there.
   LANELIGHT_INLINE Point Invert(VF x, VF y) const {
     const Place p = PlaceOf(x, y);
     const Corners v = CornersOf(p.cell);

@@ -47,7 +47,7 @@ void FirstFilm(Wave& wave) {
   });
 }
 
-// Of kinds that follow delta directions alone.
+// Returns whether the kind has delta directions only.
 HWY_INLINE hn::Mask<DI> IsSpecular(VI kind) {
   const DI di;
   auto specular = hn::Lt(kind, hn::Zero(di));

@@ -1,8 +1,7 @@
-// The skeleton of every camera: a place on the film, the projection's ray, a thin lens,
-// and the first values of a path. A projection is a struct with
-//   static CameraRay Project(V3 film)
-// giving the ray through a point of CompiledCamera's film, in camera space, whose
-// direction reaches the depth 1 at its end. The depth of focus then is a plane.
+// The skeleton of every camera: film position, projection, thin lens, and first values of
+// a path. A projection is a struct with static CameraRay Project(V3 film). It returns the
+// ray through a point of CompiledCamera's film in camera space; its direction reaches
+// depth 1 at its end, so the plane of focus is a plane of constant depth.
 #ifndef LANELIGHT_GENERATE_CAMERA_INL_H_
 #define LANELIGHT_GENERATE_CAMERA_INL_H_
 

@@ -1,4 +1,4 @@
-// Where on the film a sample lies.
+// Chooses the film position of a sample.
 #ifndef LANELIGHT_GENERATE_FILM_INL_H_
 #define LANELIGHT_GENERATE_FILM_INL_H_
 

@@ -56,13 +56,14 @@ inline PointOfAlpha PointOf(const TriangleRecord& r, float b1, float b2) {
   return at;
 }
 
-/// Where on a triangle a ray hits it: barycentric weights of the second and third vertex.
+/// A hit on a triangle: barycentric weights of the second and third vertex.
 struct TrianglePlace {
   uint32_t prim;
   float b1, b2;
 };
 
-/// Whether a candidate hit of ray (o, d), in scene space, counts: with probability alpha.
+/// Returns whether a candidate hit of ray (o, d), in scene space, counts: with
+/// probability alpha.
 inline bool TrianglePassesAlpha(const SceneParts& scene, const float o[3],
                                 const float d[3], const TrianglePlace& at) {
   const auto [prim, b1, b2] = at;

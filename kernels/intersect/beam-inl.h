@@ -20,15 +20,14 @@ LANELIGHT_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(
 /// only those of a frustum's rays do (AVX2: 0.25 costs bounces and shadow rays 0 to 10
 /// %).
 inline constexpr float kBeamSlope = hn::MaxLanes(DF()) >= 16 ? 0.25f : 0.05f;
-/// What rounding may change, relatively: sheared positions err by less than 10 unit
-/// roundoffs (2^-24) of |z| and of themselves, where they are tested and here, because
-/// the first step of both is the difference to the origin.
+/// Relative slack for rounding: sheared positions err by less than 10 unit roundoffs
+/// (2^-24) of |z| and of themselves, both in the test and here, because both start with
+/// the difference to the origin.
 inline constexpr float kBeamSlack = 0x1p-18f;
 
-/// Where a packet passes. Seen in the permuted axes of its rays, which must be the same,
-/// a vertex at distance z from the middle of the origins is, relative to any of the rays,
-/// at most `radius` + `slope` |z| away from where it is relative to the middle one, for
-/// the two axes across.
+/// The extent of a packet, in the permuted axes of its rays, which must be equal. Across
+/// the packet, the offset of a vertex at distance z from a ray differs from its offset to
+/// the middle ray by at most `radius` + `slope` |z| per axis.
 struct Beam {
   P3<float> o;  // middle of the origins
   float s[2], radius[2], slope[2];

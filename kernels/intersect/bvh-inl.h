@@ -64,7 +64,7 @@ LANELIGHT_INLINE SlabRay MakeSlabRay(const float o[3], const float d[3], const B
     ray.lower[a] = std::signbit(da) ? kBvhWidth : 0;
     no_number |= !(std::abs(o[a] * rcp) <= FLT_MAX);
   }
-  // What Min and Max make of NaN differs between targets: such a ray enters nothing.
+  // Min and Max treat NaN differently on each target, so a ray with NaN enters nothing.
   if (HWY_UNLIKELY(no_number)) {
     ray.rcp[0] = hn::Set(d8, 1.0f);
     ray.near[0] = hn::Set(d8, std::numeric_limits<float>::infinity());

@@ -170,7 +170,7 @@ LANELIGHT_INLINE V8 NearingEnd(const SeenPieces<V8>& s, int end, int step) {
   return hn::MulAdd(s.x[end], dx, hn::Mul(s.y[end], dy));
 }
 
-/// Whether a ray goes along one of the pieces, within 20 degrees.
+/// Returns whether a ray goes along one of the pieces, within 20 degrees.
 LANELIGHT_INLINE bool GoesAlong(const SeenPieces<V8>& s, M8 mask) {
   const D8 d8;
   const V8 x = hn::Sub(s.x[3], s.x[0]), y = hn::Sub(s.y[3], s.y[0]),

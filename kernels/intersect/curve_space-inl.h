@@ -1,8 +1,8 @@
 // Rays in the spaces of curves that their transforms stretch or mirror.
 //
-// As pbrt-v4, such curves are met in the space of their object. All lengths across a ray
-// are then those of that space, divided by how much it lengthens the ray, so that the
-// distance along the ray stays that of the scene.
+// As in pbrt-v4, rays meet such curves in object space. Lengths across a ray are those of
+// that space, divided by its stretch of the ray, so distances along the ray stay those of
+// the scene.
 #ifndef LANELIGHT_INTERSECT_CURVE_SPACE_INL_H_
 #define LANELIGHT_INTERSECT_CURVE_SPACE_INL_H_
 

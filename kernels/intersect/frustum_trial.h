@@ -1,4 +1,4 @@
-// Whether a frustum pays for the next packet of nearly equal rays.
+// Decides whether a frustum is efficient for the next packet of nearly equal rays.
 #pragma once
 
 #include <algorithm>

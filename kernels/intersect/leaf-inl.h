@@ -92,8 +92,8 @@ LANELIGHT_INLINE uint32_t UsedLanes(const SeparateLeaf& leaf) {
   return bits;
 }
 
-/// Whether the plane of a triangle lies ahead of a ray, exactly. For rays that start on
-/// or near a leaf.
+/// Returns whether the plane of a triangle lies ahead of a ray, exactly. For rays that
+/// start on or near a leaf.
 template <class Leaf>
 HWY_NOINLINE bool LaneIsAhead(const Leaf& leaf, uint32_t lane, const float o[3],
                               const float d[3]) {
@@ -127,7 +127,8 @@ struct KeptEdges {
   }
 };
 
-/// Where these are dear: the vertices' positions across the ray instead.
+/// Positions of the vertices across the ray, for targets on which edge functions are
+/// expensive.
 struct KeptVertices {
   HWY_ALIGN float x[SeparateLeaf::kVertexLanes], y[SeparateLeaf::kVertexLanes];
 
@@ -243,7 +244,7 @@ LANELIGHT_INLINE void TestLeaves(const LeafRay (&ray)[kRays],
   }
 }
 
-/// Where the leaves of a scene lie.
+/// The addresses of a scene's leaves.
 class LeafPlaces {
  public:
   explicit LeafPlaces(const Accel& accel)
@@ -260,7 +261,7 @@ class LeafPlaces {
     const std::size_t unit = kShared ? sizeof(Leaf) : unit_;
     return *reinterpret_cast<const Leaf*>(base_ + (ref & kRefIndex) * unit);
   }
-  /// Whether leaves that share vertices are SmallLeaf.
+  /// Returns whether leaves that share vertices are SmallLeaf.
   LANELIGHT_INLINE bool small() const { return unit_ == sizeof(SmallLeaf); }
 
  private:

@@ -38,8 +38,8 @@ struct PacketBounds {
     return true;
   }
 
-  /// Whether the rays are close enough for a packet to pay: measured with
-  /// bench/intersect/, see src/scene/geometry/accel.h.
+  /// Returns whether the rays are similar enough for a packet to be efficient (measured
+  /// with bench/intersect/, see src/scene/geometry/accel.h).
   LANELIGHT_INLINE bool IsNarrow(float reach) const {
     float spread = 0, extent = 0;
     for (int a = 0; a < 3; ++a) {

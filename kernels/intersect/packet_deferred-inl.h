@@ -1,4 +1,4 @@
-// What the packets of a stream leave to its single rays.
+// Subtrees that the packets of a stream leave to its single rays.
 #ifndef LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
 #define LANELIGHT_INTERSECT_PACKET_DEFERRED_INL_H_
 
@@ -19,7 +19,8 @@ class DeferredSubtrees {
  public:
   LANELIGHT_INLINE void Clear() { size_ = subtrees_ = 0; }
   bool empty() const { return size_ == 0; }
-  /// Whether `more` have room, there and on the stacks, which end with one of their own.
+  /// Returns whether `more` have room, there and on the stacks, which end with one of
+  /// their own.
   LANELIGHT_INLINE bool HasRoom(uint32_t more) const {
     return subtrees_ + more < kDeferred;
   }

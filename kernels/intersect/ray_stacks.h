@@ -27,9 +27,9 @@ inline std::uint32_t RayStackStride(int depth) {
   return 16 * (lines | 1);
 }
 
-/// Where the second half of the stacks' memory begins: half a page off what is
-/// read together with it, since addresses that agree in their last 12 bits are taken for
-/// the same by the processor until it knows better.
+/// Returns the start of the second half of the stacks' memory. It is half a page off the
+/// data that are read together with it: the processor first assumes that addresses with
+/// equal last 12 bits alias.
 inline std::size_t StackEntries(std::uint32_t words) {
   return std::size_t{kStreamRays} * words + 512;
 }

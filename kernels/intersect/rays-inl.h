@@ -1,5 +1,4 @@
-// How intersect stages read rays from the path columns and write hits or the surviving
-// shadow rays back.
+// Reads rays from the path columns and writes hits, or the surviving shadow rays, back.
 #ifndef LANELIGHT_INTERSECT_RAYS_INL_H_
 #define LANELIGHT_INTERSECT_RAYS_INL_H_
 
@@ -8,14 +7,14 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What a closest-hit query is made of: t is an upper bound, +inf at first, and is
-/// lowered, with prim, b1, b2 and inst, where a nearer hit is found. Equal distances go
-/// to the smaller primitive id. Where t is still +inf there is no hit yet, and prim is
-/// the primitive that the ray starts on (kNoPrimitive: none), which triangles leave out.
+/// The columns of a closest-hit query. t is an upper bound, initially +inf; a nearer hit
+/// lowers it and sets prim, b1, b2 and inst. Equal distances go to the smaller primitive
+/// id. While t is +inf there is no hit; prim then is the primitive that the ray starts on
+/// (kNoPrimitive: none), which triangles leave out.
 inline constexpr FieldSet kClosestRay = fields::kRay | FieldSet{Field::t};
 
-/// What a shadow ray is made of: its offset origin, direction and length. Blocked ones
-/// leave the queue, the others keep their order.
+/// The columns of a shadow ray: offset origin, direction and length. Blocked rays leave
+/// the queue, the others keep their order.
 inline constexpr FieldSet kShadowRay =
     fields::kPoint | FieldSet{Field::ng_x, Field::ng_y, Field::ng_z,       Field::ls_x,
                               Field::ls_y, Field::ls_z, Field::ls_distance};

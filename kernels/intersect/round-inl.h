@@ -1,10 +1,10 @@
 // Tests of spheres, disks and planes, for any arrangement of lanes (many rays against one
 // shape, or one ray against many shapes), with the same arithmetic in both.
 //
-// A shape offers up to two candidates, near and far, since a cut-out may drop the near
-// one. Where the origin lies within rounding error of the shape the sign of the distance
-// is decided in double precision, so surface points need only be moved by the rounding of
-// their own coordinates.
+// A shape offers up to two candidates, near and far, since alpha may drop the near one.
+// If the origin lies within rounding error of the shape, the sign of the distance is
+// decided in double precision. Surface points therefore move by the rounding of their own
+// coordinates only.
 #ifndef LANELIGHT_INTERSECT_ROUND_INL_H_
 #define LANELIGHT_INTERSECT_ROUND_INL_H_
 

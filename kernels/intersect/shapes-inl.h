@@ -90,16 +90,15 @@ inline constexpr bool kHasTree<PlaneShape> = false;
 template <>
 inline constexpr bool kHasTree<LargeSphereShape> = false;
 
-/// Where a ray meets a record: its number, the distance, and whether that is the far
-/// side.
+/// A hit on a record: its number, the distance, and whether it is on the far side.
 struct ShapePlace {
   uint32_t index;
   float t;
   bool far;
 };
 
-/// Whether a candidate of one ray counts. The far side of a sphere decides apart from the
-/// near one.
+/// Returns whether a candidate of one ray counts; the far side of a sphere is decided
+/// apart from the near one.
 template <class Shape>
 inline bool ShapePassesAlpha(const SceneParts& scene, const float o[3], const float d[3],
                              const ShapePlace& place) {

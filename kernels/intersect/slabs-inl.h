@@ -16,7 +16,7 @@ struct PacketSlabs {
   MF negative[3];
   VI octant;
 
-  /// With the arithmetic of MakeSlabRay; growth of the boxes as in Bvh.
+  /// Uses the arithmetic of MakeSlabRay, and grows boxes as Bvh does.
   LANELIGHT_INLINE PacketSlabs(V3 ray_o, V3 ray_d, VF slack, VF margin) {
     const DF df;
     const DI di;

@@ -1,4 +1,4 @@
-// What the rays of a stream are at: lists of places, made anew in each round.
+// Lists of the stream's rays by their next step, rebuilt in each round.
 #ifndef LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
 #define LANELIGHT_INTERSECT_STREAM_LISTS_INL_H_
 

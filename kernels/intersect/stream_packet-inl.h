@@ -18,10 +18,9 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// A packet goes on into a node, or a leaf, that at least so many of its rays enter.
-/// Fewer are left to the second phase. More at nodes and fewer at leaves would suit
-/// shadow rays to small triangles (soup 10 to 25 % faster), but where walls and table
-/// tops hide lamps they cost 5 to 12 %: docs/intersect.md.
+/// The least number of a packet's rays that must enter a node or a leaf; fewer are left
+/// to the second phase. Other thresholds would make shadow rays among small triangles 10
+/// to 25 % faster (soup), but cost 5 to 12 % where walls hide lamps: docs/intersect.md.
 template <bool kAny>
 inline constexpr int kNodeRays = StreamRays::kLanes >= 16  ? (kAny ? 10 : 12)
                                  : StreamRays::kLanes >= 8 ? (kAny ? 6 : 8)

@@ -11,14 +11,14 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What the slab test of a single ray needs along one axis: as in SlabRay, but `lower` is
-/// the byte offset of the near planes in WideNode::bounds[axis], as bits.
+/// The slab test of a single ray along one axis: as in SlabRay, but `lower` holds the
+/// bits of the byte offset of the near planes in WideNode::bounds[axis].
 struct AxisSlab {
   float rcp, near, far, lower;
 };
 
-/// What it needs at leaves: as in Shear, `from` as in Rays, rows as in LeafRay; the last
-/// two as bits.
+/// Values for leaves: as in Shear, `from` as in Rays, rows as in LeafRay; the last two as
+/// bits.
 struct ShearedOrigin {
   float x, y, z, t_scale;
 };
@@ -47,12 +47,12 @@ struct StreamRays {
   int32_t prim[kRoom], found[kRoom];
   int32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
-  // With instances: where a ray is (kWorldInstance, kTopSpace, or the instance whose
-  // space it is in), and where its hit is.
+  // With instances: the current space of a ray (kWorldInstance, kTopSpace, or an
+  // instance), and the instance of its hit.
   uint32_t space[kRoom], inst[kRoom];
-  // Where single rays are: the node or leaf, and the stack [bottom, top] of others, the
-  // last one kEmptyRef at the bottom: places in `refs` and `entries`. The packet phase
-  // puts subtrees off downwards from StackEnd.
+  // The position of single rays: the next node or leaf, and the stack [bottom, top] of
+  // others, with kEmptyRef at the bottom. They are indices into `refs` and `entries`. The
+  // packet phase defers subtrees downwards from StackEnd.
   int32_t next[kRoom];
   uint32_t top[kRoom], bottom[kRoom];
   // What steps of single rays read, in fours, which are written and moved together.
@@ -70,7 +70,7 @@ struct StreamRays {
       : stride(RayStackStride(depth)),
         refs(ThreadRayStacks(stride)),
         entries(reinterpret_cast<float*>(refs + StackEntries(stride))) {}
-  /// Where the part of a ray's stack ends that the packet phase fills.
+  /// Returns the end of the part of a ray's stack that the packet phase fills.
   LANELIGHT_INLINE uint32_t StackEnd(uint32_t r) const { return r * stride + kDeferred; }
   LANELIGHT_INLINE bool HasRoom() const { return size + kLanes <= kStreamRays; }
 

@@ -76,8 +76,8 @@ class SinglePhase {
     }
   }
 
-  // Whether the ray is at the way to an instance in which nothing is left: a hit may have
-  // culled all that a packet had left to the ray there.
+  // Returns whether the ray's next entry leads into an instance in which nothing is left:
+  // a hit may have culled all that a packet deferred there.
   LANELIGHT_INLINE bool HasNothingInside(uint32_t r) const {
     return IsResume(Next(r)) && stacks_.NothingInside(r);
   }
@@ -141,7 +141,7 @@ class SinglePhase {
     for (uint32_t j = 0; j < kTogether; ++j) stacks.Pop(r[j], top[j]);
   }
 
-  // Where rays r[j] enter and leave the children of a part of node[j].
+  // Computes where rays r[j] enter and leave the children of a part of node[j].
   static LANELIGHT_INLINE void TestSlabs(const StreamRays& rays,
                                          const uint32_t (&r)[kTogether],
                                          const WideNode* const (&node)[kTogether],

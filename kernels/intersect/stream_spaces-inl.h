@@ -15,9 +15,9 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What a ray's stack holds under the subtrees of an instance: the way back.
+/// The entry below the subtrees of an instance on a ray's stack: the way back.
 inline constexpr uint32_t kReturnRef = kEmptyRef - 1;
-/// What it holds above subtrees that a packet left to it in an instance: the way there.
+/// The entry above subtrees that a packet deferred in an instance: the way into it.
 LANELIGHT_INLINE constexpr uint32_t ResumeRef(uint32_t instance) {
   return kLeafBit | kSeparateBit | instance;
 }
@@ -95,7 +95,7 @@ class RaySpaces {
   }
 
  private:
-  // Where instances move.
+  // Maps the rays into an instance that moves.
   HWY_NOINLINE Rays MappedByTime(uint32_t instance, uint32_t at) const {
     const Geometry& geometry = *scene_.geometry;
     const Rays from = rays_.Load(at);

@@ -60,7 +60,8 @@ class RayStacks {
     Prefetch(ref);
   }
 
-  /// Whether nothing is left on the way that IsResume names.
+  /// Returns whether nothing is left in the instance of an entry for which IsResume
+  /// holds.
   LANELIGHT_INLINE bool NothingInside(uint32_t r) const {
     return refs_[rays_->top[r]] == kReturnRef;
   }

@@ -1,14 +1,14 @@
-// The triangle test, for any arrangement of lanes (many rays against one triangle, or one
-// ray against many triangles), with the same arithmetic in both, so that the distance
-// reported for a (ray, triangle) pair is one number whatever the traversal.
+// The triangle test for any arrangement of lanes: many rays against one triangle, or one
+// ray against many. The arithmetic is the same in both, so a pair has one distance
+// whatever the traversal.
 //
-// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection": vertices are taken
+// Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection". Vertices are taken
 // relative to the origin, axes are permuted so that |d_z| is largest, and sheared so that
-// the ray is the z axis. Each vertex is transformed without reference to its triangle,
-// so neighbours see the same 2D points, and a ray passes between two triangles only if
-// an edge function has the wrong sign. Here edge functions always have the sign of the
-// exact a*b - c*d (below), so there is no special case for zero. The signs hold unless
-// a product underflows, i.e. unless the ray passes within about 1e-19 of a vertex.
+// the ray is the z axis. Each vertex is transformed without its triangle, so neighbours
+// see the same 2D points. A ray passes between two triangles only if an edge function has
+// the wrong sign. Here edge functions have the sign of the exact a*b - c*d (below), so
+// zero is no special case. The signs hold unless a product underflows: unless the ray
+// passes within about 1e-19 of a vertex.
 //
 // Error bounds, u = 2^-24. R bounds |coordinates| of the vertices plus |o|.
 //   relative vertices     u |A|
@@ -79,7 +79,7 @@ LANELIGHT_INLINE P3<V> ShearVertex(D, const Shear<V>& ray, P3<V> v) {
           hn::Mul(ray.s.z, z)};
 }
 
-/// Whether edge functions are cheap enough to be computed for triangles that miss.
+/// True if computing edge functions of triangles that miss is cheap.
 inline constexpr bool kCheapEdges = HWY_NATIVE_FMA;
 
 /// a*b - c*e with the sign of the exact value and a relative error below 3u: with fused

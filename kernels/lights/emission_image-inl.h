@@ -13,8 +13,8 @@ struct LightUv {
   VF u, v;
 };
 
-/// With barycentric weights of the second and third vertex. Without uvs: (0,0), (1,0),
-/// (1,1), as in pbrt.
+/// Interpolates by the barycentric weights of the second and third vertex; without uvs
+/// between (0,0), (1,0), (1,1), as in pbrt.
 LANELIGHT_INLINE LightUv TriangleUv(const Geometry& geometry, VI prim, VF b1, VF b2) {
   if (geometry.uvs.empty()) return {hn::Add(b1, b2), b2};
   const float* uvs = geometry.uvs.data();

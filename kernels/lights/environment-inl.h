@@ -13,9 +13,9 @@ LANELIGHT_INLINE V3 ByRows(const float* m, V3 v) {
           Dot(Splat3(m[6], m[7], m[8]), v)};
 }
 
-/// Of a stretched environment: from a density per solid angle of the light to one of the
-/// scene. A matrix of determinant 1 that makes unit vectors `length` long makes solid
-/// angles around them 1 / length^3 as large.
+/// Converts a density per solid angle of a stretched environment to one of the scene. A
+/// matrix of determinant 1 that makes unit vectors `length` long scales solid angles
+/// around them by 1 / length^3.
 LANELIGHT_INLINE VF Stretched(VF pdf, VF length) {
   return hn::Div(pdf, hn::Mul(hn::Mul(length, length), length));
 }

@@ -30,7 +30,7 @@ LANELIGHT_INLINE Bilinear FlooredCosines(const Bilinear& c, VF middle) {
           hn::Max(c.w11, least)};
 }
 
-/// What both shapes have:
+/// The common members of both shapes:
 ///   omega     solid angle
 ///   Weights   of the corners of the square, for a unit normal of the receiver
 ///   At        the point on the light for a point of the square
@@ -55,8 +55,8 @@ struct SeenTriangle {
     return FlooredCosines({c1, c1, c0, c2}, middle);
   }
 
-  // Where the direction meets the plane. Rounding at a grazing angle must not put the
-  // point farther away than the farthest corner.
+  // Returns the intersection of the direction with the plane. Rounding at grazing angles
+  // must not put the point farther away than the farthest corner.
   LANELIGHT_INLINE V3 At(UnitSquarePoint u) const {
     const V3 direction = SampleSphericalTriangle(view, omega, u.u0, u.u1);
     const V3 p0 = triangle.p0 - from;

@@ -1,5 +1,5 @@
-// With light-selection=tree: the probability with which the tree would have selected the
-// light that a ray has hit, for multiple importance sampling. The way up from its leaf.
+// For MIS with light-selection=tree: computes the probability with which the tree would
+// have selected the light that a ray has hit, by walking up from its leaf.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"

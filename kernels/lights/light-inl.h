@@ -1,4 +1,4 @@
-// What the light kernels share: records, the loop over one shape of light, the columns of
+// Shared by the light kernels: records, the loop over one shape of light, the columns of
 // a light sample.
 #ifndef LANELIGHT_LIGHTS_LIGHT_INL_H_
 #define LANELIGHT_LIGHTS_LIGHT_INL_H_
@@ -101,7 +101,7 @@ LANELIGHT_INLINE VF HitDistance(const PathColumns& p, const Slots& slots) {
   return p.passed == nullptr ? t : hn::Add(t, Gather(p.passed, slots));
 }
 
-/// Where the ray of a path was scattered.
+/// Returns the point at which the path's ray was scattered.
 LANELIGHT_INLINE V3 ScatteredFrom(const PathColumns& p, const Slots& slots) {
   const V3 o = Gather3(p.o_x, p.o_y, p.o_z, slots);
   if (p.passed == nullptr) return o;
@@ -113,17 +113,17 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
-/// How far off the surface at q a ray must end that starts off the surface at `from`, so
-/// that neither the rounding of both points nor that of the ray has it meet q's.
+/// Returns the distance from the surface at q at which a ray from the surface at `from`
+/// must end, so that rounding of both points and of the ray cannot make it meet q's
+/// surface.
 LANELIGHT_INLINE VF Clearance(V3 from, V3 q, VF p_error) {
   return hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
                     hn::Mul(Splat(2.0f), p_error));
 }
 
-/// The shadow ray to point q with unit normal n of a surface light. It ends a little in
-/// front of the light, by a bound on the rounding of both end points (about 8 ulp of
-/// their coordinates) and the offset of its origin, so that the light does not shadow
-/// itself.
+/// The shadow ray to point q with unit normal n of a surface light. It ends slightly in
+/// front of the light, by a bound on the rounding of both end points (about 8 ulp) and
+/// the offset of its origin, so the light does not shadow itself.
 struct ShadowRay {
   V3 direction;
   VF distance2, distance, cos_light;
@@ -138,13 +138,13 @@ struct ShadowRay {
     direction = Mul(to_light, hn::Div(Splat(1.0f), distance));
     cos_light = hn::Neg(Dot(n, direction));
   }
-  /// Of a density over the light's area.
+  /// Converts a density over the light's area to one over solid angle.
   LANELIGHT_INLINE VF PdfSa(VF pdf_area) const {
     return hn::Div(hn::Mul(pdf_area, distance2), hn::Abs(cos_light));
   }
 };
 
-/// What surface lights send out.
+/// The emission of surface lights.
 struct SurfaceEmission {
   V3 radiance;
   MF two_sided;

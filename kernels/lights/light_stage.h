@@ -1,4 +1,4 @@
-// What the light-sampling stages have in common.
+// Declarations shared by the light-sampling stages.
 #pragma once
 
 #include "src/vocabulary/path/light_shapes.h"

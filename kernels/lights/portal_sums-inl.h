@@ -37,7 +37,8 @@ class PortalSums {
     return at;
   }
 
-  /// Of a point of the window with this texel; 0 where the window is black.
+  /// Returns the density of a point of the window with this texel; 0 if the window is
+  /// black.
   LANELIGHT_INLINE VD Density(VD column, VD row) const {
     const VD one = hn::Set(DD(), 1.0), zero = hn::Zero(DD());
     const VD mine = Between(column, hn::Add(column, one), row, hn::Add(row, one));
@@ -48,7 +49,7 @@ class PortalSums {
 
  private:
   LANELIGHT_INLINE VD Node(VD column, VD row) const {
-    // By way of 32 bits: AVX2 has no conversion of doubles to 64.
+    // Converts by way of 32 bits: AVX2 cannot convert doubles to 64.
     const hn::RebindToSigned<DD> di;
     const hn::Rebind<int32_t, DD> narrow;
     const VD at = hn::MulAdd(row, hn::Add(size_, hn::Set(DD(), 1.0)), column);
@@ -86,7 +87,7 @@ class PortalSums {
     return hn::Sub(hn::Sub(Below(right, high), Below(left, high)),
                    hn::Sub(Below(right, low), Below(left, low)));
   }
-  // Of the window to the left of x.
+  // Returns the sum over the window to the left of x.
   LANELIGHT_INLINE VD Left(VD x) const {
     return hn::Sub(hn::Sub(Below(x, y1_), high_), hn::Sub(Below(x, y0_), low_));
   }
@@ -132,7 +133,7 @@ class PortalSums {
       b = hn::IfThenElse(hn::AndNot(right, open), middle, b);
     }
   }
-  // Where a sum that grows linearly over that texel reaches `wanted`.
+  // Returns the position in the texel at which a linearly growing sum reaches `wanted`.
   template <class Sum>
   LANELIGHT_INLINE VD Within(VD low, VD high, VD wanted, VD texel, const Sum& sum) const {
     const VD one = hn::Set(DD(), 1.0), half = hn::Set(DD(), 0.5);

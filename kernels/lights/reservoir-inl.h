@@ -17,8 +17,8 @@ LANELIGHT_BEGIN_KERNELS
 struct Reservoir {
   VF sum, u;
 
-  /// Whether the candidate is taken. `worth`: at least 0 and finite; 0 is never taken,
-  /// and the first above 0 always is.
+  /// Returns whether the candidate is taken. `worth` is finite and at least 0; 0 is never
+  /// taken, the first above 0 always is.
   LANELIGHT_INLINE MF Take(VF worth) {
     sum = hn::Add(sum, worth);
     const MF some = hn::Gt(worth, hn::Zero(DF()));

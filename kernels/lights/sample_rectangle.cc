@@ -12,7 +12,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// What a sample needs of the lights of a batch.
+// The data of a batch's lights that a sample needs.
 struct RectangleEmitters {
   LightRectangle rectangle;
   V3 radiance;

@@ -28,7 +28,7 @@ HWY_INLINE VF NearDistance(V3 c, V3 w, VF radius) {
   return hn::Sub(along, hn::Sqrt(hn::Add(hn::Max(half2, Splat(0)), rounding)));
 }
 
-// What a sample needs of the lights of a batch.
+// The data of a batch's lights that a sample needs.
 struct SphereEmitters {
   LightSphere sphere;
   V3 radiance;

@@ -1,6 +1,6 @@
-// Light samples on emitting triangles: uniform over the area, or over the solid angle
-// (light-points=solid-angle) where that is not too small, or over that with a warp by the
-// cosine at the receiver (light-points=projected).
+// Light samples on emitting triangles: uniform over the area; or over the solid angle
+// unless that is too small (light-points=solid-angle); or with a warp by the cosine at
+// the receiver (light-points=projected).
 //   density     pdf_area = pmf / area, pdf_sa = pdf_area d^2 / |cos|; or
 //               pdf_sa = pmf / omega; or pdf_sa = pmf b(u) / omega (flat-inl.h)
 //   variance    by solid angle no noise is left of the distance and of the cosine at
@@ -18,7 +18,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// What a sample needs of the lights of a batch.
+// The data of a batch's lights that a sample needs.
 struct TriangleEmitters {
   LightTriangle triangle;
   V3 radiance;

@@ -23,10 +23,10 @@ LANELIGHT_INLINE VF SineOf(VF cosine) {
   return hn::Sqrt(hn::Max(hn::NegMulAdd(cosine, cosine, Splat(1.0f)), Splat(0)));
 }
 
-/// power cos(theta') / d^2: theta' is the least angle that the cone of normals can have
-/// with the direction from somewhere in the node's bounding sphere to p, and d the
-/// distance to its centre, at least its radius. The cosine is at least 1/50, so that no
-/// light that may contribute has probability 0, whatever the rounding.
+/// Importance is power cos(theta') / d^2. theta' is the least angle between the cone of
+/// normals and a direction from the node's bounding sphere to p. d is the distance to its
+/// centre, at least its radius. The cosine is at least 1/50, so no light that may
+/// contribute has probability 0.
 LANELIGHT_INLINE VF LightImportance(const LightNodes& node, V3 p) {
   const V3 low = node.F3(offsetof(LightNode, low)),
            high = node.F3(offsetof(LightNode, high));

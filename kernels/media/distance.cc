@@ -1,5 +1,4 @@
-// How far rays get in homogeneous media: to a point where they scatter, or to the
-// surface.
+// Samples distances in homogeneous media: to a scattering event, or to the surface.
 //   density     of scattering at d: sigma_t exp(-sigma_t d), of the channel drawn; of
 //               reaching the surface: exp(-sigma_t t)
 //   estimator   sigma_s T / mean density over channels, and T / mean density
@@ -47,7 +46,7 @@ HWY_INLINE void AddEmission(const Wave& wave, const StoreSlots& slots, V3 beta,
   Scatter3(l + Mul(beta, emitted), p.l_r, p.l_g, p.l_b, slots);
 }
 
-// What a scene and a strategy need of the walk.
+// Template parameters: the parts of the walk that a scene and a strategy need.
 template <bool interfaces, bool emission, bool equiangular>
 struct Needs {
   static constexpr bool kInterfaces = interfaces, kEmission = emission,

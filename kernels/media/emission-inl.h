@@ -1,4 +1,4 @@
-// What a medium's emission is multiplied with at a point.
+// Computes the factor of a medium's emission at a point.
 #ifndef LANELIGHT_MEDIA_EMISSION_INL_H_
 #define LANELIGHT_MEDIA_EMISSION_INL_H_
 

@@ -1,5 +1,4 @@
-// Where a path meets something in a medium: what is stored of it, and how the paths that
-// do leave the queue of rays.
+// Stores events of paths in media, and moves these paths out of the queue of rays.
 #ifndef LANELIGHT_MEDIA_EVENT_INL_H_
 #define LANELIGHT_MEDIA_EVENT_INL_H_
 

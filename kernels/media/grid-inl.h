@@ -104,10 +104,10 @@ struct CellWalk {
     const VI index = hn::Add(in(0), hn::Mul(size, hn::Add(in(1), hn::Mul(size, in(2)))));
     return Gather(grid.majorants.data(), index);
   }
-  /// Goes on to a collision in dt, in the lanes of `mask`, of which a length has `sigma`.
-  /// Where these are closer together than distances are rounded, adding dt would change
-  /// nothing, and a walk through null collisions never end: then by 8 ulps, or by a
-  /// fraction of the box that nobody sees, at least.
+  /// Advances to a collision in dt, in the lanes of `mask`, where `sigma` is the density
+  /// of collisions. If collisions are closer together than distances are rounded, adding
+  /// dt would change nothing and the walk would not end. It then advances by at least 8
+  /// ulps, or by an invisible fraction of the box.
   LANELIGHT_INLINE void Advance(MF mask, VF sigma, VF dt) {
     const VF across = hn::Mul(Splat(static_cast<float>(kMajorantCells)),
                               hn::Min(delta[0], hn::Min(delta[1], delta[2])));
@@ -117,7 +117,7 @@ struct CellWalk {
     const VF step = hn::Max(dt, hn::IfThenElseZero(stuck, least));
     t = hn::IfThenElse(mask, hn::Add(t, step), t);
   }
-  /// Where the ray leaves the cell.
+  /// Returns the distance at which the ray leaves the cell.
   LANELIGHT_INLINE VF Exit() const {
     return hn::Min(end, hn::Min(next[0], hn::Min(next[1], next[2])));
   }

@@ -1,7 +1,7 @@
-// Surfaces that only bound a medium (material "interface"): paths go straight on, and
-// neither scatter nor take part in roulette. Two stages: one takes them out of the
-// surfaces that scatter, ends those of the others that may scatter no more (which stage
-// `limit` left to this one), the other sends them on.
+// Surfaces that only bound a medium (material "interface"): paths continue straight,
+// without scattering or roulette. One stage takes these paths out of the surfaces that
+// scatter, and ends other paths at the max depth (which stage `limit` left to it). The
+// other sends them on.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/medium-inl.h"

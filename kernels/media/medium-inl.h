@@ -1,5 +1,5 @@
-// What the kernels of participating media share: coefficients, what lies beside surfaces,
-// transmittance.
+// Shared by the kernels of participating media: coefficients, media on both sides of
+// surfaces, transmittance.
 //
 // Coefficients are rgb, and a distance can be sampled for one channel only. Paths are
 // sampled from the mean of three densities, p = (p_r + p_g + p_b) / 3, one for each
@@ -26,7 +26,7 @@ LANELIGHT_BEGIN_KERNELS
 struct Media : RecordWords<MediumRecord> {
   LANELIGHT_INLINE Media(const MediumTable& table, VI medium)
       : RecordWords(table.media.data(), hn::Max(medium, hn::Zero(DI()))) {}
-  // What paths carry of coefficients: colours, or their values at three wavelengths.
+  // Coefficients as paths carry them: colours, or values at three wavelengths.
   LANELIGHT_INLINE V3 SigmaT(const Wave& wave, const Slots& slots) const {
     return Carried(wave, slots, offsetof(MediumRecord, sigma_t), MediumRow::kSigmaT);
   }
@@ -69,7 +69,7 @@ LANELIGHT_INLINE MF IsInMedium(VI medium) {
   return hn::RebindMask(DF(), hn::Gt(medium, hn::Set(DI(), kVacuum)));
 }
 
-/// What is beside the primitive of each lane.
+/// The media beside the primitive of each lane.
 struct Sides {
   const MediumTable& table;
   VI index;  // of its sides, -1: nothing

@@ -27,8 +27,9 @@ LANELIGHT_INLINE V3 Leaves(V3 left, V3 real) {
   return IfThenElse(hn::Gt(MaxComponent(after), Splat(0)), after, Splat3(0, 0, 0));
 }
 
-/// What `length` of a medium that varies leaves of a ray: tentative collisions, with one
-/// majorant for all channels, so that none needs another's weight.
+/// Returns the transmittance of `length` of a heterogeneous medium by tentative
+/// collisions, with one majorant for all channels, so that no channel needs another's
+/// weight.
 LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, VF length,
                                          WalkRandom& random) {
   CellWalk at(medium, o, d, length);
@@ -65,7 +66,7 @@ struct ShadowLeg {
   uint32_t number;
 };
 
-/// Of lanes in media with a grid; 1 for the others.
+/// Returns the transmittance of lanes in media with a grid; 1 for the others.
 HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
                                   const ShadowLeg& leg, V3 d) {
   const MediumTable& table = *wave.media;

@@ -1,5 +1,5 @@
-// What media leave of shadow rays that no surface stops. Where surfaces can only stop
-// them, all of a shadow ray lies in the medium that it starts in.
+// Applies the transmittance of media to shadow rays that no surface stops. Where surfaces
+// are all opaque, a shadow ray lies in the medium that it starts in.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/shadow-inl.h"

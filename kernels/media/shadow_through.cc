@@ -55,8 +55,8 @@ HWY_INLINE void RunOn(Wave& wave, const PathColumns& columns, QueueId place,
   wave.path = path;
 }
 
-// Of the rays whose nearest surface is known: those that reach the light go to kShadow,
-// those that meet an interface stay in kActive, with what the way there leaves.
+// Sorts rays whose nearest surface is known: those that reach the light go to kShadow,
+// those that meet an interface stay in kActive, with the transmittance so far.
 HWY_INLINE void SortLegs(Wave& wave, uint32_t leg) {
   const PathColumns& p = wave.path;
   Queue& legs = wave.queue(QueueId::kActive);

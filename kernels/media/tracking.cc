@@ -1,4 +1,5 @@
-// How far rays get in media that vary: null collisions against the majorants of cells.
+// Samples distances in heterogeneous media by null collisions against the majorants of
+// cells.
 //   density     of tentative collisions: that of the channel's majorant sigma_m; of each,
 //               that it is real: sigma_t / sigma_m
 //   estimator   a real one scatters with sigma_s / sigma_t, a null one goes on; over the
@@ -41,7 +42,7 @@ struct Track {
     f = Mul(f, relative);
     pdf = Mul(pdf, relative);
   }
-  // What the medium emits at a tentative collision at p.
+  // Adds the medium's emission at a tentative collision at p.
   HWY_INLINE void Emit(MF mask, V3 sigma_m, V3 p, V3 sigma_a) {
     const V3 candidates = Mul(odds, Mul(pdf, sigma_m));
     const V3 sent = Mul(Mul(f, sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
@@ -101,8 +102,8 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
   CellWalk at(medium, Gather3(p.o_x, p.o_y, p.o_z, slots),
               Gather3(p.d_x, p.d_y, p.d_z, slots), t);
   WalkRandom random(wave, slots, 0x1b873593u);
-  // For what comes behind, before the walk: how many numbers that draws hangs on the
-  // other lanes.
+  // Drawn before the walk, because the number of values that the walk draws depends on
+  // the other lanes.
   VF behind_0, behind_1;
   random.Next(&behind_0, &behind_1);
   Track<kEmission> track{medium, emission, channel, before};

@@ -67,7 +67,7 @@ LANELIGHT_INLINE void Interpolate(const int32_t size[3], const float* values,
   });
 }
 
-/// Where the wavelengths of paths lie in the polynomials of VoxelSpectrum.
+/// Returns the positions of the paths' wavelengths in the polynomials of VoxelSpectrum.
 LANELIGHT_INLINE V3 Places(const Wave& wave, const Slots& slots) {
   return ByBin(wave.spectra->place.data(), Wavelengths(wave.path, slots).triple);
 }

@@ -1,4 +1,4 @@
-// Numbers of walks through media that need nobody knows how many.
+// Random numbers of walks through media, whose count is not known beforehand.
 #ifndef LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
 #define LANELIGHT_MEDIA_WALK_RANDOM_INL_H_
 
@@ -41,8 +41,8 @@ struct WalkRandom {
     *u0 = ToUnit(bits.x), *u1 = ToUnit(bits.y);
     seed = hn::Add(seed, SplatU(0x9e3779b9u));
   }
-  /// The same for the lanes of `mask`; the others get theirs later. What a lane draws
-  /// then does not hang on those beside it.
+  /// The same for the lanes of `mask` only, so that a lane's numbers do not depend on the
+  /// lanes beside it.
   LANELIGHT_INLINE void NextWhere(MF mask, VF* u0, VF* u1) {
     const VU before = seed;
     Next(u0, u1);

@@ -14,7 +14,7 @@ struct GroupIndex {
   VU group, index;
 };
 
-/// Whose point is drawn: of a pixel, a group of its samples, a dimension, a seed.
+/// The key of a point: pixel, group of its samples, dimension, seed.
 struct PointKey {
   VU pixel;
   GroupIndex at;

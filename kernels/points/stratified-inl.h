@@ -1,6 +1,6 @@
-// points=stratified: jittered strata that divide as the samples grow. Any 2^m successive
-// samples of a group, from a multiple of 2^m on, fill a grid of 2^ceil(m/2) x
-// 2^floor(m/2) strata, one sample in each.
+// points=stratified: jittered strata that subdivide as samples are added. Any 2^m
+// successive samples of a group from a multiple of 2^m on fill a grid of 2^ceil(m/2) x
+// 2^floor(m/2) strata, one sample each.
 //   estimator   mean of f(x, y), with x and y the even and the odd bits of a number v
 //   whose
 //               first m bits are, over 2^m samples, each once: the van der Corput

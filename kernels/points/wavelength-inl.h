@@ -29,8 +29,8 @@ struct CircleWalk {
   VU pixel_or_tile, group, index, offset;
 };
 
-/// The column `wavelength`: the first third of its numbers, since nobody asks which of
-/// the three wavelengths glass would leave.
+/// Fills the column `wavelength` from the first third of its numbers, since dispersion
+/// does not ask here which wavelength stays.
 LANELIGHT_INLINE VF WavelengthOn(const CircleWalk& walk, uint32_t seed) {
   const VU key = SplatU(static_cast<uint32_t>(Dimension::kWavelength));
   const U4 h = Pcg4d({walk.pixel_or_tile, walk.group, key, SplatU(seed)});

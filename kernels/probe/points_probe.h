@@ -31,9 +31,9 @@ struct GroupColumns {
   std::uint32_t *group, *index, *unpaired;
 };
 
-/// Group and index in it of samples [first, first + count), first + count <= 2^31, in
-/// groups of 2^group_shift, and the samples whose unpaired numbers they draw where
-/// samples come in pairs.
+/// Computes group and index in it of samples [first, first + count), first + count <=
+/// 2^31, in groups of 2^group_shift. With antithetic sampling, also the samples whose
+/// unpaired numbers they draw.
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
                  std::uint32_t count, const GroupColumns& out);
 

@@ -26,12 +26,12 @@ HWY_INLINE void CountBatches(Wave& wave, const Queue& queue) {
   wave.lanes.vectors += (queue.size + lanes - 1) / lanes;
 }
 
-/// Whether all lanes under `mask` fulfil the condition: for LL_DCHECK.
+/// Returns whether the condition holds in all lanes under `mask`, for LL_DCHECK.
 HWY_INLINE bool AllUnder(MF mask, MF condition) {
   return hn::AllFalse(DF(), hn::AndNot(condition, mask));
 }
 
-/// Whether the queue has no more than all slots, each of them one of the wave's.
+/// Returns whether the queue has no more than all slots, each of them one of the wave's.
 HWY_INLINE bool HoldsSlots(const Wave& wave, const Queue& queue) {
   return queue.size <= wave.capacity &&
          std::all_of(queue.items, queue.items + queue.size,

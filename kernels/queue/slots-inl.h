@@ -1,4 +1,4 @@
-// How the columns of a batch of paths are reached.
+// Access to the columns of a batch of paths.
 //
 // Slots of a batch are often neighbours: the pack stage (kernels/sort/pack.cc) starts
 // every wave without gaps, and queues keep their order. Gathers and scatters cost about a

@@ -9,7 +9,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Of the lobes that serve others.
+/// The lobes whose light other pixels reuse.
 template <class Bsdf>
 HWY_INLINE BsdfValue EvalShared(const typename Bsdf::Params& material, V3 wo, V3 wi) {
   if constexpr (requires { &Bsdf::EvalShared; }) {

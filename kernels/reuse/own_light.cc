@@ -59,7 +59,7 @@ struct OwnValue {
   }
 
  private:
-  // Where it has gained nothing there is nothing to give.
+  // Returns 0 for 0: without gain there is nothing to share.
   HWY_INLINE static VF Inverse(VF v) {
     return hn::IfThenElseZero(hn::Gt(v, Splat(std::numeric_limits<float>::min())),
                               hn::Div(Splat(1.0f), v));

@@ -48,8 +48,8 @@ LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
   return hn::Add(hn::Mul(index, constant(6)), face);
 }
 
-/// What roulette on the throughput would add to the second moment of paths that have
-/// gathered g and have this throughput (training_records.cc has the formula).
+/// Adds what roulette on the throughput would add to the second moment of paths that have
+/// gathered g at this throughput (training_records.cc has the formula).
 LANELIGHT_INLINE void AddRisk(const PathColumns& p, const Slots& slots, VF throughput,
                               VF g) {
   const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);

@@ -39,7 +39,7 @@ LANELIGHT_INLINE VF Sent(const Wave& wave, const Slots& slots) {
                     Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
 }
 
-// What the path would have gathered alone.
+// Returns what the path would have gathered without splitting.
 LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered) {
   const VF since = hn::Sub(gathered, Gather(p.single_l, slots));
   return hn::Add(Gather(p.single_gathered, slots),
@@ -56,7 +56,7 @@ LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   const VF sum = hn::Add(hn::Add(hn::Div(one, weights.x), hn::Div(one, weights.y)),
                          hn::Div(one, weights.z));
   const VF about = hn::Div(sum, Splat(kBrightnessOfInverse * wave.run->exposure));
-  // Of a black image nothing is known.
+  // The second moment of a black image is unknown.
   return hn::IfThenElseZero(hn::Gt(weights.x, hn::Zero(DF())), about);
 }
 
@@ -104,8 +104,8 @@ void SinglePathEnd(Wave& wave) {
     const VF end = Alone(p, slots, gathered), square = hn::Mul(end, end);
     VF added = hn::MulAdd(square, Gather(p.risk_0, slots), Gather(p.risk_2, slots));
     added = hn::NegMulAdd(hn::Add(end, end), Gather(p.risk_1, slots), added);
-    // What rounding could have made is none; nor is what is not a number, of a path that
-    // carries nothing.
+    // Values within rounding are taken as 0, and so is NaN from a path that carries
+    // nothing.
     added = hn::IfThenElseZero(hn::Gt(added, hn::Mul(square, Splat(1e-5f))), added);
     const VF off = hn::Sub(end, AboutWhat(wave, slots));
     const VF moment = hn::Mul(hn::MulAdd(off, off, added), Gather(p.copy_weight, slots));

@@ -15,8 +15,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// With reuse=block the density with which a path finds its second vertex is to be known
-/// of any point (kernels/reuse/pairs.cc): no roulette is played on the way there.
+/// With reuse=block, the density with which a path finds its second vertex must be known
+/// at any point (kernels/reuse/pairs.cc), so no roulette is played before it.
 LANELIGHT_INLINE MF LeavesFirst(const PathColumns& p, const Slots& slots) {
   const VI first = hn::Set(DI(), static_cast<int32_t>(ReuseState::kFirst));
   return hn::RebindMask(DF(), hn::Eq(Gather(p.reuse, slots), first));

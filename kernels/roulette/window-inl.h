@@ -40,8 +40,8 @@ LANELIGHT_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
           .x);
 }
 
-/// What a unit of brightness gathered from here on would weigh in the image: the root
-/// mean square over the channels of throughput over brightness of the pixel.
+/// Returns the weight in the image of a unit of brightness gathered from here on: the
+/// root mean square over channels of throughput over pixel brightness.
 LANELIGHT_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));

@@ -10,7 +10,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// Of a stream of their own: those of the bounce go on to choose the direction.
+// Draws from a stream of its own: the numbers of the bounce still choose the direction.
 HWY_NOINLINE void DrawPoints(const Wave& wave, const Slots& slots, VF out[4]) {
   const PathColumns& p = wave.path;
   const DU du;

@@ -121,16 +121,15 @@ struct SurfaceReader {
   }
 };
 
-/// Where paths are shaded: directions to where they come from in the frame of the shading
+/// The point to shade: directions to the previous vertex in the frame of the shading
 /// normal, geometric normals, and throughputs.
 struct ShadedPoint {
   const ShadingFrame& frame;
   V3 wo, ng, beta;
 };
 
-/// What a strategy needs of a shading stage besides its material are two independent
-/// policies: where paths go (a proposal, kernels/directions/) and what light samples are
-/// weighed against (a lighting).
+/// Besides the material, a shading stage has two policies of the strategy: a proposal of
+/// directions (kernels/directions/), and a lighting, which weighs light samples.
 template <class Bsdf, class Proposal, class Lighting>
 struct Shader : SurfaceReader<Bsdf> {
   using Material = typename Bsdf::Params;
@@ -172,7 +171,7 @@ struct Shader : SurfaceReader<Bsdf> {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
     }
-    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or somebody else asks
+    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or another stage reads it
       Scatter(sample.pdf, path.bsdf_pdf, slots);
     }
     if constexpr (Lighting::kWeighs && !Bsdf::kSpecular) {

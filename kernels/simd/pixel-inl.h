@@ -6,7 +6,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Of pixel index row * width + column.
+/// Column and row of pixel index row * width + column.
 struct PixelPlace {
   VI row, column;
 

@@ -63,7 +63,7 @@ std::int64_t TargetNamed(const std::string& name) {
       fmt::format("SIMD target '{}' is not available: {}", name, WhyNoTarget(name)));
 }
 
-// What `./run build` compiles: "all" in cmake/targets.cmake.
+// The targets that `./run build` compiles: "all" in cmake/targets.cmake.
 constexpr std::int64_t kAllTargets = HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON;
 
 // Names of the bits.

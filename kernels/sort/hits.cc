@@ -7,7 +7,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// Whether what was found is a distance ahead of the ray and a primitive of the scene.
+// Returns whether the hit is ahead of the ray and a primitive of the scene.
 HWY_INLINE MF IsHit(const Wave& wave, const Slots& slots) {
   const VI prim = Gather(wave.path.prim, slots);
   const VI end = hn::Set(DI(), static_cast<int32_t>(wave.ranges->end));

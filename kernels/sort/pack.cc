@@ -1,6 +1,6 @@
-// Moves the paths that go on into the first slots, in the order of their slots, so that
-// the next wave reads its columns by whole vectors (slots-inl.h) and new paths start in
-// neighbouring slots. Numbers and sums of a path do not depend on where it lies.
+// Compacts the paths that continue into the first slots, in order. The next wave then
+// reads its columns by whole vectors (slots-inl.h), and new paths start in neighbouring
+// slots. Random numbers and sums of a path do not depend on its slot.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

@@ -1,6 +1,6 @@
-// Bump maps: the shading normal of a surface that is moved along its normal by the height
-// h(u, v) of the material's displacement texture, without moving the surface (Blinn 1978,
-// "Simulation of Wrinkled Surfaces"), with the conventions of pbrt-v4:
+// Bump maps: the shading normal of a surface displaced along its normal by h(u, v) of the
+// displacement texture, without moving the surface (Blinn 1978, "Simulation of Wrinkled
+// Surfaces"). The conventions are those of pbrt-v4:
 //   dp'/du = dp/du + (h(u + du, v) - h(u, v)) / du n,   likewise dp'/dv;
 // the steps du, dv are half of the pixel's footprint, |du/dx| + |du/dy| over 2, or 0.0005
 // where that is zero; the normal is their cross product, on the side of the geometric

@@ -127,7 +127,7 @@ HWY_INLINE void StoreCurveCoordinates(const PathColumns& path, const StoreSlots&
   Scatter(v, path.uv_v, slots);
 }
 
-// What is seen in the space of the curves: widths, normals, coordinates across.
+// Widths, normals and coordinates across, in the space of the curves.
 struct CurveFaces {
   V3 n, bitangent;
   VF width, aside;

@@ -1,5 +1,5 @@
-// Normal maps: the texel c holds the shading normal 2 c - 1 in the frame of dp/du across
-// the normal, n x dp/du, and the normal, as in pbrt-v4 (bilinear, repeated, no levels).
+// Normal maps as in pbrt-v4 (bilinear, repeated, no levels): texel c holds the shading
+// normal 2 c - 1 in the frame of dp/du across the normal, n x dp/du, and the normal.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

@@ -1,5 +1,5 @@
-// What lies one pixel beside a point (src/scene/compiled/footprint.h): in line of sight,
-// and in the tangent plane there.
+// Finds the points one pixel beside a point (src/scene/compiled/footprint.h), in the
+// camera's view and in the tangent plane.
 #ifndef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 #define LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 

@@ -23,7 +23,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What stages that give a surface another shading normal read and write.
+/// The columns that stages read and write to change the shading normal.
 inline constexpr FieldSet kReliefReads =
     fields::kNormal | fields::kTangents | fields::kUv |
     FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material};

@@ -120,10 +120,10 @@ HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
   return MulAdd(normal, hn::Mul(Splat(-2.0f), share), v);
 }
 
-// The tangents of bilinear patches with normals, turned as their face's normal is to the
-// shading normal. As in pbrt-v4 two mirrors do that, by way of an axis that is far from
-// both normals (Moeller and Hughes 1999, "Efficiently Building a Matrix to Rotate One
-// Vector to Another").
+// Turns the tangents of bilinear patches with normals as their face's normal turns to the
+// shading normal. As in pbrt-v4, two reflections about an axis far from both normals do
+// this (Moeller and Hughes 1999, "Efficiently Building a Matrix to Rotate One Vector to
+// Another").
 HWY_NOINLINE void TurnTangents(const Geometry& geometry, const TriangleLanes& tri,
                                V3 face, V3& tangent, V3& bitangent) {
   const DI di;

@@ -1,9 +1,10 @@
-// Images through their pyramids, over the footprint of a pixel: `trilinear` (Williams
+// Filters images by their pyramids over the footprint of a pixel. `trilinear` (Williams
 // 1983, "Pyramidal Parametrics") takes the level at which the longer side of the
 // footprint, twice, is a texel, and its neighbour. `ewa` takes the level of the shorter
-// axis and averages along the longer one, in steps of the shorter, with the Gaussian
+// axis and averages along the longer one in steps of the shorter. It uses the Gaussian
 // weights of Heckbert's ellipse (McCormack, Perry, Farkas and Jouppi 1999, "Feline: Fast
-// Elliptical Lines for Anisotropic Texture Mapping"); `maxanisotropy` bounds their ratio.
+// Elliptical Lines for Anisotropic Texture Mapping"). `maxanisotropy` bounds the ratio of
+// the axes.
 #ifndef LANELIGHT_TEXTURE_LEVELS_INL_H_
 #define LANELIGHT_TEXTURE_LEVELS_INL_H_
 

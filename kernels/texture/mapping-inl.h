@@ -1,4 +1,4 @@
-// Where a texture is looked up: at surface coordinates, or at the place of a point.
+// Computes texture coordinates, from surface coordinates or from the position of a point.
 #ifndef LANELIGHT_TEXTURE_MAPPING_INL_H_
 #define LANELIGHT_TEXTURE_MAPPING_INL_H_
 
@@ -74,7 +74,7 @@ LANELIGHT_INLINE TexturePair MapPoint(const TextureNode& node, const Point& at) 
           hn::MulAdd(at.v, Splat(node.sv), Splat(node.dv))};
 }
 
-/// What a step to the next pixel is in the coordinates of a lookup.
+/// The steps to the next pixel, in texture coordinates.
 struct MapSteps {
   VF s_x, t_x, s_y, t_y;
 };

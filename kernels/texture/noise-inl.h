@@ -10,8 +10,8 @@ LANELIGHT_BEGIN_KERNELS
 /// Frequency from octave to octave; not 2, so that the zeros of octaves do not coincide.
 inline constexpr float kLacunarity = 1.99f;
 
-/// One axis of the lattice: the cell modulo 256, the place in it, and the weight of its
-/// far side, 6 t^5 - 15 t^4 + 10 t^3, whose two first derivatives vanish at both ends.
+/// One axis of the lattice: the cell modulo 256, the offset t in it, and the weight of
+/// its far side, 6 t^5 - 15 t^4 + 10 t^3. Its first two derivatives vanish at both ends.
 struct NoiseAxis {
   VI cell;
   VF t, weight;

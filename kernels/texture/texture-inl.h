@@ -114,7 +114,7 @@ LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
-/// What a node makes of a texel.
+/// Applies scale, inversion and other steps of a node to a texel.
 LANELIGHT_INLINE V3 FinishTexel(const TextureNode& node, V3 color) {
   color = Mul(color, Splat(node.scale));
   if (node.invert) color = Splat3(1, 1, 1) - color;

@@ -34,7 +34,7 @@ class TexturedHits {
     uint32_t left = 0;
     taken.size = 0;
     for (uint32_t i = 0; i < size_; i += lanes) {
-      // What is written has been read: it lies before the end of this vector.
+      // Appended slots lie before the end of this vector, so they have been read already.
       const VI slots = hn::LoadU(di, slots_ + i), ids = hn::LoadU(di, ids_ + i);
       const MF valid = hn::FirstN(df, size_ - i);
       const MF same = hn::RebindMask(df, hn::Eq(ids, hn::Set(di, first)));
@@ -49,7 +49,7 @@ class TexturedHits {
   }
 
  private:
-  // How many.
+  // Returns the number appended.
   LANELIGHT_INLINE static uint32_t Append(VI values, MF mask, int32_t* to, uint32_t end) {
     const DI di;
     hn::StoreU(hn::Compress(values, hn::RebindMask(di, mask)), di, to + end);
@@ -125,7 +125,7 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   }
 }
 
-// What bounds a colour parameter from above: reflectances end at 1, indices do not.
+// Returns the upper bound of a colour parameter: 1 for reflectances, none for indices.
 LANELIGHT_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
   const DI di;
   const DF df;

@@ -82,7 +82,7 @@ LANELIGHT_INLINE V3 ByBin(const float* arrays, VI begin, VI triple) {
           Gather(arrays, at)};
 }
 
-/// Of spectra that are rows of the table.
+/// Returns the values of spectra that are rows of the table.
 LANELIGHT_INLINE V3 AtRows(const SpectrumTable& table, VI row, const Wavelengths& w) {
   const VI begin = hn::Mul(row, hn::Set(DI(), kWavelengthBins));
   return ByBin(table.rows.data(), begin, w.triple);
@@ -100,9 +100,8 @@ LANELIGHT_INLINE VF IndexAt(const SpectrumTable& table, VI row, const Wavelength
   return hn::MulAdd(part, hn::Sub(high, low), low);
 }
 
-/// What the film sees of values at the three wavelengths: linear sRGB. What three ones
-/// add to a channel is 1, so that only what two differ by from the third need be looked
-/// up.
+/// Converts values at the three wavelengths to linear sRGB. Three ones add 1 to each
+/// channel, so only the differences of two values from the third are looked up.
 LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
                               const Wavelengths& w) {
   const VF longer = hn::Sub(value.x, value.z), middle = hn::Sub(value.y, value.z);

@@ -77,7 +77,7 @@ LANELIGHT_INLINE VF SampleArc(const LocalRectangle& r, VF far2, VF u) {
   return hn::Clamp(y, r.y0, r.y1);
 }
 
-/// Where on the rectangle: distances from its corner (x0, y0) along the two sides.
+/// A point on the rectangle: distances from its corner (x0, y0) along the two sides.
 struct RectanglePoint {
   VF x, y;
 };

@@ -33,7 +33,8 @@ void AddHelpCommand(CLI::App& root);
 /// Texts of help that fit the terminal.
 std::shared_ptr<CLI::FormatterBase> FittedHelp();
 
-/// Whether it is the name of a command; if not, an error is printed that names them all.
+/// Returns whether it is the name of a command; if not, an error is printed that names
+/// them all.
 bool CheckCommand(const CLI::App& root, const std::string& word);
 
 }  // namespace lanelight

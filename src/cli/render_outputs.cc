@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Whether the image took the time that it should, and is as good as it should be.
+// Returns whether the image took the time that it should, and is as good as it should be.
 int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   const RunResult& r = report.result;
   if (!quiet && job.seconds > 0 && r.seconds > 1.05 * job.seconds &&

@@ -47,8 +47,9 @@ struct BiasVerdict {
   double tile_power = 0, image_power = 0;
   std::string worst;  // where the last round differs most, and by how much
 
-  /// Whether the first round has any power. If not, rare bright samples carry the light,
-  /// most renders miss them, and more samples would accuse the one that misses more.
+  /// Returns whether the first round has any power. If not, rare bright samples carry the
+  /// light, most renders miss them, and more samples would accuse the one that misses
+  /// more.
   bool IsTelling() const { return image_power < 0.03 && tile_power < 0.2; }
 };
 

@@ -63,8 +63,8 @@ void Log(const char* call, const char* path) {
 
 std::atomic<long> calls{0};
 
-// Whether this call is to fail; errno then says how. `half`: what a call does that is
-// killed half way.
+// Returns whether this call is to fail; errno then says how. `half`: what a call does
+// that is killed half way.
 template <class Half>
 bool Fails(const char* call, const char* path, const Half& half) {
   if (!Counts(path)) return false;

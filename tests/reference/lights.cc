@@ -143,8 +143,8 @@ Rgb Lights::Emitted(int primitive, const SurfacePoint& at, Vec3d toward) const {
                                                      : Rgb{};
 }
 
-// Whether a ray leaves through the rectangle, on the side that its corners turn to the
-// left around.
+// Returns whether a ray leaves through the rectangle, on the side that its corners turn
+// to the left around.
 bool PassesThrough(const std::vector<Vec3d>& corners, Vec3d p, Vec3d d) {
   const Vec3d x = corners[3] - corners[0], y = corners[1] - corners[0], n = Cross(x, y);
   const double ahead = Dot(corners[0] - p, n);

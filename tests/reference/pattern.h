@@ -88,8 +88,8 @@ inline Rgb MarbleColor(Vec3d p, int octaves, double roughness, double variation)
   return {curve(kRed), curve(kGreen), curve(kBlue)};
 }
 
-/// Whether (s, t) lies in one of the dots: one of radius 0.35 around a shifted centre in
-/// every cell whose noise is positive.
+/// Returns whether (s, t) lies in one of the dots: one of radius 0.35 around a shifted
+/// centre in every cell whose noise is positive.
 inline bool IsInDot(double s, double t) {
   const double i = std::round(s), j = std::round(t);
   if (Noise({i + 0.5, j + 0.5, 0.5}) <= 0) return false;

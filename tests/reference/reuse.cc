@@ -166,7 +166,7 @@ Pair ReuseTwin::Evaluate(const Arrival& x, const Vertex& y) const {
   return {x.beta * x.vertex.albedo * pdf_area, pdf_area};
 }
 
-// Whether the path of x might have found a second vertex of the owner's depth.
+// Returns whether the path of x might have found a second vertex of the owner's depth.
 bool ReuseTwin::Counts(const Arrival& x, const Path& owner) const {
   const bool black = MostOf(x.beta * x.vertex.albedo) == 0;
   const bool other_depth = x.events != owner.first->events;

@@ -14,9 +14,9 @@ inline std::filesystem::path SharedScenes() {
   return std::filesystem::path(LANELIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
-/// Whether there are shared scenes. If not, prints the line by which ctest knows that a
-/// test is skipped (tests/CMakeLists.txt). It counts for all test cases of a file, failed
-/// ones too: so a file has either none or only such as need the scenes.
+/// Returns whether there are shared scenes. If not, prints the line by which ctest knows
+/// that a test is skipped (tests/CMakeLists.txt). It counts for all test cases of a file,
+/// failed ones too: so a file has either none or only such as need the scenes.
 inline bool HaveSharedScenes() {
   if (std::filesystem::is_directory(SharedScenes())) return true;
   std::printf("skipped: no shared scenes in %s (set LANELIGHT_SCENES)\n",

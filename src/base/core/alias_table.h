@@ -14,7 +14,7 @@ namespace lanelight {
 struct AliasTable {
   AlignedVector<float> q;
   AlignedVector<std::uint32_t> alias;
-  /// What picking really does: computed from the rounded q, so that an estimator that
+  /// The real probability of each item, computed from the rounded q: an estimator that
   /// divides by it has no bias from rounding. Sums to 1.
   AlignedVector<float> probability;
 

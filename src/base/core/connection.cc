@@ -24,8 +24,8 @@ double Now() {
       .count();
 }
 
-// Whether the socket can be written to within so many milliseconds; false with 0 in
-// errno if not.
+// Returns whether the socket can be written to within so many milliseconds; false with 0
+// in errno if not.
 bool WaitToWrite(int socket, int milliseconds) {
   pollfd file = {socket, POLLOUT, 0};
   errno = 0;

@@ -13,7 +13,7 @@
 
 namespace lanelight {
 
-/// Where a server listens.
+/// The address of a server.
 struct Endpoint {
   std::string host;
   std::uint16_t port = 0;
@@ -34,8 +34,8 @@ struct EndpointType {
 
 class Connection {
  public:
-  /// Connects within `seconds`, for each address that the host has. Null, with the reason
-  /// in `why`, if nobody answers.
+  /// Connects within `seconds`, trying each address of the host. Returns null, with the
+  /// reason in `why`, if none answers.
   static std::unique_ptr<Connection> Open(const Endpoint& endpoint, double seconds,
                                           std::string& why);
 

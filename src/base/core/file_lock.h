@@ -39,18 +39,18 @@ class LockFile {
 
   /// False if the file system knows no locks. Take then grants everything.
   bool locking() const { return locking_; }
-  /// Empty if somebody else has this lock. Never waits. A lock is one byte of the file,
-  /// there or not, by the hash of its name: two names share one with a probability of
-  /// 2^-62, and are then not taken at once. Throws InputError with the system's reason if
-  /// the file system fails.
+  /// Returns the lock, or nothing if another process has it. Never waits. A lock is one
+  /// byte of the file, present or not, chosen by the hash of its name; two names share
+  /// one with a probability of 2^-62. Throws InputError with the system's reason if the
+  /// file system fails.
   std::optional<HeldLock> Take(const std::string& name) const;
   /// Tries again, with pauses, as long as go_on(seconds that it has waited) holds.
   std::optional<HeldLock> Wait(const std::string& name,
                                const std::function<bool(double)>& go_on) const;
 
   const std::string& path() const { return path_; }
-  /// False once the path names another file, or none: locks of this one then exclude
-  /// nobody who comes later.
+  /// False once the path names another file, or none: locks of this one then exclude no
+  /// later process.
   bool IsNamed() const;
 
   /// Makes `text` the content, or tries to: what is read of it is meant for people.

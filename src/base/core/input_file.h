@@ -1,5 +1,5 @@
-// The one way to a file that is read: regular ones only. A FIFO would wait for somebody
-// to write, and a device may have no end.
+// Opens files for reading; regular files only. A FIFO would wait for a writer, and a
+// device may have no end.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-/// What cannot be read: "path: cannot read: reason".
+/// Reports a file that cannot be read: "path: cannot read: reason".
 class Unreadable : public InputError {
  public:
   Unreadable(const std::string& path, const std::string& reason);
@@ -25,15 +25,16 @@ struct InputFile {
   std::size_t size;
 };
 
-/// What stands there that is no regular file: "a FIFO (a pipe)", "a device", ...; empty
-/// for a regular file, and where nothing is.
+/// Describes a path that is no regular file: "a FIFO (a pipe)", "a device", ...; empty
+/// for a regular file or a missing one.
 std::string SpecialFile(const std::string& path);
 
 /// Opens a regular file; never waits. Throws Unreadable with the system's reason, or with
 /// what it is instead.
 InputFile OpenInputFile(const std::string& path);
 
-/// What is in it. One that grows meanwhile is read as far as it went. Throws Unreadable.
+/// Returns the content of a file. A file that grows meanwhile is read up to the end
+/// found. Throws Unreadable.
 std::string ReadWholeFile(const std::string& path);
 
 }  // namespace lanelight

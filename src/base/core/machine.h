@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// Whether TimeStamp() counts: x86 whose counter runs at the same rate in every power
+/// True if TimeStamp() counts: x86 whose counter runs at the same rate in every power
 /// state, on all cores. ARM has such a counter too, but std::chrono reads it there
 /// without entering the kernel, and it is not finer.
 extern const bool kHasTimeStamps;

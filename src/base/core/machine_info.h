@@ -46,7 +46,7 @@ void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines);
 /// it and of what. Where cores are of several models, all of them.
 std::optional<std::string> ProcessorIn(std::string_view cpuinfo);
 
-/// What control groups leave to a process.
+/// The limits that control groups set for a process.
 struct GroupLimits {
   std::optional<double> quota;
   std::optional<std::uint64_t> memory_bytes;

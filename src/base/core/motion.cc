@@ -10,7 +10,7 @@ namespace {
 
 using Matrix3 = Motion::Matrix3;
 
-// Rotations that nobody sees, in radians; parts of a matrix that are rounding.
+// Negligible rotations, in radians; rounding of matrix elements.
 constexpr double kNoAngle = 1e-12, kRounding = 1e-13;
 
 Matrix3 LinearOf(const Transform& t) {
@@ -64,7 +64,7 @@ Matrix3 RotationOf(Matrix3 m) {
   return m;
 }
 
-// By `angle` about the unit vector k (Rodrigues).
+// Returns the rotation by `angle` about the unit vector k (Rodrigues).
 Matrix3 Turn(Vec3d k, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const double half = std::sin(angle / 2), rest = 2 * half * half;  // 1 - c

@@ -36,8 +36,8 @@ struct Motion {
   double Deviation(double reach) const;
 };
 
-/// Whether there is a motion from one to the other: not if one mirrors and the other does
-/// not, since what is in between would be flat.
+/// Returns whether there is a motion from one to the other: not if one mirrors and the
+/// other does not, since what is in between would be flat.
 inline bool HaveMotion(const Transform& start, const Transform& end) {
   return start.SwapsHandedness() == end.SwapsHandedness();
 }

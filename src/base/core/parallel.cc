@@ -16,9 +16,9 @@
 namespace lanelight {
 namespace {
 
-// What one thread did before Give() has happened before what another does after Take().
-// oneTBB sees to that by itself; the thread sanitizer cannot look into its library and
-// has to be told. No code in other builds.
+// Orders what one thread did before Give() before what another does after Take(). oneTBB
+// guarantees that itself; the thread sanitizer cannot see into its library. Other builds
+// contain no code for it.
 class Handover {
  public:
 #ifdef LANELIGHT_THREAD_SANITIZER

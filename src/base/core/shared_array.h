@@ -1,4 +1,4 @@
-// Arrays that nobody changes any more.
+// Immutable shared arrays.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Where in the input something stands.
+// A position in the input.
 #pragma once
 
 #include <memory>

@@ -24,7 +24,7 @@ class SparseGrid {
   /// The value at points of index space, linear between voxels, into `out`. NaN: 0.
   virtual void Interpolate(const float* x, const float* y, const float* z,
                            std::size_t count, float* out) const = 0;
-  /// Of one voxel; that of the background where none is stored.
+  /// Returns the value of a voxel, or of the background if it is not stored.
   virtual float Value(int i, int j, int k) const = 0;
   /// The largest value of voxels low to high, both included.
   virtual float LargestIn(const int low[3], const int high[3]) const = 0;
@@ -34,10 +34,10 @@ class SparseGrid {
   /// In index space, no further away than kFarthestVoxel.
   Vec3d box_min() const { return box_min_; }
   Vec3d box_max() const { return box_max_; }
-  /// Of all voxels that are stored and of the background.
+  /// The range of all stored voxels and the background.
   float smallest() const { return smallest_; }
   float largest() const { return largest_; }
-  /// Of memory.
+  /// Memory in bytes.
   std::size_t bytes() const { return bytes_; }
 
  protected:

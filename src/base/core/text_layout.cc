@@ -11,8 +11,8 @@ using Cells = std::vector<std::string>;
 
 constexpr std::size_t kGap = 2;  // between columns
 
-// Where the word ends that begins at `begin`: before a space, or after a comma, without
-// which lists of choices would be one word.
+// Returns the end of the word that begins at `begin`: before a space, or after a comma,
+// so that lists of choices can wrap.
 std::size_t WordEnd(std::string_view text, std::size_t begin) {
   for (std::size_t i = begin; i < text.size(); ++i) {
     if (text[i] == ' ') return i;

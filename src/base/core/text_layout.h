@@ -21,7 +21,7 @@ inline constexpr std::size_t kRowLabel = 10;
 std::string LabelledRow(const std::string& label, const std::string& text,
                         std::size_t width, std::size_t label_columns = kRowLabel);
 
-/// How a table is laid out.
+/// Layout of a table.
 struct TableLayout {
   std::size_t width = 80;
   /// Columns to the left that name a row: flush left, while numbers are flush right, and

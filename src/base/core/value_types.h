@@ -48,8 +48,8 @@ std::vector<T> ParseNumbers(std::string_view text, char separator) {
 /// `text` as messages show it: numbers as they are, all else in quotes.
 std::string ShownValue(std::string_view text);
 
-// Of each type: Read gives the value of a text, or nothing; Write the one text of a
-// value; Right what a text should be, after "is not".
+// Each type has Read, which returns the value of a text or nothing; Write, which returns
+// the text of a value; and Right, which describes valid texts after "is not".
 
 /// An integer, or another number, of [low, high]; never NaN.
 template <class T>
@@ -108,8 +108,8 @@ struct SecondsType {
   std::string Right(const std::string&) const;
 };
 
-/// A relative MSE, written as its root in percent: "1%" is 0.0001. Never without the sign
-/// of percent, so that nobody takes one for the other.
+/// A relative MSE, written as its root in percent: "1%" is 0.0001. The percent sign is
+/// required, so that the two cannot be confused.
 struct PercentErrorType {
   double low{}, high{};  // percent
 

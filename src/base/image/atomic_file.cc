@@ -88,7 +88,7 @@ void WriteAndRename(const std::string& path, std::string_view content) {
   Fail(path, "cannot write", error);
 }
 
-// Whether `name` is one that a temporary file of `start` may have, which is of
+// Returns whether `name` is one that a temporary file of `start` may have, which is of
 // TemporaryStart.
 bool IsTemporaryOf(const std::string& name, const std::string& start) {
   constexpr std::string_view kEnd = ".tmp";

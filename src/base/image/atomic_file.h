@@ -6,12 +6,11 @@
 
 namespace lanelight {
 
-/// Writes `content` to a temporary file in the directory of `path`, flushes it to the
-/// disk, renames it over `path`, keeping the permissions that a new file would get, and
-/// flushes the directory. On any failure (missing directory, no permission, full disk)
-/// the temporary file is removed, an existing `path` stays as it was, and InputError
-/// names the path and the system's reason. A symbolic link stays: what it leads to is
-/// replaced. Pipes and sockets are refused.
+/// Writes `content` to a temporary file in the directory of `path`, flushes it to disk,
+/// and renames it over `path` with the permissions of a new file. Then flushes the
+/// directory. On failure (missing directory, no permission, full disk) the temporary file
+/// is removed, `path` stays as it was, and InputError names the path and the reason. The
+/// target of a symbolic link is replaced, not the link. Pipes and sockets are refused.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 /// The file that a symbolic link leads to, by whatever links, whether it exists or not;
@@ -21,8 +20,8 @@ std::string LinkTarget(const std::string& path);
 /// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
 /// `path`, or as much of it as leaves room for that.
 std::string TemporaryStart(const std::string& path);
-/// Removes the temporary files of `path` that killed processes have left. Only for a path
-/// that nobody is writing, or of which nothing is kept.
+/// Removes the temporary files of `path` that killed processes left. No process may be
+/// writing `path`.
 void RemoveTemporaries(const std::string& path);
 
 /// Throws InputError with the system's reason if WriteFileAtomically could not even

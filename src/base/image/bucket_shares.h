@@ -1,4 +1,4 @@
-// What the wavelengths that a path carried add to the buckets of a film.
+// Distributes the wavelengths of a path over the buckets of a film.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What both readers of EXR files have in common.
+// Shared by both readers of EXR files.
 #pragma once
 
 #include <ImfHeader.h>
@@ -43,7 +43,7 @@ inline constexpr std::size_t kMaxExrSamplesPerByte = 4096;
 /// memory for all of these before it reads them.
 void CheckExrMemory(const std::string& content, bool reads_pixels);
 
-/// What OpenEXR says of an error is meant for programmers: this is for people.
+/// Rewrites OpenEXR's error texts, which are meant for programmers, for users.
 std::string WhyNotExr(const std::exception& error, const std::string& content);
 
 }  // namespace lanelight

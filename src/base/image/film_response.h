@@ -1,5 +1,5 @@
-// What a film makes of light: white balance, the primaries of the image, and a limit, in
-// pbrt-v4's order: samples are limited before they become primaries.
+// The response of a film: white balance, a limit, and the primaries of the image. As in
+// pbrt-v4, samples are limited before they are converted to primaries.
 #pragma once
 
 #include <cstddef>

@@ -22,12 +22,12 @@ constexpr double kAngleSlack = 1e-3;
 // Colours take time of the number of wavelengths squared; the database has 195.
 constexpr std::size_t kMostNodes = 4096;
 
-/// What the fields must look like together.
+/// Reads the fields and checks that they fit together.
 class Reader {
  public:
   explicit Reader(std::string bytes) : file_(std::move(bytes)) {}
   MeasuredReflectance Read();
-  /// Of so many known directions.
+  /// Reads the spectra of this many known directions.
   MeasuredSpectra Spectra(std::size_t phis, std::size_t thetas) const;
 
  private:
@@ -113,7 +113,7 @@ void Reader::CheckPhi(const MeasuredReflectance& m) const {
                   m.phi.front(), m.phi.back()));
 }
 
-// Of a density: each slice has some.
+// Checks that each slice of a density has mass.
 void Reader::CheckMass(const std::string& name, const MeasuredTensor& t) const {
   const auto size =
       static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);

@@ -47,7 +47,7 @@ std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     const std::string& path);
 
-/// What the colours of `reflectance` are made of: a slice for each wavelength.
+/// The spectra behind the colours of `reflectance`: a slice per wavelength.
 struct MeasuredSpectra {
   std::vector<double> nm;  // increasing
   MeasuredTensor reflectance;

@@ -13,7 +13,7 @@
 
 #include "src/base/core/error.h"
 
-// Of NanoVDB 32.
+// NanoVDB 32.
 #include <nanovdb/NanoVDB.h>
 
 namespace lanelight {
@@ -23,13 +23,14 @@ namespace lanelight {
   throw InputError(fmt::format("is damaged at its byte {}: {}", place, text));
 }
 
-/// Where a part of a grid lies in it.
+/// Returns the offset of a part in its grid.
 inline std::uint64_t PlaceIn(const void* grid, const void* part) {
   return static_cast<std::uint64_t>(static_cast<const std::uint8_t*>(part) -
                                     static_cast<const std::uint8_t*>(grid));
 }
 
-/// What does not depend on the type of values; there are `size` bytes.
+/// Checks everything that does not depend on the type of values; the grid has `size`
+/// bytes.
 inline void CheckHead(const nanovdb::GridData& grid, std::uint64_t size) {
   if (size < sizeof grid) {
     FailDamaged(0, fmt::format("{} bytes; its head alone has {}", size, sizeof grid));
@@ -49,7 +50,7 @@ inline void CheckHead(const nanovdb::GridData& grid, std::uint64_t size) {
   }
 }
 
-/// Whether lookups stay within the grid. Values may be any.
+/// True if lookups stay within the grid. Values may be any.
 template <typename BuildT>
 class TreeCheck {
  public:

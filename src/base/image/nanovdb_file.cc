@@ -23,7 +23,7 @@ namespace io = nanovdb::io;
 
 // Bytes that one byte of a compressed grid may become: of zip 1032, of blosc's LZ4 255.
 constexpr std::uint64_t kMostExpansion = 1032;
-// How much of a grid blosc compresses at a time.
+// Bytes of a grid that blosc compresses at a time.
 constexpr std::uint64_t kBloscChunk = std::uint64_t{1} << 30;
 
 // Reads on through a file, never past its end.

@@ -11,7 +11,7 @@
 #include "src/base/image/nanovdb_file.h"
 #include "src/base/image/sparse_grid.h"
 
-// Of NanoVDB 32.
+// NanoVDB 32.
 #include <nanovdb/NanoVDB.h>
 
 namespace lanelight {
@@ -21,7 +21,7 @@ template <typename BuildT>
 class TypedGrid final : public SparseGrid {
  public:
   using Grid = nanovdb::NanoGrid<BuildT>;
-  /// Of bytes that TreeCheck has found no fault with.
+  /// Takes bytes that TreeCheck has accepted.
   explicit TypedGrid(GridBytes bytes);
 
   void Interpolate(const float* x, const float* y, const float* z, std::size_t count,
@@ -115,8 +115,8 @@ void TypedGrid<BuildT>::Add(float value, Range* range) {
   if (!(value <= range->second)) range->second = value > range->second ? value : INFINITY;
 }
 
-// What the part of a node in the box holds. By the place where the node hangs: the file
-// need not be right about the place that the node itself has.
+// Sums the part of a node in the box. The position is that of the node's place in its
+// parent: the position stored in the node may be wrong.
 template <typename BuildT>
 template <typename Node>
 void TypedGrid<BuildT>::AddNode(const Node& node, const nanovdb::Coord& origin,

@@ -7,8 +7,8 @@
 
 namespace lanelight {
 
-/// What stands for an infinite value: the largest number of half precision, in which most
-/// infinities come about.
+/// The replacement of an infinite value: the largest half-precision number, since most
+/// infinities come from overflow of that type.
 inline constexpr float kLargestHalf = 65504;
 
 /// Sets values that are not a number to 0 and infinite ones to +-kLargestHalf. Returns

@@ -16,14 +16,12 @@
 
 namespace lanelight {
 
-/// What a spectrum stands for, which decides how it becomes three numbers.
-/// kAlbedo: a reflectance; the colour it shows under D65, clamped to [0, 1].
-/// kUnbounded: an index of refraction or the like; the same without the upper clamp.
-/// kIlluminant: emission; its colour, scaled to luminance Y = 1.
-/// kRadiance: the same unscaled: a constant spectrum of 1 has luminance 1. (The named
-/// illuminants and a black body's maximum are 1 as well, as in pbrt.)
-/// Colours outside the sRGB gamut have their negative channels cut to 0 (before the
-/// scaling), because light cannot be negative.
+/// The quantity that a spectrum describes, which decides how it becomes three numbers.
+/// kAlbedo: a reflectance; its colour under D65, clamped to [0, 1]. kUnbounded: an index
+/// of refraction or similar; the same without the upper clamp. kIlluminant: emission; its
+/// colour, scaled to luminance Y = 1. kRadiance: the same unscaled; a constant spectrum
+/// of 1 has luminance 1. Named illuminants and a black body's maximum are 1 as well, as
+/// in pbrt. Negative channels (colours outside sRGB) are cut to 0 before scaling.
 enum class SpectrumUse { kAlbedo, kUnbounded, kIlluminant, kRadiance };
 
 /// Colour of a black body, linear sRGB with Y = 1. `kelvin` must be positive and finite

@@ -48,7 +48,7 @@ SigmoidSpectrum SigmoidByTable(Rgb rgb);
 
 /// tan(a / 2) of p = tan(a): in (-1, 1).
 double HalfTangent(double p);
-/// Of the p of a grey: of x = 2 v - 1 = sin(a).
+/// Returns p of a grey from x = 2 v - 1 = sin(a).
 double HalfTangentOfGrey(double v);
 
 /// The polynomial through values at kUpsamplingNm: c[k] is the sum of row k times them.

@@ -28,7 +28,7 @@ inline constexpr const char* kEmptyPixels = "emptyPixels";
 /// others as possible stay above zero.
 int VarianceExponent(double largest);
 
-/// What the variances of an image that has been read are to be multiplied by.
+/// Returns the factor of the variances of an image that was read.
 double VarianceUnit(const Image& image);
 
 }  // namespace lanelight

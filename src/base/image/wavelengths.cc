@@ -89,7 +89,7 @@ Vec3d Solve(Vec3d nm, Rgb wanted) {
   return nm;
 }
 
-// How much of what the film sees lies around a wavelength.
+// Returns the film's sensitivity around a wavelength.
 double Weight(double nm) {
   const Rgb share = Shares().Density(nm);
   return std::abs(share.x) + std::abs(share.y) + std::abs(share.z) + 1e-12;

@@ -1,12 +1,11 @@
 // The wavelengths that paths carry, in three bins each.
 //
 // The visible range is cut into three segments of N bins. Bins i, N + i and 2 N + i are a
-// triple; paths draw one of the N triples. The edges are chosen so that every triple has
-// the same share of each channel of the illuminant D65: whatever triple a path has, light
-// that is white comes out white. So colours add no noise of their own to what is grey,
-// and little to anything else: the variance over triples of a diffuse surface under D65,
-// relative to its square, is 0 for white and 0.003 for skin, where three wavelengths of
-// one density, a third of it apart (pbrt-v4's), have 0.32 and 0.25.
+// triple; a path draws one of the N triples. The edges are such that every triple has the
+// same share of each channel of D65, so white light is white in every triple. Colours
+// therefore add no noise to greys, and little to anything else. The relative variance
+// over triples of a diffuse surface under D65 is 0 for white and 0.003 for skin. With
+// three wavelengths a third of pbrt-v4's density apart it is 0.32 and 0.25.
 //
 // A glass that spreads colours leaves a path one of its three wavelengths, all alike
 // likely (hero wavelengths: Wilkie et al. 2014).

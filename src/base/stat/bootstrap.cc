@@ -52,7 +52,7 @@ class Jackknife {
         means_(repetitions.columns()),
         values_(repetitions.size()) {}
 
-  // Of the repetitions with these indices.
+  // Evaluates the repetitions with these indices.
   Estimate operator()(std::span<const std::size_t> indices) {
     std::fill(sums_.begin(), sums_.end(), 0.0);
     for (std::size_t i : indices) {
@@ -95,7 +95,7 @@ double Studentised(const Estimate& resample, double value) {
              : kInfinity;
 }
 
-// By how much the bootstrap's quantile exceeds Student's.
+// Returns the factor by which the bootstrap's quantile exceeds Student's.
 double Widening(Jackknife& jackknife, std::size_t n, double value, double tail) {
   std::vector<std::size_t> indices(n);
   std::vector<double> t;

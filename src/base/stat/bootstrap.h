@@ -33,15 +33,14 @@ using OfMeans = std::function<double(std::span<const double> means)>;
 /// at the measured ones; infinite if it is not known: fewer than two repetitions, or `f`
 /// is undefined when one of them is left out. `confidence` in (0, 1).
 ///
-/// The standard error is the jackknife's (Tukey 1958): it sees what one repetition that
-/// dominates the mean does to a logarithm, which the delta method does not. The factor in
-/// front of it is Student's quantile with n - 1 degrees of freedom, widened where the
-/// symmetric studentised bootstrap (Hall 1988, "On symmetric bootstrap confidence
-/// intervals") asks for more, which it does for skewed repetitions. Resampling cannot see
-/// further than its resamples: below 8 repetitions (C(2n-1, n) different resamples: 6435
-/// for 8, but 35 for 4) Student's t stands alone, and above a confidence of 0.99 it is
-/// widened by as much as at 0.99. For repetitions without spread: 0.
-/// Deterministic. About n + 2000 n evaluations of `f` (n below 8 repetitions).
+/// Returns the half width of a confidence interval. The standard error is the jackknife's
+/// (Tukey 1958), which sees the effect of one dominating repetition on a logarithm; the
+/// delta method does not. Its factor is Student's quantile with n - 1 degrees of freedom.
+/// The symmetric studentised bootstrap (Hall 1988, "On symmetric bootstrap confidence
+/// intervals") widens it for skewed repetitions. Below 8 repetitions, which have too few
+/// resamples, Student's t stands alone. Above a confidence of 0.99 the factor is that of
+/// 0.99. Repetitions without variance: 0. Deterministic. Takes about n + 2000 n
+/// evaluations of `f` (n below 8 repetitions).
 double HalfWidth(const Repetitions& repetitions, const OfMeans& f, double confidence);
 
 }  // namespace lanelight::stat

@@ -11,10 +11,11 @@ namespace lanelight::stat {
 /// `growth`.
 ///
 /// Robbins' normal mixture (1970, "Statistical methods related to the law of the iterated
-/// logarithm", Annals of Mathematical Statistics 41) with the variance of the mixture at
-/// the first look; for sums that are normal only in the limit, an asymptotic confidence
-/// sequence (Waudby-Smith, Arbour, Sinha, Kennedy and Ramdas 2024, "Time-uniform central
-/// limit theory and asymptotic confidence sequences", Annals of Statistics 52).
+/// logarithm", Annals of Mathematical Statistics 41), with the variance of the mixture at
+/// the first look. For sums that are normal only in the limit it is an asymptotic
+/// confidence sequence (Waudby-Smith, Arbour, Sinha, Kennedy and Ramdas 2024,
+/// "Time-uniform central limit theory and asymptotic confidence sequences", Annals of
+/// Statistics 52).
 double TimeUniformQuantile(double growth, double confidence);
 
 }  // namespace lanelight::stat

@@ -1,4 +1,5 @@
-// Whether one of several measurements of the same quantity departs from the others.
+// Decides whether one of several measurements of the same quantity departs from the
+// others.
 #pragma once
 
 #include <span>
@@ -7,11 +8,10 @@
 
 namespace lanelight::stat {
 
-/// Mean of independent measurements of one quantity, weighted by the inverses of their
-/// variances. Where they scatter more than their variances explain, as their chi-square
-/// says, its variance is multiplied by Birge's (1932) ratio, chi-square over its degrees
-/// of freedom: some variance is too small then, and nobody knows whose. Measurements of
-/// variance 0 (below `least_variance`) count as if they had `least_variance` > 0.
+/// Mean of independent measurements of one quantity, weighted by inverse variances. If
+/// their chi-square shows that they vary more than their variances explain, the variance
+/// of the mean is multiplied by Birge's (1932) ratio, chi-square over its degrees of
+/// freedom. Variances below `least_variance` count as `least_variance` > 0.
 struct Consensus {
   MeanEstimate estimate;
   double birge = 1;  // at least 1

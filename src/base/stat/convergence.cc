@@ -55,7 +55,7 @@ Target Continue(std::span<const Point> points, const Point& from, double error) 
           true};
 }
 
-// Where the curve falls to `error` (a logarithm) for the last time.
+// Finds where the curve falls to `error` (a logarithm) for the last time.
 Target Find(std::span<const Point> points, double error) {
   const auto above = [&](const Point& p) { return p.error > error; };
   const auto last = std::find_if(points.rbegin(), points.rend(), above);

@@ -39,7 +39,7 @@ double StudentTwoSided(double t, double nu) {
   LL_CHECK(nu > 0);
   if (std::isinf(t)) return 0;
   if (std::isinf(nu)) return 2 * NormalCdf(-std::abs(t));
-  // With x = nu / (nu + t^2): I_x(nu/2, 1/2).
+  // I_x(nu/2, 1/2) at x = nu / (nu + t^2).
   const double t2 = t * t;
   return BetaI(nu / 2, 0.5, nu / (nu + t2), t2 / (nu + t2));
 }

@@ -1,4 +1,4 @@
-// What an error is relative to.
+// The denominator of relative errors.
 #pragma once
 
 namespace lanelight {

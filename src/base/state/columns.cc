@@ -42,7 +42,7 @@ struct Block {
   hdf5::Handle in_memory, in_file;  // data spaces
 };
 
-// How many rows a chunk has: of a dataset without any, all.
+// Returns the rows of a chunk; of a dataset without chunks, all rows.
 hsize_t RowsOfChunk(const hdf5::Handle& dataset, const std::vector<hsize_t>& dims) {
   const hdf5::Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose, "chunks");
   std::vector<hsize_t> chunk = dims;

@@ -16,7 +16,8 @@ namespace lanelight {
 void WriteColumn(hid_t group, const StateColumn& column, const TileRows* tiles,
                  bool compress);
 
-/// Whether `group` ("pixels", "tables", or "", the file) has a column of this name.
+/// Returns whether `group` ("pixels", "tables", or "", the file) has a column of this
+/// name.
 bool HasColumn(hid_t file, const std::string& group, const std::string& name);
 /// Its rows; throws hdf5::Failure if there is none.
 std::size_t ColumnRows(hid_t file, const std::string& group, const std::string& name);

@@ -50,7 +50,7 @@ struct StateFile::Impl {
   PixelRect window;
   std::vector<PixelRect> tiles;
 
-  // What HDF5 cannot do in action() is an error of this file.
+  // Reports HDF5 errors of action() as errors of this file.
   template <class Action>
   auto Do(const Action& action) const {
     const hdf5::Session session;

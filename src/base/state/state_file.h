@@ -16,16 +16,16 @@
 
 namespace lanelight {
 
-/// What a state file of this program says it is; a file with another number is refused.
+/// The schema of state files. Files with another number are refused.
 inline constexpr std::uint64_t kStateSchema = 1;
 
-/// What goes into a state file.
+/// The content of a state file.
 struct StateContent {
   std::string identity;  // of the run, JSON
   std::string report;    // what it has done so far, JSON
   PixelRect window;      // of the film
-  /// Whose pixels the file holds: inside the window, none empty, no two overlapping, in
-  /// any order.
+  /// The tiles whose pixels the file holds: inside the window, not empty, not
+  /// overlapping, in any order.
   std::vector<PixelRect> tiles;
   /// One row per pixel of the window, row by row; the file holds those of the tiles.
   std::vector<StateColumn> pixels;
@@ -33,12 +33,12 @@ struct StateContent {
   bool compress = true;  // takes ten times as long as to write them as they are
 };
 
-/// Compresses the content, in the thread that calls and in memory of the file's size,
-/// writes it beside `path` and renames it, so that `path` is the old or the new state at
-/// any time, whole and on the disk. Throws InputError with path and reason if that fails
-/// (full disk, no permission, no such directory); then the old file stays and nothing
-/// else does. What does not fit together (a column with too few rows, tiles that overlap,
-/// a name used twice) fails a check. The same content gives the same bytes.
+/// Compresses the content in the calling thread, writes it to a temporary file and
+/// renames it to `path`, flushed to disk. `path` is the old or the new state at any time.
+/// Needs memory of the file's size. Throws InputError with path and reason on failure
+/// (full disk, no permission, missing directory); the old file then stays. Inconsistent
+/// content (missing rows, overlapping tiles, repeated names) fails a check. The same
+/// content gives the same bytes.
 void WriteState(const StateContent& content, const std::string& path);
 
 /// A copy of a content, to be written while the render goes on: all its columns, in

@@ -51,7 +51,7 @@ hdf5::Handle NewFile() {
 // Its bytes, complete, where HDF5 has them until the file is closed.
 std::span<char> BytesOf(const hdf5::Handle& file) {
   hdf5::Check(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "flush");
-  // Of HDF5's part of the file; the memory is longer.
+  // The size of HDF5's part of the file; the memory is longer.
   const ssize_t size =
       hdf5::Check(H5Fget_file_image(file.get(), nullptr, 0), "the size of the file");
   void* handle = nullptr;  // of this driver: where it keeps the address

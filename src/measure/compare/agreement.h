@@ -1,4 +1,4 @@
-// Whether two renders agree within their own variances.
+// Decides whether two renders agree within their own variances.
 #pragma once
 
 #include <string>

@@ -42,10 +42,11 @@ stat::MeanEstimate VarianceAround(const TileLayout& layout,
                                   const std::vector<stat::MeanEstimate>& tiles,
                                   std::size_t tile);
 
-/// Whether the mean of a tile rests on enough: (mean / standard error)^2 is how many
-/// samples of equal value would scatter as much, and where a mean is made of rare bright
-/// ones, an image may have missed them all, and its own scatter does not show it. Also by
-/// the other's variance, of `other_per_own` times as many samples, if it has more.
+/// Returns whether the mean of a tile rests on enough: (mean / standard error)^2 is how
+/// many samples of equal value would scatter as much, and where a mean is made of rare
+/// bright ones, an image may have missed them all, and its own scatter does not show it.
+/// Also by the other's variance, of `other_per_own` times as many samples, if it has
+/// more.
 bool RestsOnEnough(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
                    double other_per_own);
 

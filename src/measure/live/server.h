@@ -17,7 +17,7 @@ inline constexpr int kMostConnections = 32;
 /// Of these, from one address: others get in while one client holds on to all it can.
 inline constexpr int kMostFromOne = kMostConnections / 2;
 
-/// Whether a client may connect, given how many connections each address has.
+/// Returns whether a client may connect, given how many connections each address has.
 template <typename Counts, typename Address>
 bool MayConnect(const Counts& connections, const Address& client) {
   int all = 0, own = 0;

@@ -9,7 +9,7 @@ namespace lanelight::live {
 /// 128 bits from the system's source of randomness, as 32 hexadecimal digits.
 std::string MakeToken();
 
-/// Whether both are the same, in a time that does not tell how much of them is.
+/// Returns whether both are the same, in a time that does not tell how much of them is.
 bool SameToken(std::string_view a, std::string_view b);
 
 }  // namespace lanelight::live

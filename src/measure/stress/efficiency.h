@@ -9,8 +9,8 @@
 
 namespace lanelight::stress {
 
-/// Whether all curves of the case (two or more) are named as `--strategy` would be told,
-/// or "default".
+/// Returns whether all curves of the case (two or more) are named as `--strategy` would
+/// be told, or "default".
 bool ComparesStrategies(const CaseResult& result);
 
 /// Of curves that are strategies. The curve that others are compared with: "default",

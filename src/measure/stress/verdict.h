@@ -1,5 +1,5 @@
-// Whether what was measured is what must be true, and how wrong it could have been
-// without being noticed.
+// Decides whether what was measured is what must be true, and how wrong it could have
+// been without being noticed.
 #pragma once
 
 #include <cstddef>

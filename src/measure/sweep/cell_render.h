@@ -32,7 +32,7 @@ class CellRenderer {
 
   /// What a compiled scene is of: cells of the same text share it.
   std::string SceneKey(const SweepCell& cell) const;
-  /// Whether this machine has the cell's SIMD target.
+  /// Returns whether this machine has the cell's SIMD target.
   static bool HasTarget(const SweepCell& cell);
 
  private:

@@ -21,7 +21,7 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
 /// Of all cells, ascending.
 std::vector<std::string> StageNames(const std::vector<nlohmann::json>& cells);
 
-/// Whether the page shows a measure, of those that a cell has.
+/// Returns whether the page shows a measure, of those that a cell has.
 bool IsOnPage(const std::string& measure);
 
 /// A cell as the page has it (docs/sweep.md); numbers that are not known are null.

@@ -13,7 +13,7 @@ struct ErrorTarget {
   bool Any() const { return relmse > 0 || rmse > 0; }
 };
 
-/// Whether the upper ends of the estimate's intervals are below the target.
+/// Returns whether the upper ends of the estimate's intervals are below the target.
 bool Reached(const ErrorTarget& target, const ErrorEstimate& estimate);
 
 /// The estimate refuses to name an upper end, and goes on doing so: kHopeless times as

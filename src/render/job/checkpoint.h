@@ -20,7 +20,7 @@
 
 namespace lanelight {
 
-/// Whether a render goes on from a state.
+/// True if a render goes on from a state.
 enum class Resume {
   kNever,  // a state that is there already is an error: it would be lost
   kIfAny,  // from the state if there is one
@@ -66,7 +66,7 @@ class Checkpoint : public RunKeeper {
   /// After the last Keep: waits for what is being written. If the state cannot be written
   /// where it should be, it goes to the temporary directory. Messages about that.
   std::vector<std::string> Finish();
-  /// Whether the last state that was to be kept is on the disk.
+  /// Returns whether the last state that was to be kept is on the disk.
   bool kept() const { return kept_; }
   /// Of all calls of Keep: how often, and how long the render stood still for them.
   int count() const { return count_; }

@@ -1,4 +1,4 @@
-// Whether a render fits into this machine's memory, before anything is allocated.
+// Decides whether a render fits into this machine's memory, before anything is allocated.
 #pragma once
 
 #include <cstdint>

@@ -56,7 +56,7 @@ struct Setting : SettingText {
   std::function<std::optional<std::string>(const RenderSettings&)> text;
 
   bool Is(unsigned use) const { return (uses & use) != 0; }
-  /// Whether it is anything else than without being asked for.
+  /// Returns whether it is anything else than without being asked for.
   bool IsSet(const RenderSettings& s) const { return text(s) != text({}); }
 };
 

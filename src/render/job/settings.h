@@ -20,7 +20,7 @@ struct Film;              // src/scene/description/film.h
 struct KnownTree;         // src/scene/accel/tree_source.h
 struct SceneDescription;  // src/scene/description/description.h
 
-/// Whether decide=pilot is the default of a render that is asked for no strategy, neither
+/// True if decide=pilot is the default of a render that is asked for no strategy, neither
 /// by its settings nor by the scene.
 enum class DefaultDecision {
   kNever,
@@ -86,8 +86,8 @@ inline constexpr int kMaxThreads = 1024;
 /// that are out of range, wherever they come from.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 
-/// Whether decide=pilot is in force though nobody asked for it: with kIfLong, for 4
-/// seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
+/// Returns whether decide=pilot is in force though nobody asked for it: with kIfLong, for
+/// 4 seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
 inline constexpr double kLeastDecidedSeconds = 4;
 

@@ -21,7 +21,7 @@ constexpr microseconds kFirstNap(100), kLongestNap(10000);
 // While bytes are on their way, which MPI moves piece by piece when it is called.
 constexpr microseconds kTransferNap(100);
 
-// Whether the request has ended; if not, the caller has given up.
+// Returns whether the request has ended; if not, the caller has given up.
 bool Await(MPI_Request request, microseconds longest = kLongestNap,
            const std::function<bool()>& gives_up = nullptr) {
   int done = 0;

@@ -1,4 +1,4 @@
-// Whether a strategy makes sense on a scene.
+// Decides whether a strategy makes sense on a scene.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ void FindRepeated(Phase& phase) {
   LL_CHECK_LT(phase.first_repeated, phase.last_repeated);
 }
 
-// Whether two vertices see each other has nothing to do with lights.
+// Returns whether two vertices see each other has nothing to do with lights.
 void FindShadowKernels(const Stages& registered, Plan& plan) {
   if (!plan.features.Has(Feature::kReuse)) return;
   RayKernels& found = plan.ray_kernels;

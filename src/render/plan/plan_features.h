@@ -22,7 +22,8 @@ bool SamplesFlatLights(const FeatureSet& features);
 /// Light samples of a vertex are not all the same in a plan of these features.
 bool SamplesOfLightDiffer(const FeatureSet& features);
 
-/// Whether the scene's strategy integrates lights apart, and it has any that can be seen.
+/// Returns whether the scene's strategy integrates lights apart, and it has any that can
+/// be seen.
 bool SeesLightsApart(const PreparedScene& scene);
 
 /// Of camera rays that are followed to the light they see and no further: a part of

@@ -1,4 +1,4 @@
-// Whether two strategies are one on a scene: what a render would do, as a text.
+// Decides whether two strategies are one on a scene: what a render would do, as a text.
 #pragma once
 
 #include <string>

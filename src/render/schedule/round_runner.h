@@ -25,14 +25,14 @@ class RoundRunner {
   virtual RunCounts Counts() const = 0;
   /// Samples of all pixels together, merged or not. Safe from any thread.
   virtual std::uint64_t Taken() const = 0;
-  /// Whether another process was interrupted or has failed: begin no more rounds.
+  /// Returns whether another process was interrupted or has failed: begin no more rounds.
   virtual bool Stopped() const { return false; }
   /// Ends the work of other processes. Throws RankFailure if one of them has failed.
   virtual void Finish() {}
 
   /// Samples per pixel that all tiles have.
   std::uint64_t Done() const { return Levels().least; }
-  /// Whether all tiles have exactly so many samples per pixel.
+  /// Returns whether all tiles have exactly so many samples per pixel.
   bool IsAt(std::uint64_t samples) const {
     const TileLevels levels = Levels();
     return levels.least == samples && levels.most == samples;

@@ -1,6 +1,6 @@
-// Whether paths that serve their block (reuse=block) would pay, from a few samples of
-// whole tiles with and without, with the same random numbers: paths are the same up to
-// their second vertices, so that a rare bright one is in both.
+// Decides whether paths that serve their block (reuse=block) would pay, from a few
+// samples of whole tiles with and without, with the same random numbers: paths are the
+// same up to their second vertices, so that a rare bright one is in both.
 #include <cmath>
 #include <map>
 #include <utility>

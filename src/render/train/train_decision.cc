@@ -103,7 +103,8 @@ class Decider {
     return Choose();
   }
 
-  // Whether the strategy as given splits paths with these changes, before its training.
+  // Returns whether the strategy as given splits paths with these changes, before its
+  // training.
   bool Splits(const std::string& changes) const {
     return PlannedStrategy(scene_, WithChanges(scene_, options_, changes)).Splits();
   }

@@ -84,7 +84,7 @@ class Projector {
   }
 
  private:
-  // Whether pixels are those of a plane. Others find small lights by chance.
+  // Returns whether pixels are those of a plane. Others find small lights by chance.
   bool HasPlane() const {
     return camera_.kind == CameraKind::kPerspective ||
            camera_.kind == CameraKind::kOrthographic;

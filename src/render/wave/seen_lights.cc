@@ -79,7 +79,7 @@ class SeenRanges {
       for (std::size_t i = 0; i < count; ++i) range[c].Add(values[c * stride + i]);
     }
   }
-  // Whether what pixels up to `reach` away see differs much.
+  // Returns whether what pixels up to `reach` away see differs much.
   bool IsEdge(std::uint32_t pixel, int reach) {
     const int x = static_cast<int>(pixel % image_width_),
               y = static_cast<int>(pixel / image_width_);

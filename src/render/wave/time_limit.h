@@ -19,9 +19,9 @@ class TimeLimit {
 
   /// A task has ended, `now` seconds into the run. Safe from any thread, as is the next.
   void Ended(double now) { last_ = now; }
-  /// Whether what is in flight is to be cancelled. After a stop (`stopped`) or the budget
-  /// it has kAfterStop. While pixels have no sample yet (not `every_pixel`), time may be
-  /// over without a stop; then tasks go on as long as one ends within Wait().
+  /// Returns whether what is in flight is to be cancelled. After a stop (`stopped`) or
+  /// the budget it has kAfterStop. While pixels have no sample yet (not `every_pixel`),
+  /// time may be over without a stop; then tasks go on as long as one ends within Wait().
   bool IsOver(bool stopped, bool every_pixel, double now);
 
   /// Seconds: the budget, but at least 1 and at most 10.

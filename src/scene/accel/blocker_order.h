@@ -17,11 +17,11 @@ struct ChildOdds {
 /// average (Cauchy and Crofton: Santalo 1976, chapter 14), taken to be independent.
 float BlockingOdds(float area, float half_area_of_box);
 
-/// Sets `shadow_octants` and `shadow_first` of a node. What a shadow ray meets first may
-/// end it, so the cost of an order is the sum over children of what it takes to follow a
-/// ray through them if nothing before has blocked it (Nah and Manocha 2014, "SATO:
-/// Surface Area Traversal Order for Shadow Ray Tracing", order by the area alone). The
-/// best slot to begin with is taken where it saves enough against the order along rays.
+/// Sets `shadow_octants` and `shadow_first` of a node. The first hit may end a shadow
+/// ray, so the cost of an order is the sum over children of the cost of following rays
+/// that nothing before has blocked (after Nah and Manocha 2014, "SATO: Surface Area
+/// Traversal Order for Shadow Ray Tracing"). The best first slot is used if it saves
+/// enough over the order along rays.
 void SetBlockerOrder(const ChildOdds (&odds)[kBvhWidth], WideNode& node);
 
 }  // namespace lanelight

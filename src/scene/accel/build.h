@@ -1,4 +1,4 @@
-// Builds the trees over shapes that kernels read (src/scene/geometry/accel.h).
+// Builds the BVHs that kernels read (src/scene/geometry/accel.h).
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace lanelight {
 
 struct Geometry;  // src/scene/geometry/geometry.h
 
-/// How to build; the defaults are what rendering uses. What counts as few serves tests
-/// and bench.
+/// Options of the build; rendering uses the defaults. Tests and bench change what counts
+/// as few.
 struct AccelOptions {
   std::uint32_t few_triangles = kFewTriangles;
   std::uint32_t few_round = kFewRound;
@@ -18,7 +18,7 @@ struct AccelOptions {
   int leaf_triangles = kLeafTriangles;  // or half as many: LeafTrianglesFor
 };
 
-/// What is traced fastest with vectors of so many lanes.
+/// Returns the leaf size that is traced fastest with vectors of this many lanes.
 inline constexpr int LeafTrianglesFor(int lanes) {
   return lanes < kLeafTriangles ? SmallLeaf::kLanes : TriangleLeaf::kLanes;
 }

@@ -51,9 +51,8 @@ struct BuiltTree {
   std::vector<std::uint32_t> ids;  // of the items of leaf after leaf
 };
 
-/// What a leaf may hold: at most `items` shapes (0: one shape, and leaf references are
-/// item ids themselves), for which `fits` is true if it is set; `capacity` is what
-/// `typical` said.
+/// Limits of a leaf: at most `items` shapes for which `fits` is true, if it is set (0:
+/// one shape, and leaf references are item ids). `capacity` is the value of `typical`.
 struct LeafLimit {
   std::uint32_t items = kBvhWidth;
   /// Cost of one level of the binary tree relative to testing one leaf: a wide node holds

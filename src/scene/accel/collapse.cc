@@ -112,11 +112,11 @@ class Collapser {
     }
   }
 
-  // Slots such that a ray whose direction is negative in the axes given by the bits of
-  // `octant` meets the children about nearest first in the order 0 ^ octant, 1 ^ octant,
-  // ...: bit a of a slot says that its child lies towards the upper end of axis a. The
-  // pair of child and slot that gains most is fixed first (a greedy form of Ylitie,
-  // Karras and Laine 2017, section 3.2). slot[s] is the child of slot s, -1 if unused.
+  // Assigns children to slots so that a ray with negative direction in the axes of
+  // `octant` meets them about nearest first in the order 0 ^ octant, 1 ^ octant, ...: bit
+  // a of a slot means that its child lies towards the upper end of axis a. The pair of
+  // child and slot that gains most is fixed first (greedy form of Ylitie, Karras and
+  // Laine 2017, section 3.2). slot[s] is the child of slot s, or -1.
   void AssignSlots(const AccelBox& box, const std::uint32_t child[kBvhWidth], int count,
                    int slot[kBvhWidth]) const {
     float gain[kBvhWidth][kBvhWidth];
@@ -160,7 +160,7 @@ class Collapser {
   std::vector<Subtree>* rest_;
 };
 
-// Where a part lies in the whole.
+// The position of a part in the whole.
 struct Place {
   std::size_t node = 0, leaf = 0;
 

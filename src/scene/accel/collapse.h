@@ -10,11 +10,11 @@
 namespace lanelight {
 
 /// Fills `cost`, `left` and, above leaves, `area` of `node`, whose subtree is complete
-/// and whose children are planned. A ray meets a node with a probability in proportion to
+/// and whose children are planned. A ray meets a node with a probability proportional to
 /// its surface, so the cost of a forest is the sum of half areas times kWideNodeCost or
-/// kLeafCost. The best forest of at most i trees under a node is the best pair of forests
-/// of k and i - k trees under its children, and one tree is a wide node over the best
-/// forest of 8 (Ylitie, Karras and Laine 2017, section 3.1).
+/// kLeafCost. The best forest of at most i trees under a node combines forests of k and i
+/// - k trees under its children. One tree is a wide node over the best forest of 8
+/// (Ylitie, Karras and Laine 2017, section 3.1).
 void PlanCollapse(BinaryTree& tree, std::uint32_t node);
 
 /// Appends the planned tree to `nodes`, and its leaves to `leaves`. `single`: leaf

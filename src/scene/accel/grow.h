@@ -1,4 +1,4 @@
-// By how much the boxes of shapes are grown.
+// Grows the boxes of shapes against rounding.
 #pragma once
 
 #include <algorithm>

@@ -69,8 +69,8 @@ Hull TreeBoxes(const Bvh& bvh, const AccelBox& box, std::size_t limit,
   return hull;
 }
 
-// What instances of a group are bounded by: a rotated box is up to twice as large as the
-// box of what is in it, and rays enter every instance whose box they meet.
+// Returns the bounds of the instances of a group. A rotated box can be twice as large as
+// the box of its content, and rays enter every instance whose box they meet.
 Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
             const AccelBox& box, const AlignedVector<WideNode>& nodes) {
   const std::size_t maps =

@@ -57,8 +57,8 @@ class LeafVertices {
   int count_ = 0;
 };
 
-/// How many triangles a shared leaf of `most` holds if they share vertices as these do:
-/// its lanes or its vertices run out. Vertices are told apart by a hash.
+/// Returns how many triangles a shared leaf of at most `most` typically holds, limited by
+/// its lanes or vertices. Vertices are distinguished by a hash.
 inline std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
                                  const AlignedVector<TriangleRecord>& records,
                                  std::uint32_t most) {

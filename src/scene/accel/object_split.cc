@@ -20,7 +20,7 @@ struct Bin {
   std::uint32_t count = 0;
 };
 
-// Where an item falls: bin = (center2 - lo) * scale. Monotonic in the centre.
+// Maps an item to its bin: (center2 - lo) * scale, monotonic in the centre.
 struct Binning {
   Vec3f lo, scale;
   int bins;
@@ -96,7 +96,7 @@ void Fill(const BuildItem* items, std::uint32_t count, const Binning& binning, i
   }
 }
 
-// By several threads. Boxes and counts do not depend on the order.
+// Bins with several threads. Boxes and counts do not depend on the order.
 template <int kCount, int kAxes>
 void FillTogether(const BuildItem* items, std::uint32_t count, const Binning& binning,
                   int axis, AxisBins<kCount, kAxes>& bins) {

@@ -20,8 +20,8 @@ inline float Blocks(std::uint32_t count, std::uint32_t leaf_size) {
   return static_cast<float>((count + leaf_size - 1) / leaf_size);
 }
 
-/// What to look for: splits into leaves of `leaf_size` items along all axes, or only
-/// along the one where the centres are most apart; and ObjectSplit::overlap.
+/// Parameters of the search: splits into leaves of `leaf_size` items along all axes, or
+/// only along the one on which centres are farthest apart; and ObjectSplit::overlap.
 struct SplitSearch {
   std::uint32_t leaf_size = 1;
   bool overlap = false, one_axis = false;

@@ -124,7 +124,7 @@ class Sides {
     }
   }
 
-  // Where to put an item that lies on both sides: 2 = cut it (reference unsplitting:
+  // Chooses the side of an item that overlaps both: 2 = split it (reference unsplitting:
   // Stich, Friedrich and Dietrich 2009, section 4.4).
   int Choose(const BuildItem& item, bool room) const {
     const float area[2] = {box_[0].HalfArea(), box_[1].HalfArea()};

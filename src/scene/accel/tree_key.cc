@@ -12,7 +12,7 @@
 namespace lanelight {
 namespace {
 
-// What is hashed in the end: values, and hashes of long arrays.
+// Collects what is hashed: values, and hashes of long arrays.
 class KeyText {
  public:
   template <typename T>

@@ -1,4 +1,4 @@
-// What finding or building the trees over shapes took.
+// The cost of finding or building the BVHs.
 #pragma once
 
 #include <cstddef>

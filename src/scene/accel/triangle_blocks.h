@@ -9,9 +9,9 @@
 
 namespace lanelight {
 
-/// What leaves may hold: as many triangles as fit into a shared leaf of up to
-/// `leaf_triangles`, or, where these are typically no more than half as many, into a
-/// SeparateLeaf. The capacity tells which: SeparateLeaf::kLanes is no other's.
+/// Returns the limits of leaves: as many triangles as fit into a shared leaf of up to
+/// `leaf_triangles`, or a SeparateLeaf if these typically are at most half as many. The
+/// capacity SeparateLeaf::kLanes identifies the latter.
 LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records, int leaf_triangles);
 
 /// Appends the leaves of a tree to `blocks`: first Place for each of them, then

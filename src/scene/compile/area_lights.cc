@@ -50,7 +50,7 @@ class AreaLightCompiler {
   const Placement& placement_;
   CompiledGeometry& compiled_;
   LightList& lights_;
-  // Of each area light: its image or 0, and the image's mean (else 1).
+  // Per area light: its image or 0, and the image's mean (else 1).
   std::vector<std::uint32_t> images_;
   std::vector<Rgb> means_;
 };

@@ -15,7 +15,7 @@ namespace {
 // Beyond this stretch float32 cannot square what kernels square.
 constexpr double kMostStretch = 0x1p30;
 
-// How widths become larger: the cube root of what volumes do.
+// Returns the factor of widths: the cube root of the factor of volumes.
 double ScaleOf(const Transform& transform) {
   const double scale = transform.UniformScale();
   return scale > 0 ? scale : std::cbrt(std::abs(transform.Determinant3()));

@@ -29,10 +29,9 @@ double TexelLuminance(const AlignedVector<float>& rgb, std::size_t i) {
   return Luminance({rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]});
 }
 
-// What pbrt-v4 takes for the illuminance of the map on a plane facing +z. The integral
-// has 4 pi / texels sr per texel; pbrt weighs with 2 pi / texels, so that its images come
-// out twice as bright as asked for. Scenes are made to look right in pbrt, hence so do
-// we.
+// Returns what pbrt-v4 takes for the illuminance of the map on a plane facing +z. The
+// integral has 4 pi / texels sr per texel; pbrt uses 2 pi / texels, so its images are
+// twice as bright as requested. Scenes are made for pbrt, so we do the same.
 double PbrtIlluminance(const AlignedVector<float>& rgb, int size) {
   double sum = 0;
   for (int y = 0; y < size; ++y) {

@@ -1,9 +1,8 @@
 // environment-image tables: a texel by its row, then by its column in that row.
 //   density     pdf_sa = P(texel) * texels / (4 pi); all texels fill the same solid angle
-//   compensated P ~ max(0, L - mean L). With two techniques that take as many samples
-//   each
-//               and the balance heuristic, whose sum of densities is sampled in effect,
-//               this brings p_light + p_bsdf closest to L where p_bsdf is uniform
+// compensated P ~ max(0, L - mean L). With two techniques of equal sample counts and the
+// balance heuristic, the sum of densities is sampled. This P brings p_light + p_bsdf
+// closest to L if p_bsdf is uniform
 //   unbiased    scattered rays must find what has no probability any more: with
 //               directions=mis only, where their weight is 1 there
 //   variance    falls where the sky is much dimmer than a sun; at most slightly higher
@@ -71,7 +70,7 @@ double Sum(const std::vector<double>& weights) {
   return sum;
 }
 
-// What lies above the mean; all of it where that is nothing.
+// Returns what lies above the mean, or all of it if nothing does.
 std::vector<double> AboveMean(const std::vector<double>& luminance) {
   const double sum = Sum(luminance), mean = sum / static_cast<double>(luminance.size());
   std::vector<double> above(luminance.size());

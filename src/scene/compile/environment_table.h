@@ -5,13 +5,11 @@
 
 namespace lanelight {
 
-/// What texels of `environment` are sampled by: in proportion to
-/// their luminance; `compensated`: to what it has above the mean over the sphere, as
-/// where scattered rays are weighed against light samples and find the rest (Karlik, Sik,
-/// Vevoda, Skrivan and Krivanek 2019, "MIS Compensation: Optimizing Sampling Techniques
-/// in Multiple Importance Sampling"). An image that is the same everywhere, but for
-/// rounding, has nothing above its mean and keeps the plain table. That of a black
-/// image is empty.
+/// Makes the table by which texels of `environment` are sampled: in proportion to their
+/// luminance, or with `compensated` to its excess over the mean. BSDF samples then find
+/// the rest (Karlik, Sik, Vevoda, Skrivan and Krivanek 2019, "MIS Compensation:
+/// Optimizing Sampling Techniques in Multiple Importance Sampling"). A constant image has
+/// no excess and keeps the plain table. The table of a black image is empty.
 std::shared_ptr<const EnvironmentTable> MakeEnvironmentTable(
     bool compensated, const Environment& environment);
 

@@ -99,7 +99,7 @@ Feature FeatureOf(CameraKind camera) {
   return Feature::kCount;
 }
 
-// Of paths that carry wavelengths.
+// Adds the features of paths with wavelengths.
 void AddSpectra(const CompiledScene& scene, FeatureSet& features) {
   const MaterialTable& m = scene.materials;
   features.Add(Feature::kSpectral);

@@ -21,7 +21,7 @@ constexpr double kMeshRange = 4096;
 // Frame coordinates stay below this, so that their cubes do not overflow.
 constexpr double kLargestCoordinate = 0x1p30;
 
-// What a shape is to the camera: how far off, and where its part that matters is.
+// A shape as the camera sees it: its distance, and the position of its relevant part.
 struct Seen {
   double reach;
   Box box;
@@ -63,7 +63,7 @@ Seen SeenMesh(const PlacedShape& placed, const Box& box, Vec3d eye) {
   for (const Vec3d& vertex : placed.mesh->positions) {
     const Vec3d p = placed.transform.Point(vertex);
     const double distance = Length(p - eye);
-    // Of one that the eye lies on it sees nothing.
+    // A camera on a shape's surface sees nothing of that shape.
     if (distance < reach * 0x1p-24) continue;
     if (distance < near.reach) near.reach = distance, nearest = p;
   }

@@ -1,10 +1,10 @@
 // Which part of a scene float32 is to resolve best: what the camera sees up close.
 //
-// A coordinate is rounded in proportion to its distance from the frame's origin, and what
-// is far from the camera looks small. So where sizes span more than kFocusRange, the
-// frame's origin is put among what is near the camera, and spheres that are far larger
-// than the camera's distance to them are compiled in a form that is exact where the
-// camera stands (LargeSphereRecord in src/scene/geometry/geometry.h).
+// A coordinate is rounded in proportion to its distance from the frame's origin, and
+// distant things look small. If sizes span more than kFocusRange, the frame's origin is
+// placed near the camera. Spheres much larger than the camera's distance to them are
+// compiled in a form that is exact near the camera (LargeSphereRecord in
+// src/scene/geometry/geometry.h).
 #pragma once
 
 #include <vector>
@@ -29,9 +29,9 @@ Foot FootOn(Vec3d center, double radius, Vec3d eye);
 /// Emitting ones stay, since light samples on them need the ordinary form.
 void SeparateLargeSpheres(Placement& placement);
 
-/// What users are told of emitting spheres that would be large: from a radius of
-/// kMostEmitterRange times the camera's distance on, their surface is off by more than
-/// 1 % of that distance. Appends to `notes`; needs `eye`.
+/// Appends a note about emitting spheres that are too large. From a radius of
+/// kMostEmitterRange times the camera's distance on, their surface is off by more than 1
+/// % of that distance. Needs `eye`.
 inline constexpr double kMostEmitterRange = 4e4;
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
 

@@ -6,7 +6,7 @@ GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
                                  const WorldFrame& frame) {
   if (film.gbuffer == Gbuffer::kNone) return {};
   const bool in_camera = film.gbuffer == Gbuffer::kCamera;
-  // What is subtracted first keeps the digits of points near to it.
+  // Subtracting first keeps the digits of nearby points.
   const Transform scene_from_space =
       in_camera ? frame.After(camera.world_from_camera) : frame.After(Transform());
   const Transform space_from_scene = scene_from_space.Inverse();

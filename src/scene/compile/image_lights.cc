@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-// What an image of intensity comes to: its mean, weighed, over a domain of some size.
+// The flux of an intensity image: its weighted mean over a domain of some size.
 struct ImageFlux {
   Rgb mean;
   double size;

@@ -62,9 +62,9 @@ bool TraceElements(std::span<const LensElement> elements, LensPath& ray) {
   });
 }
 
-// From the film on. A file goes from the front to the rear; its rows are the radius,
-// positive if the centre lies towards the film, the distance to the next surface or the
-// film, the index of refraction of what follows, the diameter.
+// Returns the surfaces from the film outwards; files list them from front to rear. A row
+// has the radius (positive if the centre lies towards the film), the distance to the next
+// surface or the film, the index of what follows, and the diameter.
 std::vector<LensElement> ElementsOf(const Camera& camera) {
   const std::vector<double>& file = camera.lens;
   const auto index_of = [](double eta) { return eta == 0 ? 1 : eta; };
@@ -107,9 +107,9 @@ Cardinal CardinalOf(const Camera& camera, const std::vector<LensElement>& elemen
           ray.o.z + (height - ray.o.x) / ray.d.x * ray.d.z};
 }
 
-// How far the lenses are to move towards the scene. With s' and s from the principal
-// planes to film and object, 1 / s' + 1 / s = 1 / f, and s' + s is what lies between film
-// and object less the distance of the planes, wherever the lenses are.
+// Returns how far the lenses move towards the scene. With s' and s from the principal
+// planes to film and object, 1 / s' + 1 / s = 1 / f. s' + s is the distance of film and
+// object less that of the planes, wherever the lenses are.
 double FocusShift(const Camera& camera, const std::vector<LensElement>& elements) {
   const Cardinal scene_side = CardinalOf(camera, elements);
   const Cardinal mirrored = CardinalOf(camera, Reversed(elements));
@@ -135,7 +135,7 @@ struct Bounds {
     x0 = std::min(x0, x), x1 = std::max(x1, x);
     y0 = std::min(y0, y), y1 = std::max(y1, y);
   }
-  // By so many steps of a grid over `of`.
+  // Grows by this many steps of a grid over `of`.
   void Grow(const Bounds& of, double steps) {
     const double x = steps * (of.x1 - of.x0) / kGrid, y = steps * (of.y1 - of.y0) / kGrid;
     x0 -= x, x1 += x, y0 -= y, y1 += y;

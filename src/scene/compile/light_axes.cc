@@ -23,7 +23,7 @@ double Versine(Vec3d a, Vec3d b) { return Dot(a - b, a - b) / 2; }
 double RatioOfAxes(const Transform& t) {
   const double a = Length(t.Vector({1, 0, 0})), b = Length(t.Vector({0, 1, 0})),
                c = Length(t.Vector({0, 0, 1}));
-  // Of volume: how far from rectangular the axes are.
+  // The volume tells how far from rectangular the axes are.
   const double volume = std::abs(t.Determinant3());
   return std::pow(std::max({a, b, c}), 3) / volume;
 }

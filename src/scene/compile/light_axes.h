@@ -1,5 +1,4 @@
-// How lights are turned and stretched by their transform. Any that can be inverted will
-// do.
+// The axes of lights under their transform, which may be any invertible one.
 #pragma once
 
 #include <vector>

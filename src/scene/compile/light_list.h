@@ -42,7 +42,7 @@ inline Vec3d PositionOf(const Light& light, const WorldFrame& frame) {
   return position;
 }
 
-/// Of no primitive and no environment; all else is 0.
+/// Returns a record without primitive or environment, otherwise 0.
 inline LightRecord EmptyRecord(LightShape shape) {
   LightRecord record{};
   record.shape = static_cast<std::uint32_t>(shape);

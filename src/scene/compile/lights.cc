@@ -192,7 +192,8 @@ void ApplyFloor(std::vector<double>& weights) {
   for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * least * sum) : 1;
 }
 
-// Whether each direction or point has a colour of its own. Goniometric images are grey.
+// Returns whether each direction or point has a colour of its own. Goniometric images are
+// grey.
 bool HasColors(const LightRecord& light) {
   const auto shape = static_cast<LightShape>(light.shape);
   return light.environment >= 0 || shape == LightShape::kPortal ||

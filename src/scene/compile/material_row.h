@@ -40,8 +40,8 @@ struct MaterialRow {
   std::string name;
 };
 
-/// What the tables of a coat depend on; coats that are equal share them. No alpha or no
-/// thickness: it is textured.
+/// The parameters of a coat's tables; equal coats share them. Alpha or thickness is
+/// absent if it is textured.
 struct Coat {
   std::optional<double> alpha;
   double eta = 1;

@@ -107,8 +107,8 @@ MeasuredWarp MeasuredBuilder::Warp(const MeasuredTensor& t, std::size_t slices) 
   return warp;
 }
 
-// Where a wavelength lies among increasing ones: 1.5 is halfway from the second to the
-// third. Beyond their ends it is at the end.
+// Returns the position of a wavelength among increasing ones: 1.5 is halfway between the
+// second and the third. Positions are clamped to the ends.
 double PositionOf(const std::vector<double>& nodes, double nm) {
   const auto after = std::upper_bound(nodes.begin(), nodes.end(), nm);
   if (after == nodes.begin()) return 0;

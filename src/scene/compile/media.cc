@@ -61,7 +61,7 @@ void SetCoefficients(const Medium& m, double scale, MediumRecord& record) {
   }
 }
 
-// By reflectance: the albedo instead of the scattering coefficient.
+// Sets the albedo by reflectance instead of the scattering coefficient.
 void MediumBuilder::SetAlbedo(const Medium& m, MediumRecord& record) {
   const SlabAlbedos albedos(m.g, m.eta);
   const ColorValue reflectance = TextureConstants(d_.textures).Fold(m.reflectance);

@@ -14,7 +14,7 @@ namespace {
 // on an AMD EPYC with AVX-512).
 constexpr double kSecondsPerEvent = 4e-8, kSecondsPerNull = 2.5e-8;
 
-// Of a box: 4 times its volume over its surface.
+// Returns the mean chord of a box: 4 times its volume over its surface.
 double MeanChord(const Box& box) {
   if (box.empty()) return 0;
   const Vec3d d = box.max - box.min;

@@ -12,9 +12,9 @@
 namespace lanelight {
 namespace {
 
-// With linear interpolation between entries that are evenly spaced in the logarithm of
-// the temperature, from 100 to 20000 kelvin, channels are within 0.1 % of the brightest
-// channel above 1000 kelvin (tests/scene/compile/medium_emission_test.cc).
+// Entries are evenly spaced in the logarithm of the temperature, from 100 to 20000
+// kelvin, and interpolated linearly. Above 1000 kelvin channels are within 0.1 % of the
+// brightest one (tests/scene/compile/medium_emission_test.cc).
 constexpr int kEntries = 4096;
 
 // Of temperatures up to `largest`, before offset and scale.

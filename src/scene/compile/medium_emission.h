@@ -1,4 +1,4 @@
-// What the emission of a medium that varies is multiplied with.
+// The factors of the emission of heterogeneous media.
 #pragma once
 
 #include "src/scene/compiled/media.h"

@@ -58,7 +58,7 @@ class MeshCompiler {
 };
 
 Corner MeshCompiler::Fetch(std::size_t triangle, int k) const {
-  // What pbrt gives to meshes without texture coordinates.
+  // The texture coordinates that pbrt gives to meshes without any.
   static constexpr std::array<double, 2> kUv[3] = {{0, 0}, {1, 0}, {1, 1}};
   const std::uint32_t i = mesh_.indices[3 * triangle + static_cast<std::size_t>(k)];
   Corner corner{t_.Point(mesh_.positions[i]), {}, kUv[k]};

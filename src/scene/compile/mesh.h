@@ -9,8 +9,8 @@
 
 namespace lanelight {
 
-/// Where the triangles of one mesh go. `normals` and `uvs` may be null: then they are not
-/// stored. `areas` may be null: otherwise it gets the areas before rounding.
+/// Destination of the triangles of a mesh. `normals` and `uvs` may be null (not stored).
+/// `areas` may be null; otherwise it receives the areas before rounding.
 struct MeshOutput {
   TriangleRecord* triangles = nullptr;
   float* normals = nullptr;

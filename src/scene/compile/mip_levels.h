@@ -6,11 +6,11 @@
 
 namespace lanelight {
 
-/// Appends the levels to the image's own array and fills level_width, level_height and
-/// level_begin. Averages are of decoded values; images of bytes keep bytes, each the
-/// nearest one of `decode` (256 increasing values), so that a level of them has errors of
-/// half a step and a pyramid a third of the image's bytes. Levels are computed from each
-/// other before they are rounded. Every level has the mean of the image.
+/// Appends the levels to the image's array and fills level_width, level_height and
+/// level_begin. Averages are of decoded values. Byte images keep bytes, each the nearest
+/// of `decode` (256 increasing values). Levels are computed from each other before
+/// rounding, so each has an error of half a step and the mean of the image. A pyramid
+/// adds a third of the image's bytes.
 void AddMipLevels(const float* decode, TextureImage& image);
 
 }  // namespace lanelight

@@ -217,7 +217,7 @@ struct ObjectUse {
   bool copied = false;
   std::size_t index = 0;  // in Placement::objects, unless it is copied or empty
 
-  // What copies of it add to the triangles of the scene.
+  // Returns the number of triangles that copies add to the scene.
   std::uint64_t MoreTriangles() const {
     std::uint64_t indices = 0;
     for (const PlacedShape& p : placed.meshes) indices += p.mesh->indices.size();

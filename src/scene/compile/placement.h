@@ -1,6 +1,6 @@
-// Which shapes a scene really has and where they stand: shapes that cannot be seen are
-// left out, instances of what cannot be instanced are copied into the world, and what the
-// renderer cannot represent is an InputError at the directive that asked for it.
+// Decides which shapes a scene has and where. Invisible shapes are left out, instances of
+// shapes without an instanced form are copied into the world, and what cannot be
+// represented is an InputError at its directive.
 #pragma once
 
 #include <cstdint>
@@ -54,14 +54,13 @@ struct Placement {
                // the lights with a position, and the camera's foot on each plane
 };
 
-/// Meshes, spheres and disks that emit are sampled as lights, which needs world
-/// coordinates; spheres, disks, planes and curves have no instanced form: both kinds are
-/// copied into the world once per instance. Shapes without a record of their own become
-/// meshes (src/scene/compile/tessellate.h). Objects of few triangles, or placed once, are
-/// copied into the world too, those first that make the least of it larger, as long as
-/// that makes at most `copied_triangles` more in all; with 0 none is. Of objects that
-/// move nothing is copied: what they are made of becomes meshes, but for curves and
-/// planes, which stay where they are at the start.
+/// Places shapes. Emitting meshes, spheres and disks are sampled as lights, which needs
+/// world coordinates; spheres, disks, planes and curves have no instanced form. Both are
+/// copied into the world once per instance. Shapes without a record become meshes
+/// (src/scene/compile/tessellate.h). Objects of few triangles, or placed once, are copied
+/// too, smallest first, while that adds at most `copied_triangles` in all (0: none).
+/// Moving objects are not copied: their shapes become meshes, except curves and planes,
+/// which stay at the start.
 Placement PlaceShapes(const SceneDescription& description,
                       std::uint64_t copied_triangles = 0);
 

@@ -1,11 +1,9 @@
-// What float32 holds of a scene, in scene coordinates (frame.h), whose unit is about the
-// size of the scene, or of the part of it that the camera sees up close.
+// The range of float32 in scene coordinates (frame.h), whose unit is about the size of
+// the scene, or of the part that the camera sees up close.
 //
-// Kernels square distances and sizes. So the squares of all coordinates, and the sums of
-// three of them, are to lie below 2^128, and the squares of sizes to be normal numbers,
-// from 2^-126 on. What lies farther off is refused where it stands: it would be at no
-// place. What is smaller is left out with a note, as degenerate triangles are: there is
-// nothing to see of it.
+// Kernels square distances and sizes. Squares of coordinates, and sums of three, must be
+// below 2^128; squares of sizes must be normal numbers, at least 2^-126. Larger positions
+// are refused. Smaller shapes are left out with a note, like degenerate triangles.
 #pragma once
 
 #include <vector>

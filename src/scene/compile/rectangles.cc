@@ -27,7 +27,7 @@ double Largest(const TriangleRecord& t) {
   return largest;
 }
 
-// How far a corner may lie from where it should.
+// Returns the allowed deviation of a corner.
 double Tolerance(const TriangleRecord& t, double shorter) {
   const double rounding = std::min(kRounding * Largest(t), kMostRounded * shorter);
   return std::max(rounding, kAlwaysSmall * shorter);

@@ -18,12 +18,11 @@ struct Rectangle {
   Vec3d x_side, y_side;  // from the corner; cross(x, y) is the triangles' normal
 };
 
-/// The rectangles of one mesh, by `first`. Two triangles with right angles make one if
-/// they share their longest side, lie in one plane and face the same way, and if their
-/// corners are where those of an exact rectangle are: within the rounding of the
-/// coordinates to float (a few ulp, at most 1e-4 of the shorter side) or 2e-5 of the
-/// shorter side, so that what light samples and rays know of the light differs by less.
-/// A triangle belongs to at most one rectangle.
+/// Finds the rectangles of one mesh, by `first`. Two right-angled triangles make one if
+/// they share their longest side, lie in one plane, face the same way, and their corners
+/// are those of an exact rectangle. The tolerance is float rounding of the coordinates (a
+/// few ulp, at most 1e-4 of the shorter side) or 2e-5 of the shorter side. A triangle
+/// belongs to at most one rectangle.
 std::vector<Rectangle> FindRectangles(std::span<const TriangleRecord> mesh);
 
 }  // namespace lanelight

@@ -12,7 +12,7 @@
 
 namespace lanelight {
 
-/// What a material does to the shading normal: at most one of the two textures.
+/// The effect of a material on the shading normal: at most one of the two textures.
 struct Relief {
   Index displacement = kNone, normal_map = kNone;
 };

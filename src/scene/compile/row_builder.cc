@@ -47,12 +47,12 @@ OwnSpectrum Changed(const OwnSpectrum& spectrum, const Change& change) {
       [spectrum, change](double nm) { return change((*spectrum)(nm)); });
 }
 
-// What Integrator::regularize makes of alpha.
+// Returns alpha under Integrator::regularize.
 double RegularAlpha(double alpha) {
   return alpha < 0.3 ? std::clamp(2 * alpha, 0.1, 0.3) : alpha;
 }
 
-// Of a metal of index 1 whose reflectance head-on is r.
+// Returns the extinction of a metal of index 1 with reflectance r at normal incidence.
 double Extinction(double r) {
   const double below = std::clamp(r, 0.0, kMaxMetalReflectance);
   return 2 * std::sqrt(below / (1 - below));
@@ -91,13 +91,13 @@ ColorValue RowBuilder::ScaledReflectance(const ColorValue& v, double scale) {
   return scaled;
 }
 
-// Whether the medium in a coat does more than absorb.
+// Returns whether the medium in a coat does more than absorb.
 bool RowBuilder::Scatters(const Material& coat) const {
   const ColorValue albedo = Reflectance(coat.coat_albedo);
   return IsTextured(albedo) || albedo.constant != Rgb{};
 }
 
-// What the texture of the inside is where a path goes in; white where it has none.
+// Returns the texture of the inside at the point of entry; white if there is none.
 ColorValue RowBuilder::Inside(const Material& m) const {
   const Medium& inside = d_.media[static_cast<std::size_t>(m.inside)];
   const ColorValue reflectance = Color(inside.reflectance);

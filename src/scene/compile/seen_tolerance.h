@@ -9,8 +9,8 @@ namespace lanelight {
 /// whose instances are seen from anywhere.
 inline constexpr double kFinestSphere = 4e-5, kFinestCylinder = 1e-5;
 inline constexpr double kCoarsest = 1e-3, kOfObjects = 1e-4;
-/// What the tolerance is between: this part of a pixel, where the camera sees the shape
-/// itself from its nearest side.
+/// Bounds of the tolerance: this fraction of a pixel, as the camera sees the shape from
+/// its nearest side.
 inline constexpr double kSeenPixels = 0.02;
 
 /// The tolerance for a sphere, disk or cylinder in the world.

@@ -141,7 +141,7 @@ double Largest(const Matrix& a) {
   return largest;
 }
 
-// What a half space reflects: of a layer that is doubled until nothing comes through.
+// Returns the reflectance of a half space, by doubling a layer until nothing passes.
 Matrix Deep(Layer layer) {
   for (int i = 0; i < kMostDoublings && Largest(layer.t) > 1e-7; ++i) {
     const Matrix many = Solve(OneMinus(layer.r * layer.r), layer.t);
@@ -160,7 +160,8 @@ double SlabReflectance(double albedo, double g, double eta) {
   if (albedo >= 1) return 1;
   const Streams d = MakeStreams(eta);
   const Matrix deep = Deep(ThinLayer(albedo, g, d));
-  // By reciprocity: what leaves along the normal under light from all directions.
+  // By reciprocity, this is the light that leaves along the normal under light from all
+  // directions.
   const std::size_t n = d.mu.size();
   Matrix inside = deep, lit = Zero(n);
   for (std::size_t i = 0; i < n; ++i) {

@@ -5,13 +5,13 @@
 
 namespace lanelight {
 
-/// Part of the light that went along the normal into a half space that comes out of it
-/// again: a smooth dielectric boundary of relative index `eta` around a medium that
-/// scatters with `albedo` in [0, 1] by Henyey and Greenstein's phase function of
-/// asymmetry g. By adding and doubling (van de Hulst 1980, "Multiple Light Scattering"),
-/// with directions of their own for light that the boundary lets out or reflects totally
-/// (as Prahl, van Gemert and Welch 1993), and the phase function's peak taken for
-/// unscattered (delta-M, Wiscombe 1977). Absolute error below 1e-3 for |g| <= 0.9.
+/// Returns the fraction of light entering a half space along the normal that leaves it
+/// again. The half space has a smooth dielectric boundary of relative index `eta`, an
+/// `albedo` in [0, 1], and Henyey and Greenstein's phase function of asymmetry g. Method:
+/// adding and doubling (van de Hulst 1980, "Multiple Light Scattering"), with separate
+/// directions for light that the boundary transmits or reflects totally (Prahl, van
+/// Gemert and Welch 1993). The phase function's peak counts as unscattered (delta-M,
+/// Wiscombe 1977). Absolute error below 1e-3 for |g| <= 0.9.
 double SlabReflectance(double albedo, double g, double eta);
 
 /// Its inverse, for all reflectances in [0, 1]: a table, computed once.

@@ -12,11 +12,11 @@
 
 namespace lanelight {
 
-/// What bounds a colour of a material.
+/// The bounds of a material's colour.
 enum class ColorBound { kReflectance, kUnbounded };
 
-/// By bin: light of this colour, which is not black, per unit of luminance, in units of
-/// D65. InputError where the spectrum has nothing that paths carry.
+/// Returns, per bin, light of this colour (not black) per unit of luminance, in units of
+/// D65. Throws InputError if the spectrum has no energy at the wavelengths of paths.
 std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum);
 
 /// Collects the rows of a scene; equal ones are kept once.

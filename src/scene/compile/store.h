@@ -1,4 +1,4 @@
-// What compiling writes into records.
+// Writes compiled values into records.
 #pragma once
 
 #include "src/base/core/transform.h"

@@ -30,9 +30,8 @@ int StepsOf(double angle, double sag) {
   return std::max(1, static_cast<int>(std::ceil(angle / (2 * std::acos(1 - sag)))));
 }
 
-// What all round shapes have in common: columns around z, rows across. A row whose ends
-// coincide is a point; each triangle there has a vertex of its own, in the middle of its
-// column's u.
+// The grid of all round shapes: columns around z, rows across. A row whose ends coincide
+// is a point; each triangle there has its own vertex, in the middle of its column's u.
 class Grid {
  public:
   Grid(const Shape& shape, int columns, int rows)

@@ -15,7 +15,7 @@
 
 namespace lanelight {
 
-/// What distinguishes one table of texels from another.
+/// The key of a table of texels.
 struct ImageKey {
   std::string path;
   Encoding encoding;

@@ -6,7 +6,8 @@
 
 namespace lanelight {
 
-/// Whether this texture itself, operands aside, depends on the place or the normal.
+/// Returns whether this texture itself, operands aside, depends on the place or the
+/// normal.
 bool UsesPlace(const Texture& texture);
 
 /// Sets what the kernels need of mappings and patterns; nothing where !UsesPlace.

@@ -8,12 +8,12 @@
 
 namespace lanelight {
 
-/// Compiles the textures of a description; index i stays index i. Loads each image file
-/// once, in parallel. Semantics are those of pbrt-v4 (scale before invert, negative
-/// results cut at 0, a float texture reads alpha if there is any below 1, else the mean
-/// of colour), without its mip levels: level 0 is sampled. `world_from_scene`: of the
-/// places at which kernels look textures up. Throws InputError naming the texture's place
-/// and the file. Files with values that are not finite leave a note.
+/// Compiles the textures of a description; indices stay. Loads each image file once, in
+/// parallel. Semantics are those of pbrt-v4 (scale before invert, negative results cut at
+/// 0, a float texture reads alpha if any is below 1, else the mean of the colour), but
+/// only level 0 is sampled. `world_from_scene` maps the positions at which kernels look
+/// textures up. Throws InputError with the texture's location and the file. Files with
+/// non-finite values leave a note.
 TextureTable CompileTextures(const std::vector<Texture>& textures,
                              const Transform& world_from_scene = {},
                              std::vector<Note>* notes = nullptr);

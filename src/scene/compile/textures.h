@@ -1,4 +1,4 @@
-// What compiling needs to know about textures before they are compiled.
+// Properties of textures that compiling needs before they are compiled.
 #pragma once
 
 #include <optional>

@@ -6,7 +6,7 @@
 namespace lanelight {
 namespace {
 
-// Of the light that a medium emits.
+// Whether the light that a medium emits has a spectrum.
 bool HasSpectrum(const Medium& m) {
   return m.emission != Rgb{} &&
          (m.emission_spectrum != nullptr || !m.temperature.empty() ||

@@ -1,4 +1,4 @@
-// What paths that carry wavelengths have of a scene that others have not.
+// Finds what of a scene paths with wavelengths need.
 #pragma once
 
 #include <optional>

@@ -23,9 +23,8 @@ void AppendSpectrum(Rgb color, AlignedVector<float>& values) {
 }
 
 // A sigmoid grows with its argument, and a quadratic is largest at an end of the range or
-// where its slope is 0. Each of the two multiply-adds of a kernel, and the rounded place,
-// are off by 2^-24 of the sum of the coefficients or so, and a sigmoid has a slope of
-// 1/2 at most.
+// where its slope is 0. Both multiply-adds of a kernel, and the rounded position, err by
+// about 2^-24 of the sum of the coefficients. A sigmoid has a slope of at most 1/2.
 double LargestOf(const VoxelSpectrum& spectrum) {
   static const double low = SigmoidPlace(CarriedWavelengths().centre.front());
   static const double high = SigmoidPlace(CarriedWavelengths().centre.back());

@@ -19,9 +19,9 @@ struct LensSurface {
   float aperture;   // half the diameter
 };
 
-/// A lens system (Kolb, Mitchell and Hanrahan 1995). Rays leave the film through a
-/// rectangle of the plane of its rear surface that bounds the exit pupil, for a film
-/// point at a distance r along the x axis: of ring floor(r * rings_per_mm).
+/// A lens system (Kolb, Mitchell and Hanrahan 1995). For a film point at distance r along
+/// the x axis, rays leave through a rectangle in the plane of the rear surface. It bounds
+/// the exit pupil of ring floor(r * rings_per_mm).
 struct LensSystem {
   struct Pupil {
     float x0, x1, y0, y1;  // x1 <= x0: no light comes through

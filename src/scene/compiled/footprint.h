@@ -5,9 +5,9 @@
 
 namespace lanelight {
 
-/// What the footprint of a pixel is computed from. It is the camera's at any point, seen
-/// directly or not, as pbrt-v4's Camera::Approximate_dp_dxy has it: a surface behind a
-/// mirror is filtered as if it were seen from the camera.
+/// The data of pixel footprints. A footprint is that of the camera at any point, seen
+/// directly or not, as in pbrt-v4's Camera::Approximate_dp_dxy: a surface behind a mirror
+/// is filtered as if seen from the camera.
 ///
 /// In front of the camera (the cosine to `forward` is at least `min_cosine`) neighbouring
 /// pixels are displaced by step_x, step_y at depth 1 (perspective), or anywhere

@@ -38,7 +38,7 @@ struct LightRecord {
 };
 static_assert(sizeof(LightRecord) == 92);
 
-/// LightRecord::size[0] of a sphere whose far side nobody sees from outside.
+/// LightRecord::size[0] of a sphere whose far side is not visible from outside.
 inline float ConeFrom(float radius) { return radius * radius * 1.0001f; }
 
 /// Image that a light shines with: 16 words. Texels are linear and not negative, row 0 at
@@ -142,14 +142,16 @@ struct LightAnchor {
 };
 static_assert(sizeof(LightAnchor) == 16);
 
-/// What a strategy decides of the lights of a scene (src/scene/prepare/prepared_scene.h).
+/// What a strategy decides about the lights of a scene
+/// (src/scene/prepare/prepared_scene.h).
 struct LightChances {
-  /// Of each light: probability of being selected; with a tree of those without a place.
+  /// Per light: probability of being selected; with a tree, only of lights without a
+  /// position.
   AlignedVector<float> pmf;
   AlignedVector<float> alias_q;        // Walker-Vose table over lights: with u*n = i + f,
   AlignedVector<std::uint32_t> alias;  // pick i if f < alias_q[i], else alias[i]
   LightTree tree;                      // light-selection=tree only
-  /// Of each of LightTable::environments.
+  /// One per LightTable::environments.
   std::vector<std::shared_ptr<const EnvironmentTable>> environments;
   // The middles of all lights, drawn by power; only for distances=equiangular. One whose
   // position is not finite stands for lights that are nowhere.

@@ -48,7 +48,7 @@ struct MaterialTable {
   // Where they vary, a coat has a grid of tables: 1 or kCoatAlphas over the roughness for
   // each of 1 or kCoatDepths over the thickness.
   AlignedVector<std::int32_t> coat_alphas, coat_depths;
-  // Of the medium in a coat that scatters: asymmetry and albedo.
+  // Asymmetry and albedo of the medium in a coat that scatters.
   AlignedVector<float> coat_g, coat_albedo_r, coat_albedo_g, coat_albedo_b;
   AlignedVector<std::uint32_t> coat_depth;  // layer crossings at most (pbrt's maxdepth)
   AlignedVector<std::int32_t> color0_texture, color1_texture;
@@ -59,19 +59,20 @@ struct MaterialTable {
   AlignedVector<std::int32_t> mix0, mix1;
   // Heights, and normal maps: a texture or -1; empty where no material has one.
   AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
-  // With kSpectral: rows of SpectrumTable; negative: the colour is by path, and this is
-  // what it stands for (PathColor). Of `eta`: a row of SpectrumTable::indices, -1: it is
-  // the same for all wavelengths.
+  // With kSpectral: rows of SpectrumTable; negative if the colour varies by path, with
+  // its use (PathColor). For `eta`: a row of SpectrumTable::indices, or -1 if it does not
+  // depend on the wavelength.
   AlignedVector<std::int32_t> color0_spectrum, color1_spectrum, coat_albedo_spectrum;
   AlignedVector<std::int32_t> eta_spectrum;
   AlignedVector<float> color_scale;         // of colours that are a kScaledReflectance
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
   MeasuredTable measured;
-  // With kRegularizes: what materials become behind a bounce that is not specular.
+  // With kRegularizes: the material that replaces this one behind a bounce that is not
+  // specular.
   AlignedVector<std::int32_t> regular;
-  // With kForcedDiffuse: the material that surfaces then have, and the kinds that they
-  // had, a bit each.
+  // With kForcedDiffuse: the material that replaces all others, and their kinds, one bit
+  // each.
   std::uint32_t forced = 0, forced_kinds = 0;
   std::vector<std::string> names;
   std::size_t size() const { return kind.size(); }

@@ -45,7 +45,7 @@ struct MediumSides {
 /// Cells of a majorant grid, along each axis.
 inline constexpr std::int32_t kMajorantCells = 16;
 
-/// What a medium that varies is made of.
+/// The storage of a heterogeneous medium.
 enum class MediumSource : std::int32_t {
   kDensities,  // factors on the coefficients of the record, at voxels
   kColors,     // sigma_a and sigma_s per unit of scene length, at voxels: colours, or
@@ -83,7 +83,7 @@ struct BlackbodyTable {
 /// Cooler ones emit nothing (as pbrt).
 inline constexpr float kLeastKelvin = 100;
 
-/// What the emission of a medium is multiplied with at a point; each part may be empty.
+/// The factors of a medium's emission at a point; each may be empty.
 struct MediumEmission {
   AlignedVector<float> values;  // at voxels
   std::int32_t size[3] = {};    // how many: those of the medium, or one

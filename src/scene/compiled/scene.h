@@ -49,15 +49,15 @@ struct CompiledScene {
 SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
                    const LightChances* chances);
 
-/// Whether alpha cuts an emitting shape.
+/// Returns whether alpha cuts an emitting shape.
 inline bool IsCut(const CompiledScene& scene, const LightRecord& light) {
   if (scene.alpha.constant.empty() || light.primitive == 0xffffffffu) return false;
   return scene.alpha.texture[light.primitive] >= 0 ||
          scene.alpha.constant[light.primitive] < 1;
 }
 
-/// Whether alpha leaves nothing for rays to meet; such a shape shines as if it were
-/// whole.
+/// Returns whether alpha leaves nothing for rays to meet; such a shape shines as if it
+/// were whole.
 inline bool IsUnseen(const CompiledScene& scene, const LightRecord& light) {
   return IsCut(scene, light) && scene.alpha.texture[light.primitive] < 0 &&
          scene.alpha.constant[light.primitive] <= 0;

@@ -1,11 +1,10 @@
 // What paths that carry wavelengths look up, by bins of wavelengths.
 //
-// A path carries three wavelengths in its columns for colours, a long one where red would
-// be, a middle one and a short one: bins 2 N + i, N + i and i of one triple i
-// (src/base/image/wavelengths.h). Radiance is in units of the illuminant D65, so that
-// light of the colour (1, 1, 1) is 1 at all wavelengths, and all that is grey is as it
-// would be in RGB. The film turns the three into linear sRGB
-// (kernels/texture/wavelengths-inl.h).
+// A path carries three wavelengths in its colour columns: a long one for red, a middle
+// one and a short one, bins 2 N + i, N + i and i of triple i
+// (src/base/image/wavelengths.h). Radiance is in units of D65, so light of colour (1, 1,
+// 1) is 1 at all wavelengths and greys are as in RGB. The film converts the three to
+// linear sRGB (kernels/texture/wavelengths-inl.h).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +28,7 @@ struct SpectrumTable {
   AlignedVector<float> film[3];  // what 1 in a bin adds to red, green and blue
   AlignedVector<float>
       place;  // of bins: argument of sigmoids (src/base/image/upsampling.h)
-  // Of colours that come by path; else empty: PolynomialThrough(), row by row, and
+  // Filled if colours vary by path: PolynomialThrough(), row by row, and
   // UpsamplingTable().
   AlignedVector<float> polynomial, sigmoids;
   float per_half_tangent = 0;  // 1 / HalfTangentOfGrey(1 - kLeastUpsampled)

@@ -1,7 +1,6 @@
 // Textures as the kernels read them. A texture is a short program: its nodes in an order
-// in which every operand is computed before it is used, each node once, so that
-// evaluation is a loop without recursion and a node shared by two others costs once.
-// Children that are constant are folded into their parents.
+// in which operands come first. Evaluation is a loop without recursion, and a shared node
+// costs once. Constant children are folded into their parents.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// How a scene is seen.
+// The view of a scene.
 #pragma once
 
 #include "src/scene/compiled/camera.h"
@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// What depends on the camera and on the size of the film. Kernels read all but the film.
+/// Data that depend on the camera and the film's size. Kernels read all but the film.
 struct CompiledView {
   Film film;
   CompiledCamera camera;

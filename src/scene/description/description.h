@@ -75,7 +75,8 @@ struct Texture {
   double scale = 1;
   bool invert = false;   // 1 - scale * value, negative results cut at 0 (as pbrt)
   bool bilinear = true;  // false: nearest
-  // Of a kCheckerboard kTrilinear and kEwa: it is filtered over the footprint of a pixel.
+  // For a kCheckerboard, kTrilinear and kEwa mean filtering over the footprint of a
+  // pixel.
   ImageFilter filter = ImageFilter::kBilinear;
   double max_anisotropy = 8;     // kEwa
   Transform texture_from_world;  // of mappings and patterns of the place
@@ -214,9 +215,9 @@ struct ObjectDefinition {
 };
 
 /// Emission of a shape: radiance `radiance * scale`, one-sided along the surface normal
-/// unless two_sided. If power > 0 that is multiplied by what has a round shape, or each
-/// face of a mesh, emit so much at a radiance of 1 (with an image, of its mean): pbrt's
-/// lights are those, and their Phi = pi * area * (two_sided ? 2 : 1) * Y(L).
+/// unless two_sided. If power > 0, the radiance is scaled so that each round shape, or
+/// each face of a mesh, emits `power` (with an image, by its mean). In pbrt these are
+/// separate lights with Phi = pi * area * (two_sided ? 2 : 1) * Y(L).
 struct AreaLight {
   SourceLocation where;
   Rgb radiance{1, 1, 1};
@@ -302,9 +303,9 @@ struct Medium {
   bool in_material = false, by_reflectance = false;
   double eta = 1;
   ColorValue reflectance;
-  // Of media that vary: a box in their own space, samples at the centres of its voxels, x
-  // fastest. kUniformGrid: densities, factors on the coefficients. kRgbGrid: sigma_a and
-  // sigma_s, six numbers each.
+  // For heterogeneous media: a box in their own space, samples at the centres of its
+  // voxels, x fastest. kUniformGrid: densities, factors of the coefficients. kRgbGrid:
+  // sigma_a and sigma_s, six numbers each.
   Vec3d box_min{0, 0, 0}, box_max{1, 1, 1};
   int grid_size[3] = {1, 1, 1};
   std::vector<float> grid;

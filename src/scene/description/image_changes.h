@@ -1,4 +1,4 @@
-// Whether what is rendered is what the scene file asks for.
+// Decides whether what is rendered is what the scene file asks for.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a reader of a scene says to the user besides errors.
+// Notes of a scene reader for the user, besides errors.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What scenes are called where their paths would be too long.
+// Short names of scenes.
 #pragma once
 
 #include <string>

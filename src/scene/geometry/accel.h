@@ -1,7 +1,7 @@
 // Acceleration structures over the triangles, spheres and disks of a scene, as the
 // kernels in kernels/intersect/ read them. Built once by BuildAccel.
 //
-// What is traced how:
+// Acceleration structures by kind of shape:
 //   triangles   8-wide BVH, leaves of up to 16 triangles over up to 16 shared vertices (8
 //               over 8 where vectors have no more lanes), or of up to 8 with corners of
 //               their own; where boxes are mostly empty (long thin triangles), triangles
@@ -49,9 +49,9 @@ inline constexpr int kTraversalStack = 512;
 
 inline constexpr std::uint32_t kFewTriangles = 128;
 inline constexpr std::uint32_t kFewRound = 16;
-/// Rays of a vector are traced together if their directions (unit length) agree in sign
-/// and differ by at most this per axis, and their origins by at most kPacketExtent times
-/// the reach of the scene.
+/// Rays of a vector are traced together if their unit directions agree in sign and differ
+/// by at most this per axis. Their origins may differ by at most kPacketExtent times the
+/// reach of the scene.
 inline constexpr float kPacketSpread = 0.05f;
 inline constexpr float kPacketExtent = 0.01f;
 /// `inst` of a hit on a triangle of the world, and of any sphere, disk or plane.
@@ -82,7 +82,7 @@ struct alignas(n * sizeof(float)) SharedLeaf {
   std::uint16_t used;            // the first `count` bits
 
   static constexpr int kLanes = n, kVertexLanes = n;
-  /// Where corner k of a triangle is found in the rows of `vertex`.
+  /// Returns the row of `vertex` that holds corner k of a triangle.
   std::uint32_t VertexOf(int k, std::uint32_t lane) const { return corner[k][lane]; }
 };
 using TriangleLeaf = SharedLeaf<kLeafTriangles>;

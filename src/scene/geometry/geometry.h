@@ -106,8 +106,8 @@ struct CurveRecord {
 };
 static_assert(sizeof(CurveRecord) == 64);
 
-/// Of a ribbon: its unit normals at both ends, and the angle between them with 1 / its
-/// sine; an angle of 0 says that they are alike. Zeros for other curves.
+/// A ribbon's unit normals at both ends, their angle, and 1 / its sine; the angle is 0 if
+/// they are equal. Zeros for other curves.
 struct RibbonRecord {
   float normal[2][3];
   float angle, inverse_sine;
@@ -137,7 +137,7 @@ struct Geometry {
       normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
                 // Unit; triangles without normals hold their face normal.
   bool turned_tangents = false;  // some triangles are kTurnedTangents
-  AlignedVector<float> uvs;      // 6 per triangle; empty where nobody asks for them
+  AlignedVector<float> uvs;      // 6 per triangle; empty if not needed
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;

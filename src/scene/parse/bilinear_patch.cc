@@ -27,8 +27,8 @@ std::array<double, 2> MixUv(const BilinearPatch& patch, double u, double v) {
   return out;
 }
 
-// How far the corners are from a parallelogram. On a square of the grid a patch is off
-// its two triangles by a quarter of the twist that is left there, 1 / steps^2 of the
+// Returns how far the corners are from a parallelogram. On a square of a grid, the patch
+// deviates from its two triangles by a quarter of the remaining twist, 1 / steps^2 of the
 // whole.
 double Twist(const std::array<Vec3d, 4>& corners) {
   return Length(corners[0] - corners[1] - corners[2] + corners[3]);

@@ -30,10 +30,11 @@ struct BilinearPatch {
 /// and its normals within kNormalTolerance.
 int PatchSteps(const BilinearPatch& patch);
 
-/// Appends the patch to the mesh: two triangles if it is flat, its outline does not cross
-/// itself and its normals are those of two triangles, else a grid whose vertices have the
-/// patch's points, normals and surface coordinates. Meshes with some curved patches have
-/// zero normals at flat ones, which leaves their faces' own (src/scene/compile/mesh.h).
+/// Appends the patch to the mesh. It becomes two triangles if it is flat, its outline
+/// does not cross itself, and its normals are those of two triangles. Otherwise it
+/// becomes a grid with the patch's points, normals and surface coordinates. Flat patches
+/// of meshes with curved ones get zero normals, which keeps their faces' normals
+/// (src/scene/compile/mesh.h).
 void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh);
 
 }  // namespace lanelight

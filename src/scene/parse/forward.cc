@@ -18,7 +18,7 @@ std::string KindName(NameKind kind) {
   }
 }
 
-// How much there is of what an interpreter appends to.
+// The sizes of the lists that an interpreter appends to.
 struct Mark {
   explicit Mark(const ParseState& state)
       : notes(state.scene.notes.size()),

@@ -42,7 +42,7 @@ PointList PointsOf(ParamSet& params, const char* name, ParamType type) {
   return points;
 }
 
-// How many curves the points make.
+// Returns the number of curves that the points make.
 std::size_t CountSegments(ParamSet& params, std::size_t points, Basis basis, int degree) {
   const auto n = static_cast<std::size_t>(degree);
   const bool bezier = basis == Basis::kBezier;

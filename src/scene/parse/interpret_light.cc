@@ -15,7 +15,7 @@ namespace {
 
 constexpr Rgb kWhite = {1, 1, 1};
 
-// What a light without a colour has: the illuminant of the color space.
+// Returns the colour of a light, by default the illuminant of the color space.
 Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
                OwnSpectrum* spectrum, SpectrumUse use = SpectrumUse::kIlluminant) {
   const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
@@ -158,7 +158,7 @@ std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
   return ResolvePath(state, name);
 }
 
-// What its power comes to depends on the image.
+// The power depends on the image.
 void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
   light->emission = LightColor(state, params, "I", &light->spectrum) *
                     params.Float("scale", 1, kNotNegative);

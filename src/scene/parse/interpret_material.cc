@@ -26,7 +26,7 @@ void ReadRoughness(ParseState& state, ParamSet& params, const std::string& prefi
   *v = read("vroughness", both);
 }
 
-// Of a surface without a coat.
+// Reads the roughness of a surface without a coat.
 void ReadOwnRoughness(ParseState& state, ParamSet& params, const std::string& prefix,
                       Material* material) {
   ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
@@ -86,8 +86,8 @@ void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
       TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
 }
 
-// What coateddiffuse and coatedconductor share: the medium between the layers and the
-// depth of the random walk.
+// Reads what coateddiffuse and coatedconductor share: the medium between the layers and
+// the depth of the random walk.
 void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
               Material* material) {
   material->interface_eta = DielectricEta(state, params, prefix + "eta", 1.5);

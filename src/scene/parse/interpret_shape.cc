@@ -158,8 +158,8 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
   return light;
 }
 
-// Whether curves may join those of the shape before: hair has a directive for each
-// strand.
+// Returns whether curves may join those of the shape before: hair has a directive for
+// each strand.
 bool ContinuesCurves(const Shape& shape, const Shape& before) {
   return before.kind == ShapeKind::kCurves && shape.material == before.material &&
          shape.reverse_orientation == before.reverse_orientation &&

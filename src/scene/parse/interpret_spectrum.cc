@@ -72,7 +72,7 @@ bool IsGrey(const Param& param) {
   return param.type == ParamType::kRgb && n[0] == n[1] && n[1] == n[2];
 }
 
-// By wavelength.
+// Returns the index of refraction by wavelength.
 OwnSpectrum IndexOf(ParseState& state, const ParamSet& params, const Param& param) {
   if (param.type == ParamType::kRgb) {
     return std::make_shared<const Spectrum>(

@@ -45,7 +45,7 @@ void ReadByReflectance(ParseState& state, ParamSet& params, Medium* inside) {
   inside->sigma_s = {1 / mfp.x, 1 / mfp.y, 1 / mfp.z};
 }
 
-// What is not given is that of whole milk. pbrt-v4 takes both coefficients or none.
+// Reads both coefficients or none, as pbrt-v4; the default is whole milk.
 void ReadOwnCoefficients(ParseState& state, ParamSet& params, Medium* inside) {
   const Coefficients& milk = CoefficientsOf("Wholemilk", params.where(), "");
   const auto read = [&](const char* name, Rgb absent) {

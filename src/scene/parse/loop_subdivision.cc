@@ -19,7 +19,7 @@ double LimitWeight(std::size_t valence) {
   return 1 / (static_cast<double>(valence) + 3 / (8 * NeighbourWeight(valence)));
 }
 
-// What a vertex has around it.
+// The neighbourhood of a vertex.
 struct Neighbours {
   Vec3d sum, boundary_sum;  // over all; over the two along the boundary
   std::size_t count = 0;

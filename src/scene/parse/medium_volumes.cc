@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-// By its name in the scene file; null if the file has no such grid.
+// Reads a grid by its name in the scene file; returns null if the file has no such grid.
 std::shared_ptr<const SparseGrid> ReadGrid(const ParamSet& params, const Param& file,
                                            const std::string& path,
                                            const std::string& name) {

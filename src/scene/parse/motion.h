@@ -1,5 +1,5 @@
-// What moves: the second of the two current transforms (ActiveTransform), the times that
-// both are of (TransformTimes), and the shutter.
+// Motion: the second of the two current transforms (ActiveTransform), their times
+// (TransformTimes), and the shutter.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,8 @@ const char* WhyCannotMove(ShapeKind kind);
 /// A note that a thing of this kind stays at the start, if the current transforms differ.
 void NoteStill(ParseState& state, const SourceLocation& where, std::string_view kind);
 
-/// Where a thing that begins at `start` ends; null if that is the same. InputError at
-/// `where` if there is no way from one to the other.
+/// Returns the end of a motion that begins at `start`; null if it is the same. Throws
+/// InputError at `where` if no motion leads from one to the other.
 EndTransform EndOf(const Transform& start, const Transform& end,
                    const SourceLocation& where);
 

@@ -62,7 +62,7 @@ const Param* ParamSet::Find(std::string_view name,
     return &own_[i];
   }
   if (!inherited_) return nullptr;
-  // Of several Attribute directives the last one counts.
+  // The last of several Attribute directives applies.
   for (auto it = inherited_->rbegin(); it != inherited_->rend(); ++it) {
     if (it->name == name && Contains(types, it->type)) return &*it;
   }

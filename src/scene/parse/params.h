@@ -1,7 +1,6 @@
-// Parameter lists: "type name" value. Read once into Params; an interpreter then asks a
-// ParamSet for what it knows, and whatever nobody asked for is an error that lists what
-// was asked for. So the legal parameters of an object are stated in one place only: the
-// code that uses them.
+// Parameter lists: "type name" value. They are read once into Params. An interpreter asks
+// a ParamSet for the parameters it knows; any other is an error that lists them. The
+// legal parameters of an object are thus stated once, in the code that uses them.
 #pragma once
 
 #include <initializer_list>
@@ -47,7 +46,7 @@ struct Param {
 };
 using ParamList = std::vector<Param>;
 
-/// Of parameters that have no natural limit.
+/// The limit of parameters without a natural one.
 inline constexpr double kHuge = 1e30;
 
 /// What a number must lie in, ends included.
@@ -86,8 +85,8 @@ class ParamSet {
   std::string String(std::string_view name, const std::string& absent);
   Vec3d Point3(std::string_view name, Vec3d absent);
 
-  /// What a string out of `choices` means. The first choice is the default. Others are an
-  /// InputError, or where pbrt-v4 goes on, a warning: then `unknown` is what counts.
+  /// Returns the meaning of a string out of `choices`; the first is the default. Others
+  /// are an InputError, or a warning if pbrt-v4 accepts them: then `unknown` is returned.
   template <typename T>
   T Choice(std::string_view name,
            std::initializer_list<std::pair<const char*, T>> choices,
@@ -103,7 +102,8 @@ class ParamSet {
   /// for nothing and is not noted.
   void IgnoreVisible(std::string_view name, const std::string& why);
 
-  /// Throws InputError for an own parameter that nobody asked for. Call it last.
+  /// Throws InputError for a parameter of the object that was not asked for. Call it
+  /// last.
   void CheckAllUsed();
 
   /// InputError at a parameter: `<message>, in "type name" of <object>`.

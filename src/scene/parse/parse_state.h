@@ -1,6 +1,6 @@
-// What the parser knows while it reads: the scene so far, pbrt's graphics state, and the
-// names that have been defined. Directives (directives.cc) change it, interpreters
-// (interpret.h) turn parameters into the objects of a SceneDescription.
+// The parser's state: the scene so far, pbrt's graphics state, and defined names.
+// Directives (directives.cc) change it; interpreters (interpret.h) turn parameters into
+// objects of a SceneDescription.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace lanelight {
 
-/// What an Attribute directive gives defaults to.
+/// The targets of an Attribute directive's defaults.
 enum class AttributeTarget { kShape, kLight, kMaterial, kMedium, kTexture };
 inline constexpr int kAttributeTargets = 5;
 

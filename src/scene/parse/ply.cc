@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-// Where a vertex property goes; others are skipped.
+// The destination of a vertex property; others are skipped.
 enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots, kSkip = kSlots };
 
 struct VertexLayout {

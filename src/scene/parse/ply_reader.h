@@ -47,7 +47,8 @@ class PlyTextReader {
     return value;
   }
 
-  /// How many values can follow at most: each takes a digit and a blank.
+  /// Returns the maximum number of values that can follow: each takes a digit and a
+  /// blank.
   std::size_t Left(std::size_t) const {
     return (static_cast<std::size_t>(end_ - cursor_) + 1) / 2;
   }
@@ -103,7 +104,7 @@ class PlyBinaryReader {
     return 0;
   }
 
-  /// How many items of `size` bytes can follow at most.
+  /// Returns the maximum number of items of `size` bytes that can follow.
   std::size_t Left(std::size_t size) const {
     return (bytes_.size() - offset_) / std::max<std::size_t>(size, 1);
   }

@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-// Of texels with equal shares of the sphere.
+// Returns the share of texels with equal solid angles.
 double ShareOf(const Environment& environment) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i + 2 < environment.rgb.size(); i += 3) {

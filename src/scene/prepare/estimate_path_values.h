@@ -78,9 +78,9 @@ class ImageGuess {
   /// the relative error (src/render/estimate/estimate.h), less in a dark image.
   double ErrorWeight(std::uint32_t pixel, int c) const;
   double Brightness(std::uint32_t pixel) const;
-  /// Per pixel and channel: mean_c / mean / sqrt(3 (I_c^2 + epsilon)), so that the sum of
-  /// the squares of beta_c times it, times the variance of a brightness, is the relative
-  /// variance that it brings, if its colour is like the image's. `faithful`: with an
+  /// Returns, per pixel and channel, mean_c / mean / sqrt(3 (I_c^2 + epsilon)). The sum
+  /// of the squares of beta_c times it, times the variance of a brightness, is the
+  /// relative variance caused, if its colour is like the image's. `faithful` uses an
   /// epsilon that is negligible in all but the darkest pixels.
   AlignedVector<float> Inverse(bool faithful) const;
 

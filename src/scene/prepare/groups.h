@@ -1,5 +1,5 @@
-// How samples of a pixel are grouped: those of a group depend on each other and count as
-// one observation (src/vocabulary/path/replicates.h).
+// Groups samples of a pixel: those of a group depend on each other and count as one
+// observation (src/vocabulary/path/replicates.h).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace lanelight {
 /// log2 of the points of one randomisation; what follows is randomised anew.
 std::uint32_t LogSequence(Points points);
 
-/// What counts as one observation.
+/// Returns the groups that count as one observation.
 SampleGroups GroupsOf(const Strategy& strategy);
 
 /// "sobol, 4 randomisations of 16 points", ... for reports; spp = 0: unknown.

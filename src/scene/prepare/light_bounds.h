@@ -23,7 +23,7 @@ struct LightBounds {
   /// Lights without power change nothing.
   void Add(const LightBounds& o);
   Vec3d Center() const { return 0.5 * (low + high); }
-  /// Of the box's surface.
+  /// Returns the area of the box's surface.
   double Area() const;
   /// Solid angle into which the lights shine, weighted by the cosine beyond the cone.
   double Orientation() const;

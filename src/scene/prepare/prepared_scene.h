@@ -55,7 +55,7 @@ PreparedScene WithStrategy(PreparedScene scene, const Strategy& strategy);
 /// InputError as CompileScene does.
 PreparedScene PrepareScene(const SceneDescription& description,
                            const CompileOptions& options);
-/// With the default options.
+/// Prepares a scene with the default options.
 PreparedScene PrepareScene(const SceneDescription& description);
 
 }  // namespace lanelight

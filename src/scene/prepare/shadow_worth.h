@@ -18,9 +18,9 @@ struct ShadowWorth {
   AlignedVector<float> inverse;  // 3 per pixel of the full image; empty = all are traced
 };
 
-/// Where a ray adds v to a pixel of colour I, tracing it with probability s adds
-/// v^2 (1/s - 1) to the variance of the sample and saves (1 - s) of the ray's cost t. So
-/// variance times cost is least with s = v / worth, where
+/// Tracing a ray that adds v to a pixel of colour I with probability s adds v^2 (1/s - 1)
+/// to the variance of the sample and saves (1 - s) of the ray's cost t. Variance times
+/// cost is least with s = v / worth, where
 ///   worth = sqrt(variance of a sample * t / cost of a sample)
 /// (the efficiency-optimised roulette of Veach 1997, section 10.4, per ray). As relative
 /// errors weigh it, with the same relative variance in all pixels,

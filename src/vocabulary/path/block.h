@@ -1,7 +1,7 @@
-// What reuse=block keeps of the paths of a task until they have ended: the first vertex
-// of each, where it receives light, and the second, which others may see as well. Then
-// the paths of a block, one sample each of some pixels of the tile, are connected
-// (kernels/reuse/).
+// Records of reuse=block for the paths of a task: the first vertex of each, which
+// receives light, and the second, which other pixels may reuse. When the paths have
+// ended, those of a block are connected (kernels/reuse/): one sample each of some pixels
+// of the tile.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace lanelight {
 
-/// How far a path has come (column `reuse`).
+/// The progress of a path (column `reuse`).
 enum class ReuseState : std::uint32_t {
   kNoVertex,  // it has met mirrors and the like only
   kFirst,     // its first vertex is kept; what it meets next is its second
-  kOwn,       // that one serves nobody else
+  kOwn,       // its second vertex is not reused
   kSecond,    // it is kept too: what the path gathers from there is offered to all
   // The same of a second vertex that sends other light to others:
   kGlossy,   // not yet shaded

@@ -1,4 +1,4 @@
-// What the choices of a strategy turn on.
+// The features that choices of a strategy turn on.
 #pragma once
 
 #include "src/vocabulary/path/features.h"

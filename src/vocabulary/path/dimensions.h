@@ -1,8 +1,8 @@
 // The dimensions of a path's random numbers, by name. A number is a pure function of
 // (seed, pixel, sample, key); a key is made of dimension, depth and branch.
 //
-// Every bounce has kDimensionsPerBounce of them and every purpose a range of its own, so
-// that a new dimension takes a free place and changes the numbers of no other one.
+// Every bounce has kDimensionsPerBounce of them, and every purpose a range of its own. A
+// new dimension takes a free number and changes no other.
 // tests/kernels/points/golden_test.cc holds values of each.
 #pragma once
 

@@ -1,8 +1,7 @@
-// Every column of a path, declared once: type, name, the features of which any one needs
-// it, how long it matters, the value that a new path begins with, its meaning. Allocation
-// (null when not needed), poisoning in debug builds, bytes per path, the first values of
-// a path, what is carried to the next wave, what a copy of a path takes over, and the
-// read/write checks of the plan all derive from this list.
+// Every column of a path, declared once: type, name, features that need it, lifetime,
+// initial value, meaning. Derived from this list: allocation (null if not needed),
+// poisoning in debug builds, bytes per path, initial values, what is carried to the next
+// wave, what split paths inherit, and the read/write checks of the plan.
 //
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
@@ -18,7 +17,7 @@
 
 namespace lanelight {
 
-/// How long the value of a column matters.
+/// How long the value of a column is needed.
 enum class Lifetime : std::uint8_t {
   kCamera,    // to the stages of the camera
   kHit,       // until the surface at the hit is known
@@ -235,11 +234,11 @@ const char* FieldMeaning(Field field);
 const char* FieldType(Field field);
 /// Features of which any one makes the column live; empty = always.
 FeatureSet FieldFeatures(Field field);
-/// Whether renders with these features need it.
+/// Returns whether renders with these features need the field.
 bool IsLive(Field field, const FeatureSet& features);
 /// In a plan with the features `f`.
 Lifetime FieldLifetime(Field field, const FeatureSet& f);
-/// What the camera stage writes; none where another stage does.
+/// Returns the value that the camera stage writes; none if another stage writes it.
 FirstValue FieldFirstValue(Field field);
 
 /// Its value goes from one wave to the next.
@@ -251,7 +250,8 @@ constexpr bool IsCopied(Lifetime lifetime) {
 
 // Groups used in the declarations of stages.
 namespace fields {
-/// What some plan carries from wave to wave; what the camera stage begins.
+/// Fields that some plan carries from wave to wave; fields that the camera stage
+/// initialises.
 FieldSet EverCarried();
 FieldSet WithFirstValue();
 
@@ -284,7 +284,7 @@ inline constexpr FieldSet kBouncePoints = {
     Field::u_lobe,      Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0,   Field::u_light_1,  Field::u_roulette, Field::u_shadow,
     Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
-/// Of the rest of a shadow ray that goes through interfaces.
+/// The rest of a shadow ray that goes through interfaces.
 inline constexpr FieldSet kShadowRest = {
     Field::sh_o_x,  Field::sh_o_y,      Field::sh_o_z,     Field::sh_n_x,  Field::sh_n_y,
     Field::sh_n_z,  Field::sh_ns_x,     Field::sh_ns_y,    Field::sh_ns_z, Field::sh_p_x,

@@ -1,4 +1,5 @@
-// What control=regression keeps of a path's numbers: codes of 32 bits, four to a sample.
+// The random numbers of a path that control=regression keeps: codes of 32 bits, four per
+// sample.
 //   a pair     bit 31 is set; above 15 bits of the second number 16 of the first one. A
 //              code stands for the middle of its cell, so that polynomials of degree 2
 //              keep their mean up to 1e-9
@@ -22,8 +23,8 @@ inline std::uint32_t PairCode(float first, float second) {
          static_cast<std::uint32_t>(second * (1 << kBitsOfSecond));
 }
 
-/// Of one event: the number u chooses the first lobe, of probability p < 1, where it is
-/// below it.
+/// Encodes one event: the number u chooses the first lobe, of probability p < 1, if u <
+/// p.
 inline std::uint32_t ChoiceCode(float u, float p) {
   constexpr float kScale = 1 << kBitsOfProbability;
   const auto code = static_cast<std::uint32_t>(p * kScale);

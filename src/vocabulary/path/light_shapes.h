@@ -9,7 +9,7 @@
 
 namespace lanelight {
 
-/// What a shape of light is like.
+/// Traits of a shape of light.
 enum LightTraits : std::uint32_t {
   kEmittingShape = 1 << 0,  // of the scene, with an area
   kDeltaLight = 1 << 1,     // no ray can hit it: light samples are the only way there

@@ -1,6 +1,6 @@
-// How the samples of a pixel are dealt out to independent randomisations of the sample
-// points. Nothing here depends on how many samples there will be, so a render can be
-// stopped anywhere and go on as if it had not been.
+// Assigns the samples of a pixel to independent randomisations of the sample points. The
+// assignment does not depend on the final number of samples, so a render can stop and
+// resume anywhere.
 //
 // Each of kReplicates randomisations is an endless sequence of its own; samples take
 // turns. After n samples there are kReplicates independent estimates from n / kReplicates
@@ -16,19 +16,20 @@ namespace lanelight {
 /// As many as the error of a pixel needs; more would take stratification away.
 inline constexpr std::uint32_t kReplicates = 4, kLogReplicates = 2;
 
-/// How a pixel's samples count as observations.
+/// How samples of a pixel count as observations.
 struct SampleGroups {
   std::uint32_t unit =
       1;  // successive samples that belong together: 2 in antithetic pairs
   /// Units take turns at kReplicates observations; else each is one by itself.
   bool replicates = false;
-  /// Sum over all pixels of the squared correlation of their errors with one's own, at
-  /// most: 1 where pixels are independent. So many pixels say as much as one that is.
+  /// Upper bound of the sum over all pixels of their squared error correlation with one
+  /// pixel; 1 if pixels are independent. This many pixels are worth one independent
+  /// pixel.
   double dependents = 1;
 
   bool operator==(const SampleGroups&) const = default;
 
-  /// Whose turn a sample is.
+  /// Returns the replicate of a sample.
   std::uint32_t Replicate(std::uint64_t sample) const {
     return static_cast<std::uint32_t>(sample / unit % kReplicates);
   }

@@ -46,8 +46,8 @@ inline constexpr int kColorPlanes = NumPlanes(PlaneGroup::kColor);
 inline constexpr int kAovPlanes = NumPlanes(PlaneGroup::kAov);
 inline constexpr int kGbufferPlanes = NumPlanes(PlaneGroup::kGbuffer);
 
-/// What a render tells of first hits beside its colours: nothing; albedo, shading normal
-/// and depth (--aov); besides, where they are (--gbuffer).
+/// Auxiliary output of first hits: none; albedo, shading normal and depth (--aov); these
+/// and their positions (--gbuffer).
 enum class Auxiliary : std::uint8_t { kNone, kAov, kGbuffer };
 
 /// The features that such a render has.

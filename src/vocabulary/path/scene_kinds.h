@@ -28,12 +28,12 @@ enum class TextureKind {
 };
 enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 
-/// Where texture coordinates come from: of the surface, or of the place.
+/// The source of texture coordinates: the surface, or the position.
 enum class MappingKind { kUv, kSpherical, kCylindrical, kPlanar };
 enum class ImageFilter { kPoint, kBilinear, kTrilinear, kEwa };
 
-/// How wide a curve looks. kFlat: it faces each ray. kCylinder: likewise, with normals of
-/// a tube. kRibbon: across a normal of its own.
+/// How a curve is widened. kFlat faces each ray; kCylinder too, with normals of a tube;
+/// kRibbon lies across a normal of its own.
 enum class CurveType : std::uint8_t { kFlat, kCylinder, kRibbon };
 
 /// Diffuse scattering models of the founding paper (docs/scenes.md).
@@ -48,7 +48,7 @@ enum class SphericalMapping { kEqualArea, kEquirectangular };
 /// Film "gbuffer", or --gbuffer: where the first hits are too, and in which space.
 enum class Gbuffer : std::uint8_t { kNone, kCamera, kWorld };
 
-/// What paths carry in their three columns of colour: red, green and blue, or three
+/// The content of the three colour columns of a path: red, green and blue, or three
 /// wavelengths (src/scene/compiled/spectra.h).
 enum class Transport : std::uint8_t { kRgb, kSpectral };
 
@@ -57,7 +57,7 @@ enum class BuildQuality {
   kFast,  // splits along one axis, no cuts: for previews and huge scenes
 };
 
-/// Triangles of a leaf of the trees over shapes, at most.
+/// Maximum number of triangles in a leaf of a BVH.
 inline constexpr int kLeafTriangles = 16;
 
 }  // namespace lanelight

@@ -1,5 +1,5 @@
-// What kernels read of a scene: tables of plain data, each of a header of its own, of
-// which a kernel includes those that it reads.
+// The parts of a scene that kernels read: tables of plain data, each with its own header.
+// A kernel includes the headers of those that it reads.
 #pragma once
 
 namespace lanelight {

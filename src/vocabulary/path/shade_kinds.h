@@ -6,7 +6,7 @@
 
 namespace lanelight {
 
-/// What a kind of material is like; kernels/shade/shade-inl.h holds each against the
+/// Traits of a kind of material. kernels/shade/shade-inl.h checks each against the
 /// members of its policy.
 enum ShadeTraits : std::uint32_t {
   kPlainShading = 0,
@@ -61,10 +61,11 @@ inline constexpr std::uint32_t kTraitsOfShadeKinds[] = {
 #undef X
 };
 
-/// Whether a kind has a kernel: not a mix, which becomes another kind before.
+/// Returns whether a kind has a kernel; a mix does not: it has been replaced by another
+/// kind.
 constexpr bool IsShaded(ShadeKind kind) { return kind < ShadeKind::kCount; }
 
-/// Whether a kind has a trait; what is not shaded has none.
+/// Returns whether a kind has a trait; kinds that are not shaded have none.
 constexpr bool HasTrait(ShadeKind kind, ShadeTraits trait) {
   return IsShaded(kind) && (kTraitsOfShadeKinds[static_cast<int>(kind)] & trait) != 0;
 }

@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// What a stage works on.
+/// The unit of work of a stage.
 enum class StageScope : std::uint8_t {
   kWave,  // paths, by its input queue
   // Paths that have ended (Wave::block, src/vocabulary/path/block.h):
@@ -16,7 +16,7 @@ enum class StageScope : std::uint8_t {
   kBlock  // of these one block
 };
 
-/// What a stage does for paths. X(name, meaning)
+/// The roles of stages: X(name, meaning)
 #define LANELIGHT_STAGE_ROLES(X)                            \
   X(Camera, "starts paths and their camera rays")           \
   X(Sampling, "sample points")                              \

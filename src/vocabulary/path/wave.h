@@ -1,5 +1,5 @@
-// What a stage sees: the columns of one wavefront, its queues of path slots, the scene.
-// A wavefront belongs to one task; nothing here is shared or locked.
+// The data that a stage works on: the columns of one wavefront, its queues of path slots,
+// the scene. A wavefront belongs to one task; nothing here is shared or locked.
 #pragma once
 
 #include <cstdint>
@@ -70,9 +70,8 @@ struct TileWork {
   bool Done() const { return next_sample >= samples; }
 };
 
-/// Where finished samples go: plane-major buffer of the task's tile,
-/// plane p of sample `output` is at samples[p * stride + output]. A pixel's samples are
-/// consecutive.
+/// Storage of finished samples: a plane-major buffer of the task's tile. Plane p of
+/// sample `output` is at samples[p * stride + output]. A pixel's samples are consecutive.
 struct SampleBuffer {
   float* samples = nullptr;
   std::uint32_t stride = 0;  // samples of one plane
@@ -86,7 +85,7 @@ struct ColumnList {
   void Add(std::uint32_t* column) { columns[count++] = column; }
 };
 
-/// What the fields' lifetimes and first values (src/vocabulary/path/fields.h) come to in
+/// The lifetimes and first values of fields (src/vocabulary/path/fields.h), resolved for
 /// a plan.
 struct ColumnLists {
   ColumnList carried;                      // to the next wave
@@ -136,7 +135,7 @@ struct Wave : SceneParts {
   void Reset();
   /// Resets the queues, and takes work and the buffer for its samples.
   void Begin(const TileWork& new_work, const SampleBuffer& new_buffer);
-  /// Whether samples are left to start, or paths to continue.
+  /// Returns whether samples are left to start, or paths to continue.
   bool HasWork() { return !work.Done() || queue(QueueId::kScattered).size > 0; }
   /// Makes the scattered rays those to intersect next, and empties all other queues but
   /// that of free slots.

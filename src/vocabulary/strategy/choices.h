@@ -131,7 +131,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "argmin over strategies of variance times cost", "")
 // clang-format on
 
-// How the paths of reuse=block are chosen: X(name, text, meaning)
+// The layouts of reuse=block: X(name, text, meaning)
 #define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
   X(Random, "random", "at random from the tile, anew for each sample (default)")       \
   X(Compact, "compact", "a rectangle that lies elsewhere in the tile for each sample") \
@@ -172,7 +172,7 @@ enum class BlockLayout : std::uint8_t { LANELIGHT_BLOCK_LAYOUTS(X) };
 enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 #undef X
 
-// How many choices an axis has.
+// Counts the choices of an axis.
 #define X(...) +1
 inline constexpr int kNumPoints = LANELIGHT_POINTS(X);
 #undef X

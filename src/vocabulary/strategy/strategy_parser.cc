@@ -128,7 +128,7 @@ class Parser {
     SetArguments(choice, parts);
   }
 
-  // Whether there are arguments, of which a choice takes at most so many.
+  // Returns whether there are arguments, of which a choice takes at most so many.
   bool Has(const Parts& parts, std::size_t most) const {
     if (parts.size() <= most + 1) return parts.size() > 1;
     if (most == 0) Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));

@@ -90,7 +90,8 @@ inline std::string StateBytes(const StateContent& content) {
   return ReadWholeFile(folder.File("state"));
 }
 
-/// Whether each pixel of the window is that of `expected` in the tiles, and zero outside.
+/// Returns whether each pixel of the window is that of `expected` in the tiles, and zero
+/// outside.
 inline bool HoldsTiles(const RandomFilm& film, const RandomFilm& expected,
                        const std::vector<PixelRect>& tiles) {
   const RandomFilm zero(film.window);

@@ -49,7 +49,7 @@ StartTruth Nearest(const CompiledScene& scene, const TestRay& ray,
   return truth;
 }
 
-// Whether a point lies in the plane of the triangle that a path names.
+// Returns whether a point lies in the plane of the triangle that a path names.
 bool LiesOn(const Wave& wave, std::uint32_t prim, Vec3f p) {
   const auto& triangles = wave.geometry->triangles;
   if (prim >= triangles.size()) return false;

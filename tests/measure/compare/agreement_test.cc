@@ -1,5 +1,5 @@
-// Whether renders agree within their noise: planted differences are found, noise alone is
-// not called one more often than is said.
+// Decides whether renders agree within their noise: planted differences are found, noise
+// alone is not called one more often than is said.
 #include "src/measure/compare/agreement.h"
 
 #include <algorithm>

@@ -56,7 +56,7 @@ inline std::map<std::string, std::vector<float>> CellPixels(const std::string& o
   return pixels;
 }
 
-/// Whether two sets of images are the same, bit by bit.
+/// Returns whether two sets of images are the same, bit by bit.
 inline bool SamePixels(const std::map<std::string, std::vector<float>>& a,
                        const std::map<std::string, std::vector<float>>& b) {
   return a.size() == b.size() &&

@@ -28,8 +28,8 @@ std::string TextOfKernel(const fs::path& path) {
   return text.str();
 }
 
-// Whether a header of kernels/ is guarded by the name that the build takes back between
-// targets (cmake/kernel_groups.cmake).
+// Returns whether a header of kernels/ is guarded by the name that the build takes back
+// between targets (cmake/kernel_groups.cmake).
 bool IsGuardedByPath(std::string path, const std::string& text) {
   for (char& c : path) {
     c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::toupper(c))

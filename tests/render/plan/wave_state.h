@@ -30,8 +30,8 @@ class PathCopies {
     for (std::uint32_t slot : Free(before)) taken_.insert(slot);
     for (std::uint32_t slot : Free(after)) taken_.erase(slot);
   }
-  /// Whether the slot has just been taken and holds in the column what a path of the same
-  /// sample had there.
+  /// Returns whether the slot has just been taken and holds in the column what a path of
+  /// the same sample had there.
   bool Explain(std::size_t column, std::size_t slot) {
     if (taken_.count(static_cast<std::uint32_t>(slot)) == 0) return false;
     if (paths_.empty()) {

@@ -11,8 +11,8 @@ struct InterposedCalls {
   std::uint64_t bytes = 0;  // asked for by the allocations
 };
 
-/// Whether the functions are interposed in this binary; not so under sanitizers, which
-/// interpose them themselves, and without glibc.
+/// Returns whether the functions are interposed in this binary; not so under sanitizers,
+/// which interpose them themselves, and without glibc.
 bool CanInterpose();
 
 /// Counts on this thread while it lives.

@@ -58,7 +58,7 @@ bool Equal(const AccelBox& a, const AccelBox& b) {
   return true;
 }
 
-// Whether every node says of its children what they are, and is planned.
+// Returns whether every node says of its children what they are, and is planned.
 void CheckNodes(BinaryTree& tree, const std::vector<AccelBox>& boxes) {
   std::multiset<std::uint32_t> items;
   ForEachNode(tree, 0, [&](std::uint32_t at) {

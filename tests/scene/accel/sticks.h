@@ -26,7 +26,8 @@ inline Vec3d PointOn(const TriangleRecord& triangle, Random& random) {
          v * (ToDouble(Corner(triangle, 2)) - a);
 }
 
-/// Whether a box holds a point up to its own rounding. `scale`: size of coordinates.
+/// Returns whether a box holds a point up to its own rounding. `scale`: size of
+/// coordinates.
 inline bool Holds(const AccelBox& box, Vec3d p, double scale = 1) {
   const double rounding = 1e-15 * scale;
   for (int a = 0; a < 3; ++a) {

@@ -20,7 +20,7 @@ const std::vector<Combination>& Combinations();
 /// Returns the index of an axis. Requires that there is one of this name.
 std::size_t AxisOf(const std::string& key);
 
-/// Whether the scene can be rendered with the strategy on top of its own.
+/// Returns whether the scene can be rendered with the strategy on top of its own.
 bool Accepts(const PreparedScene& scene, const std::string& strategy);
 
 /// Returns the combination with the choices that the scene refuses set back to the first
