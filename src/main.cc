@@ -15,7 +15,6 @@
 #include "src/base/core/suggest.h"
 #include "src/base/core/version.h"
 #include "src/cli/commands.h"
-#include "src/cli/completion.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/render/job/memory.h"

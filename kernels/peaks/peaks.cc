@@ -1,4 +1,4 @@
-// Read bandwidth and multiply-add peak, for src/render/job/peaks.h.
+// Read bandwidth and multiply-add peak, for src/render/job/peaks.cc.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/peaks/peaks.h"

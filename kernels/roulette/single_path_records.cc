@@ -47,7 +47,7 @@ LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered)
 }
 
 // Of the pixel, by PathValues::inverse_pixel, in terms of what paths gather: about what
-// moments are taken (MomentsAbout in src/render/train/single_path_variances.h).
+// moments are taken (MomentsAbout in src/render/train/path_records.h).
 LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));

@@ -10,11 +10,9 @@
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/options.h"
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/terminal.h"
-#include "src/cli/validators.h"
 #include "src/measure/advise/advise.h"
 #include "src/measure/advise/candidates.h"
 #include "src/render/job/machine_json.h"
@@ -123,12 +121,10 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   AddSetting(*command, "time", options->scene.settings)
       ->required()
       ->description("Time by the wall clock, for trial and render together: seconds, 5m");
-  command
-      ->add_option("--pilot", options->pilot,
-                   "Time of the trial of strategies, of 8 million rays each; default: 3 "
-                   "% of --time")
-      ->transform(ValueOf(SecondsType{1e-3, 1e9}))
-      ->type_name("TIME");
+  AddOption(*command, "--pilot TIME", options->pilot,
+            "Time of the trial of strategies, of 8 million rays each; default: 3 "
+            "% of --time")
+      ->transform(ValueOf(SecondsType{1e-3, 1e9}));
   AddSetting(*command, "seed", options->scene.settings);
   AddOutputOptions(*command, options->outputs, options->scene.settings);
   AddSceneOptions(*command, options->scene);

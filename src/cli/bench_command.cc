@@ -8,13 +8,10 @@
 #include "src/base/core/parallel.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/terminal.h"
-#include "src/cli/validators.h"
 #include "src/measure/report/page.h"
 #include "src/measure/throughput/bench_scenes.h"
 #include "src/measure/throughput/throughput_table.h"
@@ -30,9 +27,6 @@ struct BenchCommandOptions {
   bool all_targets = false, quiet = false;
 };
 
-constexpr const char* kBenchInterruptText =
-    "\nstopping: what was measured so far is printed (once more to abort)\n";
-
 void Complete(BenchCommandOptions& options) {
   ThroughputOptions& bench = options.bench;
   if (bench.scenes.empty()) {
@@ -47,7 +41,8 @@ void Complete(BenchCommandOptions& options) {
 }
 
 std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
-  const InterruptGuard interrupt(kBenchInterruptText);
+  const InterruptGuard interrupt(
+      "\nstopping: what was measured so far is printed (once more to abort)\n");
   return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
     if (options.quiet || p.repeats > 0) return;
     PrintError(fmt::format("measuring {} ({} of {})", p.scene, p.done + 1, p.scenes));
@@ -94,10 +89,8 @@ int Bench(BenchCommandOptions options) {
 
 void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
   ThroughputOptions& bench = options.bench;
-  command
-      .add_option("SCENE", bench.scenes,
-                  "Scene files; default: five that are part of the program")
-      ->type_name("");
+  AddOption(command, "SCENE", bench.scenes,
+            "Scene files; default: five that are part of the program");
   AddSetting(command, "resolution", bench.settings);
   AddSetting(command, "crop", bench.settings);
   AddSetting(command, "spp", bench.settings)
@@ -106,56 +99,40 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
           fmt::format("a fixed number for each scene; {} for scene files", kFileSpp)));
   AddSetting(command, "strategy", bench.settings);
   AddSetting(command, "sampler", bench.settings);
-  command
-      .add_option("--threads", bench.threads,
-                  WithDefault("Numbers of threads, one row each", "1, and all cores"))
+  AddOption(command, "--threads T,...", bench.threads,
+            WithDefault("Numbers of threads, one row each", "1, and all cores"))
       ->delimiter(',')
-      ->transform(ValueFrom(1, kMaxThreads))
-      ->type_name("T,...");
+      ->transform(ValueFrom(1, kMaxThreads));
   CLI::Option* targets =
-      command
-          .add_option("--simd", bench.targets,
-                      WithDefault("SIMD targets, one row each", "the best there is"))
+      AddOption(command, "--simd NAME,...", bench.targets,
+                WithDefault("SIMD targets, one row each", "the best there is"))
           ->delimiter(',')
-          ->transform(ValueOf(TargetType(AvailableTargets())))
-          ->type_name("NAME,...");
+          ->transform(ValueOf(TargetType(AvailableTargets())));
   command.add_flag("--all-targets", options.all_targets, "Measure all SIMD targets")
       ->excludes(targets);
-  command
-      .add_option(
-          "--within", bench.within,
-          WithDefault("Repeat until medians are known so well, of 1", bench.within))
-      ->transform(ValueFrom(1e-4, 1.0))
-      ->type_name("X");
-  command
-      .add_option("--time", bench.seconds,
-                  WithDefault("Time by the clock for each row at most, unless six "
-                              "repeats take longer",
-                              bench.seconds))
-      ->transform(ValueOf(SecondsType{0.01, 1e6}))
-      ->type_name("TIME");
+  AddOption(command, "--within X", bench.within,
+            WithDefault("Repeat until medians are known so well, of 1", bench.within))
+      ->transform(ValueFrom(1e-4, 1.0));
+  AddOption(command, "--time TIME", bench.seconds,
+            WithDefault("Time by the clock for each row at most, unless six "
+                        "repeats take longer",
+                        bench.seconds))
+      ->transform(ValueOf(SecondsType{0.01, 1e6}));
 }
 
 void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
-  command.add_option("--json", options.json, "Write all numbers as JSON ('-': print it)")
-      ->type_name("FILE");
-  command.add_option("--csv", options.csv, "Write one line a row")->type_name("FILE");
-  command.add_option("--markdown", options.markdown, "Write the tables in Markdown")
-      ->type_name("FILE");
-  command.add_option("--html", options.html, "Write a page with plots of all rows")
-      ->check(EndsIn(".html"))
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--against", options.against,
-          "Exit with 9 if a row is slower, beyond doubt, than in this JSON of before, "
-          "with 10 if they cannot be compared, and print all ratios")
-      ->type_name("FILE");
-  command
-      .add_option("--tolerance", options.tolerance,
-                  WithDefault("Part by which a row may be slower", options.tolerance))
-      ->transform(ValueFrom(0.0, 1.0))
-      ->type_name("X");
+  AddOption(command, "--json FILE", options.json,
+            "Write all numbers as JSON ('-': print it)");
+  AddOption(command, "--csv FILE", options.csv, "Write one line a row");
+  AddOption(command, "--markdown FILE", options.markdown, "Write the tables in Markdown");
+  AddOption(command, "--html FILE", options.html, "Write a page with plots of all rows")
+      ->check(EndsIn(".html"));
+  AddOption(command, "--against FILE", options.against,
+            "Compare with this JSON of an earlier run and print all ratios; exit with 9 "
+            "if a row is significantly slower, with 10 if they cannot be compared");
+  AddOption(command, "--tolerance X", options.tolerance,
+            WithDefault("Part by which a row may be slower", options.tolerance))
+      ->transform(ValueFrom(0.0, 1.0));
   command.add_flag("--quiet", options.quiet, "No progress");
 }
 

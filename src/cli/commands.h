@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "src/base/core/rank_group.h"
 
@@ -12,7 +14,7 @@ namespace lanelight {
 
 using Command = std::function<int()>;
 
-/// `group`: who renders; it must outlive the command.
+/// `group`: the ranks that render; must outlive the command.
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen);
 void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
@@ -28,13 +30,20 @@ void AddSweepCommand(CLI::App& root, Command& chosen);
 void AddPlotCommand(CLI::App& root, Command& chosen);
 void AddStressCommand(CLI::App& root, Command& chosen);
 void AddCompletionCommand(CLI::App& root, Command& chosen);
-/// The last one: it knows those that are there before it. It is done when it is parsed.
+/// Added last, since it lists the other commands. Runs while the command line is parsed.
 void AddHelpCommand(CLI::App& root);
-/// Texts of help that fit the terminal.
+/// Returns a formatter whose help fits the terminal.
 std::shared_ptr<CLI::FormatterBase> FittedHelp();
 
-/// Returns whether it is the name of a command; if not, an error is printed that names
-/// them all.
+/// Returns whether `word` is a command; if not, prints an error that lists all commands.
 bool CheckCommand(const CLI::App& root, const std::string& word);
+
+/// First word of a command line that shell completion sends.
+inline constexpr const char* kCompleteWord = "__complete";
+
+/// Returns a line for each word that the last of `words` may become: the word, a
+/// tabulator, and its meaning. Or one of the lines ":files", ":files.pbrt" (files of this
+/// kind, and folders) or ":folders", which shells complete themselves.
+std::string Completions(const CLI::App& root, std::vector<std::string> words);
 
 }  // namespace lanelight

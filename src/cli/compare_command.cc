@@ -8,11 +8,11 @@
 #include "src/base/image/color_channels.h"
 #include "src/base/image/png.h"
 #include "src/cli/commands.h"
-#include "src/cli/compare_text.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/validators.h"
+#include "src/cli/texts.h"
 #include "src/measure/compare/comparison_page.h"
 #include "src/measure/compare/comparison_sheet.h"
 #include "src/render/job/machine_json.h"
@@ -62,7 +62,7 @@ ImageComparison CompareFiles(const NamedImage& test, const NamedImage& reference
   }
 }
 
-// Of two images the object is what is said of them; of more it is a list.
+// Returns one comparison as an object, several as a list.
 std::string JsonText(const std::vector<ImageComparison>& comparisons,
                      const std::vector<bool>& over) {
   nlohmann::json all = nlohmann::json::array();
@@ -144,43 +144,30 @@ int Compare(CompareCommandOptions options) {
 }
 
 void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {
-  command.add_option("A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
-      ->required()
-      ->type_name("");
-  command.add_option("B", options.second, "Image it should equal")
-      ->required()
-      ->type_name("");
-  command
-      .add_option("C", options.more,
-                  "More images, of which all should equal the last one, the reference; "
-                  "default: B is the reference")
-      ->type_name("");
+  AddOption(command, "A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
+      ->required();
+  AddOption(command, "B", options.second, "Image it should equal")->required();
+  AddOption(command, "C", options.more,
+            "More images, of which all should equal the last one, the reference; "
+            "default: B is the reference");
   command.add_flag("--reference", options.comparison.exact_reference,
                    "The last image is exact: noise is that of the others alone");
-  command
-      .add_option("--max-relmse", options.max_relmse,
-                  "Exit with 4 if a relative MSE exceeds this, or a value is invalid")
-      ->transform(ValueFrom(0.0, 1e30))
-      ->type_name("X");
+  AddOption(command, "--max-relmse X", options.max_relmse,
+            "Exit with 4 if a relative MSE exceeds this, or a value is invalid")
+      ->transform(ValueFrom(0.0, 1e30));
   command.add_flag("--flip", options.comparison.flip,
                    "Compute FLIP as well (--html and --png do)");
-  command
-      .add_option("--ppd", options.comparison.pixels_per_degree,
-                  "Pixels in a degree of the eye's field, for FLIP; default: 67.02, a "
-                  "screen 0.7 m wide of 3840 pixels, seen from 0.7 m")
-      ->transform(ValueFrom(1.0, 1000.0))
-      ->type_name("X");
-  command
-      .add_option("--html", options.html,
-                  "Write a page to look at the images and their differences")
-      ->check(EndsIn(".html"))
-      ->type_name("FILE");
-  command
-      .add_option("--png", options.png,
-                  "Write a picture of the images, their differences and FLIP, a row for "
-                  "each image")
-      ->check(EndsIn(".png"))
-      ->type_name("FILE");
+  AddOption(command, "--ppd X", options.comparison.pixels_per_degree,
+            "Pixels in a degree of the eye's field, for FLIP; default: 67.02, a "
+            "screen 0.7 m wide of 3840 pixels, seen from 0.7 m")
+      ->transform(ValueFrom(1.0, 1000.0));
+  AddOption(command, "--html FILE", options.html,
+            "Write a page to look at the images and their differences")
+      ->check(EndsIn(".html"));
+  AddOption(command, "--png FILE", options.png,
+            "Write a picture of the images, their differences and FLIP, a row for "
+            "each image")
+      ->check(EndsIn(".png"));
   command.add_flag("--json", options.json, "Print JSON");
 }
 

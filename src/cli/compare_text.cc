@@ -1,11 +1,11 @@
-#include "src/cli/compare_text.h"
+#include "src/cli/texts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
 
-#include "src/cli/terminal.h"
+#include "src/cli/console.h"
 
 namespace lanelight {
 namespace {

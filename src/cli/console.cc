@@ -1,12 +1,17 @@
 #include "src/cli/console.h"
 
-#include <fmt/format.h>
-
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fmt/format.h>
 #include <iostream>
+#include <string_view>
 
-#include "src/cli/terminal.h"
+#include "src/base/core/text_layout.h"
+#include "src/base/core/value_types.h"
 
 namespace lanelight {
 namespace {
@@ -28,6 +33,49 @@ std::string WithoutControls(const std::string& text) {
     out += control ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
   }
   return out;
+}
+
+constexpr std::size_t kUsualColumns = 80, kLeastColumns = 20;
+
+int DescriptorOf(Stream stream) {
+  return stream == Stream::kOutput ? STDOUT_FILENO : STDERR_FILENO;
+}
+
+std::string_view VariableOf(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+const char* CodeOf(Ink ink) {
+  switch (ink) {
+    case Ink::kBold:
+      return "\x1b[1m";
+    case Ink::kDim:
+      return "\x1b[2m";
+    case Ink::kRed:
+      return "\x1b[31m";
+    case Ink::kYellow:
+      return "\x1b[33m";
+  }
+  return "";
+}
+
+// Paints the word of kind ("error:", "warning:", "note:") of a message.
+std::string PaintedMessage(const std::string& line) {
+  struct Kind {
+    const char* word;
+    Ink ink;
+  };
+  for (const Kind& kind : {Kind{"error:", Ink::kRed}, Kind{"warning:", Ink::kYellow},
+                           Kind{"note:", Ink::kDim}}) {
+    const std::size_t at = line.find(kind.word);
+    // Behind a place, "scene.pbrt:3:1: ", and not in the middle of a sentence.
+    if (at == line.npos || (at > 0 && !line.substr(0, at).ends_with(": "))) continue;
+    const std::string word = kind.word;
+    return line.substr(0, at) + Painted(kind.ink, word, Stream::kError) +
+           line.substr(at + word.size());
+  }
+  return line;
 }
 
 }  // namespace
@@ -64,6 +112,39 @@ bool FlushOutput() {
   PrintError(std::string("error: cannot write to standard output: ") +
              std::strerror(failure));
   return false;
+}
+
+std::size_t TerminalColumns(Stream stream) {
+  std::size_t columns = ParseNumber<std::size_t>(VariableOf("COLUMNS")).value_or(0);
+  winsize size = {};
+  if (columns == 0 && ioctl(DescriptorOf(stream), TIOCGWINSZ, &size) == 0) {
+    columns = size.ws_col;
+  }
+  return std::max(columns > 0 ? columns : kUsualColumns, kLeastColumns);
+}
+
+bool IsTerminal(Stream stream) {
+  return isatty(DescriptorOf(stream)) != 0 && VariableOf("TERM") != "dumb";
+}
+
+std::string Painted(Ink ink, const std::string& text, Stream stream) {
+  if (!IsTerminal(stream) || !VariableOf("NO_COLOR").empty()) return text;
+  return CodeOf(ink) + text + "\x1b[0m";
+}
+
+std::string SummaryRow(const std::string& label, const std::string& text) {
+  std::string row = LabelledRow(label, text, TerminalColumns(Stream::kOutput));
+  return Painted(Ink::kDim, label, Stream::kOutput) + row.substr(label.size());
+}
+
+std::size_t ReadersColumns() {
+  const bool piped = isatty(STDOUT_FILENO) == 0 && VariableOf("COLUMNS").empty();
+  return piped ? std::string::npos : TerminalColumns(Stream::kOutput);
+}
+
+std::string FactRow(const std::string& label, const std::string& text,
+                    std::size_t label_columns) {
+  return LabelledRow(label, text, ReadersColumns(), label_columns);
 }
 
 }  // namespace lanelight

@@ -10,7 +10,6 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {
@@ -63,7 +62,7 @@ std::shared_ptr<CLI::FormatterBase> FittedHelp() {
 
 bool CheckCommand(const CLI::App& root, const std::string& word) {
   const std::vector<std::string> names = CommandNames(root);
-  if (std::find(names.begin(), names.end(), word) != names.end()) return true;
+  if (std::ranges::find(names, word) != names.end()) return true;
   const std::string nearest = NearestName(word, names);
   PrintError(fmt::format("error: unknown command '{}'; commands are {}{}", word,
                          fmt::join(names, ", "),

@@ -1,4 +1,4 @@
-#include "src/cli/image_info.h"
+#include "src/cli/texts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "src/base/image/exr_header.h"
 #include "src/base/image/image.h"
 #include "src/base/stat/values.h"
-#include "src/cli/terminal.h"
+#include "src/cli/console.h"
 
 namespace lanelight {
 namespace {
@@ -132,14 +132,15 @@ std::string AttributeText(const Json& value) {
                                  : DumpJson(value);
 }
 
-// What is not said in words already, in one row each.
+// Returns the other attributes, one per row.
 std::string OtherRows(const Json& part) {
   std::string text;
   for (const auto& [name, value] : part.at("attributes").items()) {
     const bool known =
         name.starts_with("relmse") ||
-        std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
-                    [&, key = name](const auto& pair) { return key == pair.first; });
+        std::ranges::any_of(kKnownAttributes, [&, key = name](const auto& pair) {
+          return key == pair.first;
+        });
     if (!known) text += InfoRow(name, AttributeText(value));
   }
   const auto others = part.at("other_attributes").get<std::vector<std::string>>();

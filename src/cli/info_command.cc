@@ -9,10 +9,9 @@
 #include "src/base/core/parallel.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/image_info.h"
-#include "src/cli/scene_options.h"
+#include "src/cli/options.h"
+#include "src/cli/texts.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/report.h"
@@ -73,11 +72,9 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
       "Print the machine, the SIMD target, threads, and versions of libraries; "
       "or what an image says of itself");
   auto options = std::make_shared<InfoOptions>();
-  command
-      ->add_option("IMAGE", options->image,
-                   "Print what this file says of itself: size, channels, error, samples, "
-                   "strategy, scene, settings; default: print what this build is")
-      ->type_name("");
+  AddOption(*command, "IMAGE", options->image,
+            "Print what this file says of itself: size, channels, error, samples, "
+            "strategy, scene, settings; default: print what this build is");
   AddSetting(*command, "simd", options->settings)
       ->description(WithDefault("SIMD target to show", "the best there is"));
   AddSetting(*command, "threads", options->settings);

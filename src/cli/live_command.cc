@@ -3,12 +3,10 @@
 
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/validators.h"
 #include "src/measure/live/server.h"
 
 namespace lanelight {
@@ -18,9 +16,6 @@ struct LiveCommandOptions {
   SceneOptions scene;
   std::uint16_t port = 0;
 };
-
-constexpr const char* kLiveInterruptText =
-    "\nstopping: saying goodbye to the pages (once more to abort)\n";
 
 // The strategy and how much is rendered are added by the page.
 std::string CommandLine(const SceneOptions& options) {
@@ -34,7 +29,7 @@ int Live(const LiveCommandOptions& options) {
   const live::LiveScene live_scene(options.scene.scene, options.scene.settings);
   PrintNotes(live_scene.job);
   live::Server server(live_scene, CommandLine(options.scene), options.port);
-  const InterruptGuard interrupt(kLiveInterruptText);
+  const InterruptGuard interrupt("\nstopping: closing the pages (once more to abort)\n");
   Print(server.address() + "\n");
   FlushOutput();
   server.Run(interrupt.stop());
@@ -48,16 +43,13 @@ void AddLiveCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "live", "Render in a browser: move the camera, compare strategies as they render");
   auto options = std::make_shared<LiveCommandOptions>();
-  command
-      ->add_option("--port", options->port,
-                   WithDefault("Port on 127.0.0.1; 0: any that is free", options->port))
-      ->check(ValueFrom<std::uint32_t>(0, 65535).description(""))
-      ->type_name("N");
+  AddOption(*command, "--port N", options->port,
+            WithDefault("Port on 127.0.0.1; 0: any that is free", options->port))
+      ->check(ValueFrom<std::uint32_t>(0, 65535).description(""));
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nPrints the address of the page and serves it until Ctrl-C. The address has a "
-      "secret\n"
-      "in it; nothing but this machine's browsers can reach it. docs/live.md says more.\n"
+      "\nPrints the address of the page and serves it until Ctrl-C. The address has\n"
+      "a secret in it, and only browsers on this machine can reach it (docs/live.md).\n"
       "\nExamples:\n"
       "  lanelight live scene.pbrt\n"
       "  lanelight live scene.pbrt --resolution 640x360 --port 8080");

@@ -8,14 +8,14 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/summary.h"
+#include "src/cli/texts.h"
+#include "src/render/job/checkpoint.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/merge.h"
 #include "src/render/job/render.h"
 #include "src/render/job/saving.h"
-#include "src/render/job/state_lock.h"
 
 namespace lanelight {
 namespace {
@@ -27,11 +27,6 @@ struct MergeOptions {
   bool partial = false;
   RenderSettings settings;  // of images, and threads
 };
-
-void CheckOutputs(const MergeOptions& o) {
-  const RenderTargets& t = o.outputs.targets;
-  CheckOutputPaths({{t.exr, t.png, t.json, o.state}}, {o.states.begin(), o.states.end()});
-}
 
 std::string MissingText(const MergedRender& merged) {
   return fmt::format("{} of {} pixels are in none of the states", merged.missing,
@@ -46,15 +41,17 @@ void CheckComplete(const MergedRender& merged, bool partial) {
         ": give the missing parts, or --partial for an image of what is there");
   }
   if (merged.least == merged.most) return;
-  throw InputError(fmt::format(
-      "pixels have {} to {} samples: parts that were interrupted; go on with them, or "
-      "--partial for an image of what is there",
-      merged.least, merged.most));
+  throw InputError(
+      fmt::format("pixels have {} to {} samples, since parts were interrupted: resume "
+                  "these, or use --partial for an incomplete image",
+                  merged.least, merged.most));
 }
 
 int Merge(const MergeOptions& options) {
   const ThreadLimit threads(options.settings.threads);
-  CheckOutputs(options);
+  const RenderTargets& targets = options.outputs.targets;
+  CheckOutputPaths({{targets.exr, targets.png, targets.json, options.state}},
+                   {options.states.begin(), options.states.end()});
   std::optional<StateLock> lock;
   if (!options.state.empty()) lock.emplace(options.state, PrintWarning);
   MergedRender merged = MergeStates(options.states);
@@ -63,7 +60,7 @@ int Merge(const MergeOptions& options) {
   merged.film->FitControl();
   Rendering rendering;
   rendering.report.scene = merged.head.at("scene");
-  rendering.report.half = options.outputs.targets.image.half;
+  rendering.report.half = targets.image.half;
   rendering.report.result = ResultOf(merged);
   nlohmann::json members = nlohmann::json::object();
   members["merged"] = {{"states", options.states.size()},
@@ -71,16 +68,15 @@ int Merge(const MergeOptions& options) {
                        {"seeds", merged.seeds},
                        {"machines", ToJson(merged.machines)}};
   const FilmAccumulator& film = *merged.film;
-  const RenderFacts facts = {
-      merged.identity,
-      merged.head,
-      merged.head.at("scale"),
-      merged.identity.value("color_space", std::string("srgb")),
-      std::uint64_t(film.width()) * static_cast<std::uint64_t>(film.height()),
-      options.partial};
-  WriteRendering(film, facts, options.outputs.targets, members, rendering);
+  const RenderFacts facts = {merged.identity,
+                             merged.head,
+                             merged.head.at("scale"),
+                             merged.identity.value("color_space", std::string("srgb")),
+                             std::uint64_t(film.width()) * std::uint64_t(film.height()),
+                             options.partial};
+  WriteRendering(film, facts, targets, members, rendering);
   const bool good = PrintProblems(rendering.problems);
-  if (options.outputs.targets.json == "-") {
+  if (targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.outputs.quiet) {
     Print(MergeSummaryText(rendering.report, merged, options.outputs.verbose));
@@ -96,12 +92,10 @@ void AddMergeCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "merge", "Put the states of a render's parts together, or of different seeds");
   auto options = std::make_shared<MergeOptions>();
-  command->add_option("STATES", options->states, "States of `render --checkpoint`")
-      ->required()
-      ->type_name("");
+  AddOption(*command, "STATES", options->states, "States of `render --checkpoint`")
+      ->required();
   AddOutputOptions(*command, options->outputs, options->settings);
-  command->add_option("--state", options->state, "Write the merged state too")
-      ->type_name("FILE");
+  AddOption(*command, "--state FILE", options->state, "Write the merged state too");
   command->add_flag("--partial", options->partial,
                     "Pixels may be missing or have fewer samples");
   AddSetting(*command, "threads", options->settings);

@@ -7,9 +7,8 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/summary.h"
-#include "src/cli/terminal.h"
+#include "src/cli/options.h"
+#include "src/cli/texts.h"
 #include "src/render/job/job.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
@@ -32,7 +31,7 @@ std::string NamedRow(const std::string& name, const std::string& text) {
 
 std::string Features(const FeatureSet& features) {
   std::string text;
-  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+  for (int i = 0; i < int(Feature::kCount); ++i) {
     const auto feature = static_cast<Feature>(i);
     if (!features.Has(feature)) continue;
     text += NamedRow(FeatureName(feature), FeatureMeaning(feature));
@@ -65,7 +64,7 @@ std::string Stages(const Plan& plan) {
   for (const Phase& phase : plan.phases) {
     const bool again = phase.in_waves && phase.id != PhaseId::kPaths;
     text += fmt::format("{}stages of {} ({}), in order:\n", text.empty() ? "" : "\n",
-                        Meaning(phase.id), phase.stages.size());
+                        InfoOf(phase.id).meaning, phase.stages.size());
     text += again ? NamesOf(phase) : StagesOf(phase);
   }
   text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
@@ -79,7 +78,7 @@ std::string Stages(const Plan& plan) {
 std::string NeededBy(Field field) {
   std::string text;
   const FeatureSet needs = FieldFeatures(field);
-  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+  for (int i = 0; i < int(Feature::kCount); ++i) {
     const auto feature = static_cast<Feature>(i);
     if (!needs.Has(feature)) continue;
     text += (text.empty() ? "" : ", ") + WithoutFeature(feature);
@@ -107,7 +106,7 @@ std::string Notes(const Plan& plan) {
   return text.empty() ? text : text + "\n";
 }
 
-// What renders, as far as a plan can tell.
+// Names the strategy, as far as a plan determines it.
 std::string StrategyWords(const Job& job) {
   const Strategy& strategy = job.scene.strategy;
   const std::string text = ToText(strategy);
@@ -157,7 +156,7 @@ int PrintPlan(const PlanCommandOptions& options) {
 
 void AddPlanCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "plan", "Print the stages and fields that a scene gets, and what it is spared");
+      "plan", "Print the stages and fields that a scene needs, and those left out");
   auto options = std::make_shared<PlanCommandOptions>();
   AddSettings(*command, kAmountFlag, options->scene.settings);
   AddSceneOptions(*command, options->scene);

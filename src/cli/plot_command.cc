@@ -13,6 +13,7 @@
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
 #include "src/cli/commands.h"
+#include "src/cli/options.h"
 #include "src/measure/report/page_text.h"
 #include "src/render/job/saving.h"
 
@@ -66,25 +67,16 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "plot", "Draw the numbers of a study, a sweep or a bench, for a paper");
   auto options = std::make_shared<PlotCommandOptions>();
-  command
-      ->add_option("FILE", options->file,
-                   "study.json of `lanelight study`, sweep.json of `lanelight sweep`, or "
-                   "what `lanelight bench --json` has written")
-      ->required()
-      ->type_name("");
-  command
-      ->add_option("--figure", options->figure,
-                   "Write this plot, of those that --list names")
-      ->type_name("NAME");
-  command
-      ->add_option(
-          "-o,--output", options->out,
-          "Write the plot: .svg or .png (needs matplotlib), or its numbers: .csv")
-      ->type_name("FILE");
-  command
-      ->add_option("--scene", options->scene,
-                   "Of several, by name; default: the only one")
-      ->type_name("NAME");
+  AddOption(*command, "FILE", options->file,
+            "study.json of `lanelight study`, sweep.json of `lanelight sweep`, or "
+            "what `lanelight bench --json` has written")
+      ->required();
+  AddOption(*command, "--figure NAME", options->figure,
+            "Write this plot, of those that --list names");
+  AddOption(*command, "-o,--output FILE", options->out,
+            "Write the plot: .svg or .png (needs matplotlib), or its numbers: .csv");
+  AddOption(*command, "--scene NAME", options->scene,
+            "Of several, by name; default: the only one");
   command->add_flag("--all", options->all,
                     "Draw all strategies, not the paper's or the leading eight");
   command->add_flag("--list", options->list, "Print which plots FILE has, and stop");

@@ -5,16 +5,14 @@
 #include "src/base/core/json_text.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
-#include "src/cli/profile_table.h"
+#include "src/cli/options.h"
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/validators.h"
+#include "src/cli/texts.h"
+#include "src/render/job/profile_report.h"
 #include "src/render/job/saving.h"
-#include "src/render/job/trace_json.h"
 
 namespace lanelight {
 namespace {
@@ -74,23 +72,18 @@ int Profile(const ProfileCommandOptions& options) {
 
 void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   AddSettings(command, kAmountFlag, options.scene.settings);
-  // As `render` has it: the profile is of the same program.
+  // The same default as for `render`, so that the profile is of the same program.
   options.scene.settings.decision = DefaultDecision::kIfLong;
-  command.add_option("--json", options.json, "Write the profile as JSON ('-': print it)")
-      ->type_name("FILE");
-  command
-      .add_option("--trace", options.trace,
-                  "Write every stage call, for ui.perfetto.dev or chrome://tracing")
+  AddOption(command, "--json FILE", options.json,
+            "Write the profile as JSON ('-': print it)");
+  AddOption(command, "--trace FILE", options.trace,
+            "Write every stage call, for ui.perfetto.dev or chrome://tracing")
       ->check([](const std::string& path) {
         return path == "-" ? std::string("a trace goes to a file, not to '-'") : "";
-      })
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--trace-events", options.trace_events,
-          WithDefault("Stage calls a thread writes down at most", options.trace_events))
-      ->transform(ValueFrom(std::size_t{1}, std::size_t{1} << 26))
-      ->type_name("N");
+      });
+  AddOption(command, "--trace-events N", options.trace_events,
+            WithDefault("Stage calls a thread writes down at most", options.trace_events))
+      ->transform(ValueFrom(std::size_t{1}, std::size_t{1} << 26));
   command.add_flag("--quiet", options.quiet, "No progress and no notes");
 }
 
@@ -104,9 +97,8 @@ void AddProfileCommand(CLI::App& root, Command& chosen) {
   AddSceneOptions(*command, options->scene);
   command->footer(
       "\nRenders what `lanelight render` renders with the same arguments, its trial run\n"
-      "included; the image is not kept. Ctrl-C prints what was measured so far; a "
-      "second\n"
-      "one aborts. docs/profile.md says what the columns mean.\n"
+      "included; the image is not kept. Ctrl-C prints what was measured so far; a\n"
+      "second one aborts. docs/profile.md says what the columns mean.\n"
       "\nExamples:\n"
       "  lanelight profile scene.pbrt --threads 1\n"
       "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");

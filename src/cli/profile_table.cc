@@ -1,4 +1,4 @@
-#include "src/cli/profile_table.h"
+#include "src/cli/texts.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include "src/base/core/machine_info.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/text_layout.h"
+#include "src/cli/console.h"
 #include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {
@@ -24,7 +24,7 @@ std::string PeaksText(const Peaks& peaks, SimdTarget target) {
                             target.name());
 }
 
-// What was profiled: the strategy that `render` uses with the same arguments.
+// Names the strategy that was profiled, which `render` uses with the same arguments.
 std::string StrategyWords(const Job& job, const RunResult& result) {
   const std::string text = ToText(StrategyInForce(result, job));
   if (job.scene.strategy.decide != Decide::kPilot) return text;
@@ -114,11 +114,11 @@ std::string CounterTable(const ProfileReport& report) {
   return "\n" + TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0});
 }
 
-// What a reader would otherwise take for more than it is.
+// Explains columns that could be misread.
 std::string Notes(const ProfileReport& report, const RunResult& result) {
   std::string text = SummaryRow(
       "read,write",
-      fmt::format(" bytes per item of path columns; trees, triangles, textures and "
+      fmt::format(" bytes per item of path columns; BVH, triangles, textures and "
                   "tables are not in them, nor in GB/s and \"of {}\"",
                   report.level.name));
   text += SummaryRow("bound", result.counters

@@ -1,14 +1,13 @@
 #include "src/cli/progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <vector>
 
-#include "src/cli/error_words.h"
-#include "src/cli/terminal.h"
+#include "src/cli/console.h"
+#include "src/cli/texts.h"
 
 namespace lanelight {
 namespace {
@@ -20,7 +19,7 @@ void WriteError(const std::string& text) {
     const ssize_t n = write(STDERR_FILENO, at, left);
     if (n <= 0) return;  // nobody reads it: the render goes on
     at += n;
-    left -= static_cast<std::size_t>(n);
+    left -= std::size_t(n);
   }
 }
 
@@ -76,7 +75,7 @@ std::string ProgressPrinter::Describe(const RenderProgress& p, std::size_t room)
 }
 
 std::string ProgressPrinter::Bar(double fraction, int width) {
-  const int full = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+  const int full = int(std::clamp(fraction, 0.0, 1.0) * width);
   return "[" + std::string(full, '#') + std::string(width - full, '.') + "]";
 }
 
@@ -87,7 +86,7 @@ void ProgressPrinter::Draw(const RenderProgress& progress) {
   }
   const std::size_t columns = TerminalColumns(Stream::kError) - 1;
   const std::string text = Describe(progress, columns);
-  const int room = static_cast<int>(columns) - static_cast<int>(text.size()) - 3;
+  const int room = int(columns) - int(text.size()) - 3;
   const std::string bar =
       room >= 8 ? Bar(progress.fraction, std::min(room, 40)) + " " : "";
   WriteError("\r\x1b[K" + bar + text);  // erases the line before drawing it
@@ -98,7 +97,7 @@ void ProgressPrinter::Update(const RenderProgress& progress) {
   if (style_ == ProgressStyle::kNone) return;
   const std::lock_guard lock(mutex_);
   const auto now = std::chrono::steady_clock::now();
-  const int tenth = static_cast<int>(progress.fraction * 10);
+  const int tenth = int(progress.fraction * 10);
   const bool due = style_ == ProgressStyle::kLines
                        ? tenth > last_tenth_
                        : progress.fraction >= 1 || now - last_draw_ >= kRedraw;
@@ -127,6 +126,39 @@ void ProgressPrinter::Finish() {
   const std::lock_guard lock(mutex_);
   if (drawn_) WriteError("\n");
   drawn_ = false;
+}
+
+void WorkProgress::Update(const WorkStep& step) {
+  if (style_ == ProgressStyle::kNone) return;
+  const std::lock_guard lock(mutex_);
+  if (style_ == ProgressStyle::kLines) {
+    if (step.part <= last_part_ && step.name == last_name_) return;
+    last_part_ = step.part;
+    last_name_ = step.name;
+    return PrintError(work_ + step.text);
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_draw_ < kRedraw) return;
+  last_draw_ = now;
+  RedrawLine(ProgressPrinter::Bar(step.fraction, kBarCells) + " " + step.text +
+             step.detail);
+  drawn_ = true;
+}
+
+void WorkProgress::Erase() {
+  if (drawn_) RedrawLine("");
+  drawn_ = false;
+}
+
+void WorkProgress::Say(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  Erase();
+  PrintError(line);
+}
+
+void WorkProgress::Finish() {
+  const std::lock_guard lock(mutex_);
+  Erase();
 }
 
 }  // namespace lanelight

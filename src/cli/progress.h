@@ -1,5 +1,4 @@
-// How far a render is: one line redrawn on a terminal, a plain line every tenth
-// otherwise.
+// Progress of a render: one line redrawn on a terminal, else a plain line every tenth.
 #pragma once
 
 #include <chrono>
@@ -24,9 +23,9 @@ ProgressStyle ChooseProgressStyle(bool quiet);
 /// Replaces the line of the terminal that the cursor is in, cut off at its width.
 void RedrawLine(const std::string& text);
 
-/// Three digits and the prefix of a unit: "512 ", "12.3 k", "1.24 G".
+/// Returns three digits and the prefix of a unit: "512 ", "12.3 k", "1.24 G".
 std::string CountText(double value);
-/// The same of a count that stands alone.
+/// Returns the count without a unit to follow.
 std::string TotalText(double value);
 
 /// More columns than a description has.
@@ -35,7 +34,7 @@ inline constexpr std::size_t kDescribeAll = 1000;
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(ProgressStyle style) : style_(style) {}
-  /// Erases what is drawn and not finished: an error has ended the work.
+  /// Erases an unfinished bar, after an error.
   ~ProgressPrinter() {
     Interrupt([] {});
   }
@@ -43,20 +42,20 @@ class ProgressPrinter {
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
   bool Shows() const { return style_ != ProgressStyle::kNone; }
-  /// Prints if it is time to; may be called from any thread.
+  /// Prints if it is due; from any thread.
   void Update(const RenderProgress& progress);
-  /// Says what is done before rendering, in the place of the bar; a plain line if there
-  /// is no terminal and `always`.
+  /// Shows a text in place of the bar, before rendering; without a terminal a plain line
+  /// if `always`.
   void Say(const std::string& text, bool always);
-  /// Calls print(), which writes lines, where the bar was.
+  /// Calls print(), which writes lines in place of the bar.
   void Interrupt(const std::function<void()>& print);
   /// Ends the line of the bar.
   void Finish();
 
-  /// The text of a line without its bar, " 42 %  3.2 s left  error 1.71 % [1.69, 1.73]
-  /// 5.1 Msamples/s": as much of it as fits `room` columns, whatever counts most first.
+  /// Returns the text beside the bar, " 42 %  3.2 s left  error 1.71 % [1.69, 1.73]  5.1
+  /// Msamples/s": its most important parts that fit `room` columns.
   static std::string Describe(const RenderProgress& progress, std::size_t room);
-  /// The bar in front of it, `width` cells wide.
+  /// Returns a bar of `width` cells.
   static std::string Bar(double fraction, int width);
 
  private:
@@ -66,6 +65,37 @@ class ProgressPrinter {
   std::mutex mutex_;
   std::chrono::steady_clock::time_point last_draw_{};
   int last_tenth_ = 0;
+  bool drawn_ = false;
+};
+
+/// What is being done.
+struct WorkStep {
+  double fraction = 0;  // of all
+  std::string name;     // a plain line is printed when it changes, or when `part` grows
+  int part = 0;
+  std::string text;         // of a plain line, and behind the bar
+  std::string detail = "";  // behind that
+};
+
+class WorkProgress {
+ public:
+  /// `work`: before the text of a plain line.
+  WorkProgress(ProgressStyle style, const char* work) : style_(style), work_(work) {}
+  /// This and what follows may be called from any thread.
+  void Update(const WorkStep& step);
+  /// A line of its own, above the bar.
+  void Say(const std::string& line);
+  void Finish();
+
+ private:
+  void Erase();
+
+  const ProgressStyle style_;
+  const std::string work_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point last_draw_{};
+  std::string last_name_;
+  int last_part_ = -1;
   bool drawn_ = false;
 };
 

@@ -1,13 +1,11 @@
 // `lanelight render SCENE`: the flags, and the render from start to end.
 #include <memory>
 
-#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/validators.h"
 #include "src/render/job/display.h"
 #include "src/render/job/loaded_scene.h"
 
@@ -20,8 +18,8 @@ struct RenderCommandOptions {
   CheckpointFlags checkpoint;
 };
 
-// The default decides by a pilot in long renders; one that is gone on with has what it
-// began with. Ranks have what the leader says, who has the state.
+// Long renders decide by a trial run by default; resumed ones keep their decision. Ranks
+// use the leader's, which has the state.
 DefaultDecision DecisionFor(const RenderCommandOptions& options, RankGroup& group) {
   DefaultDecision decision = DefaultDecision::kIfLong;
   if (group.leads()) {
@@ -30,11 +28,11 @@ DefaultDecision DecisionFor(const RenderCommandOptions& options, RankGroup& grou
           *began == Decide::kPilot ? DefaultDecision::kAlways : DefaultDecision::kNever;
     }
   }
-  const std::string leaders = group.Share(std::to_string(static_cast<int>(decision)));
+  const std::string leaders = group.Share(std::to_string(int(decision)));
   return static_cast<DefaultDecision>(std::stoi(leaders));
 }
 
-// What a rank does that does not lead.
+// Renders on a rank that is not the leader.
 int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
           RankGroup& group) {
   const Job job = PrepareJob(options.scene.scene, settings);
@@ -87,13 +85,12 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
       ->type_name("HOST[:PORT]");
   AddSceneOptions(*command, options->scene);
   command->footer(
-      "\nFlags override what the scene file says. Ctrl-C finishes the samples in flight "
-      "and\n"
-      "writes the image, and the state with --checkpoint; a second one aborts.\n"
+      "\nFlags override the scene file. Ctrl-C finishes the samples in flight, and "
+      "writes the\n"
+      "image, and the state with --checkpoint; a second one aborts.\n"
       "\nExamples:\n"
       "  lanelight render scene.pbrt -o out.exr --spp 256 --png\n"
-      "  lanelight render scene.pbrt -o out.exr --time 1m --resolution 640x360 --json "
-      "r.json\n"
+      "  lanelight render scene.pbrt -o out.exr --time 1m --resolution 640x360\n"
       "  lanelight render scene.pbrt -o out.exr --target 1% --time 10m\n"
       "  lanelight render scene.pbrt -o part.exr --crop 100,100,200,150 --aov\n"
       "  lanelight render scene.pbrt -o out.exr --spp 65536 --checkpoint out.state "

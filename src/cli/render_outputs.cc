@@ -4,10 +4,8 @@
 
 #include "src/base/core/json_text.h"
 #include "src/cli/console.h"
-#include "src/cli/error_words.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/note_lines.h"
-#include "src/cli/summary.h"
+#include "src/cli/texts.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/description/image_changes.h"
 
@@ -37,8 +35,8 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   const double spp = double(r.samples) / double(job.window.pixels());
   PrintError(
       r.stop_reason == StopReason::kHopeless
-          ? fmt::format("error: the target cannot be shown to be reached, however many "
-                        "samples there are; ended after {:.0f} per pixel, {:.0f} times "
+          ? fmt::format("error: the target cannot be shown to be reached, with any "
+                        "number of samples; ended after {:.0f} per pixel, {:.0f} times "
                         "what the estimate asks for: {}",
                         spp, kHopeless, error)
           : fmt::format(
@@ -47,7 +45,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   return kExitTargetMissed;
 }
 
-// Where the result of a render that has left pixels without a sample is.
+// Says where the result of a render is that left pixels without a sample.
 void PrintPartial(const RenderReport& report, const Job& job,
                   const RenderOutputs& options) {
   const std::string& asked = options.targets.exr;
@@ -69,11 +67,7 @@ void PrintPartial(const RenderReport& report, const Job& job,
   PrintError(text);
 }
 
-void PrintBlack(const RenderReport& report) {
-  if (report.black) PrintError(fmt::format("warning: {}", kNoLight));
-}
-
-// The summary says it in its last line.
+// Warns unless the summary does so in its last line.
 int CheckImageChanges(const Job& job, const RenderOutputs& options) {
   const std::string text = ImageChangesText(job.loaded->description.notes);
   if (text.empty()) return kExitGood;
@@ -85,25 +79,19 @@ int CheckImageChanges(const Job& job, const RenderOutputs& options) {
 
 void AddOutputOptions(CLI::App& command, RenderOutputs& options,
                       RenderSettings& settings) {
-  command
-      .add_option("-o,--output", options.targets.exr,
-                  "Write the image to this file (.exr)")
+  AddOption(command, "-o,--output FILE", options.targets.exr,
+            "Write the image to this file (.exr)")
       ->check([](const std::string& path) {
         return fs::path(path).extension() == ".exr"
                    ? std::string()
                    : "'" + path + "' does not end in .exr (for a PNG add --png FILE)";
-      })
-      ->type_name("FILE");
-  options.png_flag = command
-                         .add_option("--png", options.targets.png,
-                                     "Write a PNG too; named after the EXR if bare")
-                         ->expected(0, 1)
-                         ->type_name("[FILE]");
+      });
+  options.png_flag = AddOption(command, "--png [FILE]", options.targets.png,
+                               "Write a PNG too; named after the EXR if bare")
+                         ->expected(0, 1);
   AddSettings(command, kImageFlag, settings);
-  command
-      .add_option("--json", options.targets.json,
-                  "Write a report for scripts ('-': print it)")
-      ->type_name("FILE");
+  AddOption(command, "--json FILE", options.targets.json,
+            "Write a report for scripts ('-': print it)");
   CLI::Option* verbose = command.add_flag(
       "-v,--verbose", options.verbose,
       "Print what it took as well: strategy, machine, times, the cost of each stage");
@@ -127,7 +115,7 @@ void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inp
   OutputPaths outputs = {{t.exr, t.png, t.json}};
   outputs.files.insert(outputs.files.end(), t.checkpoint.watch.begin(),
                        t.checkpoint.watch.end());
-  // A state may be written over by the one that goes on from it, and by nothing else.
+  // Only the render that resumes from a state may overwrite it.
   if (!t.checkpoint.from.empty()) CheckOutputPaths(outputs, {t.checkpoint.from});
   outputs.files.push_back(t.checkpoint.path);
   CheckOutputPaths(outputs, inputs);
@@ -178,7 +166,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
-  if (!report.partial) PrintBlack(report);
+  if (!report.partial && report.black) PrintError(fmt::format("warning: {}", kNoLight));
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
     PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");
@@ -187,7 +175,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   if (!good) return kExitBadInput;
   if (report.partial) PrintPartial(report, job, options);
   if (!checkpoint.path.empty() && report.result.stopped_early) {
-    PrintError("interrupted: go on with --resume '" + checkpoint.path + "'");
+    PrintError("interrupted: continue with --resume '" + checkpoint.path + "'");
     return kExitInterrupted;
   }
   if (report.partial) return kExitInterrupted;

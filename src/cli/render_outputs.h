@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/cli/options.h"
 #include "src/cli/progress.h"
-#include "src/cli/scene_options.h"
 #include "src/render/job/render.h"
 #include "src/render/job/saving.h"
 
@@ -23,31 +23,31 @@ struct RenderOutputs {
 void AddOutputOptions(CLI::App& command, RenderOutputs& options,
                       RenderSettings& settings);
 
-/// After parsing: "--png" alone names the file after the EXR. Throws CLI::ValidationError
-/// for a word after it that is no PNG: most likely the scene, swallowed.
+/// Names the file of a bare "--png" after the EXR, after parsing. Throws
+/// CLI::ValidationError for a word after it that is no PNG, most likely the scene.
 void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings);
 
-/// CheckOutputPaths() with the scene, and once that is read, with all its files.
+/// Calls CheckOutputPaths() with the scene, and once that is read with all its files.
 void CheckOutputs(const RenderOutputs& options, const std::set<std::string>& inputs);
 
-/// The scene as its flags want it. Throws InputError if one of its files would be written
-/// over. Unless `quiet`, notes are printed.
+/// Prepares the scene with its flags. Throws InputError if an output would overwrite one
+/// of its files. Prints notes unless `quiet`.
 Job OpenScene(const SceneOptions& options, const OutputPaths& outputs, bool quiet);
 
-/// Prints what of the scene file and of the strategy is not used.
+/// Prints notes on the scene file and the strategy.
 void PrintNotes(const Job& job);
 
-/// Prints messages about files. True if there are none.
+/// Prints messages about files. Returns whether there are none.
 bool PrintProblems(const std::vector<std::string>& problems);
 
-/// Writes a text to `path`, or with a message to the temporary directory, and then
-/// returns false. "-": standard output.
+/// Writes a text to `path`, or to standard output for "-". If that fails, prints a
+/// message, writes it to the temporary directory, and returns false.
 bool SaveOrPrint(const std::string& path, const std::string& text);
 
-/// Shows progress; `stop` ends the render early.
+/// Returns hooks that show progress; `stop` ends the render early.
 RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& stop);
 
-/// Prints what a render came to, after `preface`. Returns the exit code.
+/// Prints the result of a render after `preface`. Returns the exit code.
 int PrintRendering(const Rendering& rendering, const Job& job,
                    const RenderOutputs& options, const std::string& preface = "");
 

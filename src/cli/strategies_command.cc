@@ -9,14 +9,13 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
-#include "src/cli/terminal.h"
 #include "src/vocabulary/strategy/strategies_json.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 namespace {
 
-// What is said of a choice, below its name.
+// Returns an indented text below the name of a choice.
 std::string Said(const std::string& text) { return FactRow("", text, 5); }
 
 std::string ChoicesText() {

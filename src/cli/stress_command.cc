@@ -8,15 +8,12 @@
 #include "src/base/core/json_text.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
+#include "src/cli/options.h"
+#include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/stress_exit.h"
-#include "src/cli/stress_table.h"
-#include "src/cli/validators.h"
-#include "src/cli/work_progress.h"
+#include "src/cli/texts.h"
 #include "src/measure/stress/cases/cases.h"
 #include "src/measure/stress/select.h"
 #include "src/measure/stress/stress_json.h"
@@ -46,7 +43,7 @@ std::vector<stress::Case> Selected(const StressCommandOptions& options) {
 }
 
 std::vector<std::string> TargetsOf(const std::vector<std::string>& words) {
-  const bool all = std::find(words.begin(), words.end(), "all") != words.end();
+  const bool all = std::ranges::find(words, "all") != words.end();
   return all ? AvailableTargets() : words;
 }
 
@@ -104,31 +101,25 @@ int RunStressCommand(StressCommandOptions& options) {
 }
 
 void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
-  command
-      .add_option("CASE", options.words,
-                  WithDefault("Cases, groups, or patterns of them ('ggx-*')", "all"))
-      ->type_name("TEXT");
+  AddOption(command, "CASE TEXT", options.words,
+            WithDefault("Cases, groups, or patterns of them ('ggx-*')", "all"));
   command.add_flag("--list", options.list,
                    "Print the cases: what is extreme, and what must be true there");
   command.add_flag("--full", options.suite.effort.full,
                    "Every value of each map, with the samples that a sharp answer needs");
-  command.add_option("--out", options.out, "Write stress.json and report.html there")
-      ->type_name("DIR");
-  command.add_option("--json", options.json, "Write stress.json ('-': print it)")
-      ->type_name("FILE");
+  AddOption(command, "--out DIR", options.out, "Write stress.json and report.html there");
+  AddOption(command, "--json FILE", options.json, "Write stress.json ('-': print it)");
   CLI::Validator target = ValueOf(TargetType(AvailableTargets()));
-  command
-      .add_option("--simd", options.targets,
-                  WithDefault("SIMD targets (see `lanelight info`), or all that this "
-                              "machine has",
-                              "the best there is"))
+  AddOption(command, "--simd NAME", options.targets,
+            WithDefault("SIMD targets (see `lanelight info`), or all that this "
+                        "machine has",
+                        "the best there is"))
       ->transform(CLI::Validator(
           [target](std::string& text) {
             return text == "all" ? std::string() : target(text);
           },
           ""))
-      ->delimiter(',')
-      ->type_name("NAME");
+      ->delimiter(',');
   options.settings.seed = options.suite.effort.seed;
   AddSetting(command, "seed", options.settings);
   AddSetting(command, "threads", options.settings);
@@ -143,15 +134,15 @@ void AddStressCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<StressCommandOptions>();
   AddStressOptions(*command, *options);
   command->footer(
-      "\nA row per case: of the promised point that is nearest to failing, what is "
-      "expected\n"
-      "and measured with its interval, and by how many standard errors (z) it is off "
-      "beyond\n"
-      "its tolerance; then where, outside of what is promised, it first breaks. "
-      "docs/stress.md\n"
-      "says more. Ctrl-C finishes the point in hand and prints what there is. Exit code "
-      "7: a\n"
-      "case failed.\n"
+      "\nPrints a row per case: for the promised point that is nearest to failing, what "
+      "is\n"
+      "expected, what is measured with its interval, and by how many standard errors "
+      "(z)\n"
+      "it exceeds its tolerance; then where, outside of what is promised, the case "
+      "first\n"
+      "breaks (docs/stress.md). Ctrl-C finishes the current point and prints the "
+      "results\n"
+      "so far. Exit code 7: a case failed.\n"
       "\nExamples:\n"
       "  lanelight stress\n"
       "  lanelight stress 'ggx-*' lights --simd all --out stress\n"

@@ -1,4 +1,4 @@
-#include "src/cli/stress_table.h"
+#include "src/cli/texts.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ std::string Significant(double x, int digits) {
   return std::isfinite(x) ? fmt::format("{:.{}g}", x, digits) : "-";
 }
 
-// As many digits as its noise leaves.
+// Shows as many digits as the noise leaves.
 std::string Measured(const JudgedPoint& judged) {
   const Point& p = judged.point;
   if (!p.refused.empty() || !judged.crash.empty()) return "-";

@@ -6,13 +6,11 @@
 #include "src/base/core/error.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/study_summary.h"
-#include "src/cli/validators.h"
-#include "src/cli/work_progress.h"
+#include "src/cli/options.h"
+#include "src/cli/progress.h"
+#include "src/cli/texts.h"
 #include "src/measure/study/study.h"
 
 namespace lanelight {
@@ -43,15 +41,14 @@ WorkStep StepOf(const StudyProgress& p) {
   std::string text =
       fmt::format("{:3.0f} %  {}: {}", std::floor(100 * p.fraction), p.scene, p.what);
   if (p.fraction > 0.01) text += fmt::format("  {} left", DurationText(p.seconds_left));
-  return {p.fraction, p.scene, static_cast<int>(20 * p.fraction), text};
+  return {p.fraction, p.scene, int(20 * p.fraction), text};
 }
 
 int RunStudyCommand(StudyCommandOptions& options) {
   CheckCombination(options.study);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
-      "\nstopping: the report will be of what is finished; --resume goes on (once more "
-      "to "
+      "\nstopping: the report covers what is finished; --resume continues (once more to "
       "abort)\n",
       options.study.settings.threads);
   StudyHooks hooks;
@@ -78,17 +75,16 @@ int RunStudyCommand(StudyCommandOptions& options) {
   return good ? kExitGood : kExitBadInput;
 }
 
-// As the flag of a render is.
+// The same type as the flag of `render`.
 constexpr PercentErrorType kTargetInPercent{1e-4, 1e8};
 
 void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
   StudyOptions& s = options.study;
   CLI::Option* list =
-      command
-          .add_option("--strategies", s.strategies,
-                      "'A;B;...': presets, key=value,... (changes of the default), "
-                      "'default', or 'scene' (its own); the first is the baseline; "
-                      "default: the paper's presets, 'default' and 'scene'")
+      AddOption(command, "--strategies LIST", s.strategies,
+                "'A;B;...': presets, key=value,... (changes of the default), "
+                "'default', or 'scene' (its own); the first is the baseline; "
+                "default: the paper's presets, 'default' and 'scene'")
           ->delimiter(';')
           ->allow_extra_args(false)
           ->transform(CLI::Validator(
@@ -96,45 +92,32 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
                 CLI::detail::trim(text);
                 return std::string();
               },
-              ""))
-          ->type_name("LIST");
+              ""));
   command
       .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")
       ->excludes(list);
   CLI::Option* spp =
-      command
-          .add_option(
-              "--spp", s.spp,
-              "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
-              "what the baseline renders in a second, and at least to 64 or to an "
-              "error of 10 %")
+      AddOption(command, "--spp N,...", s.spp,
+                "Samples per pixel, e.g. 1,4,16,64; default: powers of two up to "
+                "what the baseline renders in a second, and at least to 64 or to an "
+                "error of 10 %")
           ->delimiter(',')
-          ->transform(ValueOf(CountType{1, kMaxSpp}))
-          ->type_name("N,...");
-  command
-      .add_option(
-          "--budget", s.budget,
-          "Render for equal times instead, of the wall clock: each strategy takes "
-          "up to so many samples as it can; compared by processor time")
+          ->transform(ValueOf(CountType{1, kMaxSpp}));
+  AddOption(command, "--budget TIME", s.budget,
+            "Render for equal times instead, of the wall clock: each strategy takes "
+            "up to so many samples as it can; compared by processor time")
       ->transform(ValueOf(SecondsType{1e-3, 1e6}))
-      ->type_name("TIME")
       ->excludes(spp);
-  command
-      .add_option("--repetitions", s.repetitions,
-                  "Independent renders of each; default: enough for the confidence")
-      ->transform(ValueFrom(1, 10000))
-      ->type_name("R");
-  command
-      .add_option("--confidence", s.confidence,
-                  WithDefault("Of all intervals", s.confidence))
-      ->transform(ValueFrom(0.5, 0.9999))
-      ->type_name("C");
-  command
-      .add_option("--reference", s.references,
-                  "Converged image; several independent ones measure their own noise; "
-                  "default: rendered")
-      ->allow_extra_args(false)
-      ->type_name("FILE");
+  AddOption(command, "--repetitions R", s.repetitions,
+            "Independent renders of each; default: enough for the confidence")
+      ->transform(ValueFrom(1, 10000));
+  AddOption(command, "--confidence C", s.confidence,
+            WithDefault("Of all intervals", s.confidence))
+      ->transform(ValueFrom(0.5, 0.9999));
+  AddOption(command, "--reference FILE", s.references,
+            "Converged image; several independent ones measure their own noise; "
+            "default: rendered")
+      ->allow_extra_args(false);
   CLI::Option* percent =
       command
           .add_option_function<std::string>(
@@ -146,12 +129,10 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
               "default: what the baseline reaches")
           ->check(ValueOf(kTargetInPercent))
           ->type_name("X%");
-  command
-      .add_option("--target-relmse", s.target_relmse,
-                  "Measure the time to this relative MSE; default: what the baseline "
-                  "reaches")
+  AddOption(command, "--target-relmse X", s.target_relmse,
+            "Measure the time to this relative MSE; default: what the baseline "
+            "reaches")
       ->transform(ValueFrom(1e-30, 1e30))
-      ->type_name("X")
       ->excludes(percent);
 }
 
@@ -161,12 +142,9 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
       "study", "Measure which strategy gives the least error for the time");
   auto options = std::make_shared<StudyCommandOptions>();
-  command->add_option("SCENE", options->study.scenes, "Scene files")
-      ->required()
-      ->type_name("");
-  command->add_option("--out", options->study.out, "Directory for report and data")
-      ->required()
-      ->type_name("DIR");
+  AddOption(*command, "SCENE", options->study.scenes, "Scene files")->required();
+  AddOption(*command, "--out DIR", options->study.out, "Directory for report and data")
+      ->required();
   AddMeasureOptions(*command, *options);
   command->add_flag("--resume", options->study.resume,
                     "Continue the study in DIR; what is finished is not done again");
@@ -176,14 +154,11 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(
       "\nWrites DIR/report.html, study.json, study.csv (docs/study.md) and EXR images.\n"
-      "Ctrl-C reports what is finished; --resume goes on from there.\n"
+      "Ctrl-C reports what is finished; --resume continues from there.\n"
       "\nExamples:\n"
       "  lanelight study box.pbrt --out box --resolution 200x200\n"
-      "  lanelight study a.pbrt b.pbrt --out ab --strategies 'default;points=pmj02' "
-      "--spp "
-      "4,16,64\n"
-      "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr --reference "
-      "a2.exr");
+      "  lanelight study a.pbrt b.pbrt --out ab --strategies 'default;points=pmj02'\n"
+      "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr");
   command->callback(
       [options, &chosen] { chosen = [options] { return RunStudyCommand(*options); }; });
 }

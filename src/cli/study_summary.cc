@@ -1,12 +1,12 @@
-#include "src/cli/study_summary.h"
+#include "src/cli/texts.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/core/text_layout.h"
 #include "src/base/stat/values.h"
+#include "src/cli/console.h"
 #include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 
 namespace lanelight {
 namespace {
@@ -17,7 +17,7 @@ std::string Known(const Interval& v) {
   return std::isfinite(v.value) ? EstimateText(v) : "-";
 }
 
-// For intervals about their middle.
+// For symmetric intervals.
 std::string PlusMinus(const Interval& v) {
   if (!v.HasBounds()) return Known(v);
   return fmt::format("{:.2f} ±{:.2f}", v.value, v.high - v.value);
@@ -88,13 +88,6 @@ std::string Twins(const SceneRuns& runs) {
   return text;
 }
 
-std::string Cautions(const SceneAnalysis& analysis) {
-  std::string text;
-  for (const std::string& caution : analysis.cautions)
-    text += Wrap("warning: " + caution);
-  return text;
-}
-
 }  // namespace
 
 std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
@@ -119,13 +112,13 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
     text += Wrap(
         fmt::format("-  {}  {}: {}", Short(s.named.name), Name(s.status), s.message));
   }
-  return text +
-         fmt::format(
-             "\nto target: processor time to a relative MSE of {:.3g}; * "
-             "extrapolated\n\n",
-             analysis.target_relmse) +
-         Wrap(analysis.verdict) + Cautions(analysis) +
-         (runs.differs.empty() ? "" : Wrap(runs.differs));
+  text += fmt::format(
+      "\nto target: processor time to a relative MSE of {:.3g}; * extrapolated\n\n",
+      analysis.target_relmse);
+  text += Wrap(analysis.verdict);
+  for (const std::string& caution : analysis.cautions)
+    text += Wrap("warning: " + caution);
+  return text + (runs.differs.empty() ? "" : Wrap(runs.differs));
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/cli/summary.h"
+#include "src/cli/texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,8 @@
 #include "src/base/core/machine_info.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/text_layout.h"
-#include "src/cli/error_words.h"
+#include "src/cli/console.h"
 #include "src/cli/progress.h"
-#include "src/cli/terminal.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/description/image_changes.h"
 #include "src/vocabulary/strategy/choices_text.h"
@@ -44,7 +43,6 @@ const char* StopText(const RunResult& r) {
 
 double SecondsOf(const RunResult& r) { return std::max(r.seconds, 1e-9); }
 
-// What was written, and of how many samples.
 std::string ImageRow(const RenderReport& report, const PixelRect& window) {
   std::string files = report.exr.empty() ? "none" : report.exr;
   if (!report.png.empty()) files += ", " + report.png;
@@ -74,7 +72,7 @@ std::string TimeArgument(double seconds) {
   return fmt::format("{:.0f}", std::ceil(seconds));
 }
 
-// How an image of a smaller error is come by: squared errors fall as 1 / samples.
+// Says how to get a smaller error: squared errors fall as 1 / samples.
 std::string NextRow(const RenderReport& report, const Job& job,
                     const std::string& checkpoint) {
   const RunResult& r = report.result;
@@ -93,23 +91,23 @@ std::string NextRow(const RenderReport& report, const Job& job,
                                  missed ? "the target" : "half the error", times, amount,
                                  DurationText(times * SecondsOf(r)));
   if (!checkpoint.empty()) {
-    text += fmt::format("; --resume goes on from '{}'", checkpoint);
+    text += fmt::format("; --resume continues from '{}'", checkpoint);
   }
   return SummaryRow("next", text);
 }
 
-// What rendered, as far as it is not what renders without being asked for.
+// Names the choices of the strategy that differ from the default.
 std::string StrategyRow(const RunResult& r, const Job& job) {
   const Strategy in_force = StrategyInForce(r, job);
   Strategy usual;
   usual.decide = in_force.decide;
   const std::string changes = ChoicesNotIn(ToText(usual), ToText(in_force));
   if (changes.empty()) return "";
-  const char* by = r.training.changes.empty() ? "" : " (by a pilot; -v says why)";
+  const char* by =
+      r.training.changes.empty() ? "" : " (chosen by a short trial run; details with -v)";
   return SummaryRow("strategy", changes + by);
 }
 
-// What of a pilot's seconds and findings.
 std::string PilotRow(const RunResult& r) {
   if (r.training.note.empty()) return "";
   return SummaryRow(
@@ -124,6 +122,23 @@ std::string RaysRow(const RunResult& r) {
                                         TotalText(shadow), TotalText(double(r.samples))));
 }
 
+// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
+std::string StageTable(const RunResult& result) {
+  double total = 0;
+  for (const StageProfile& s : result.stages) total += s.seconds;
+  std::vector<std::vector<std::string>> lines = {
+      {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
+  for (const StageProfile& s : result.stages) {
+    lines.push_back(
+        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
+         fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
+         fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
+         fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
+  }
+  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0}) +
+         fmt::format("{:.3f} seconds of all threads together\n", total);
+}
+
 std::string DetailRows(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   const SimdTarget target = job.plan.options.target;
@@ -134,7 +149,7 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
          SummaryRow("health", HealthText(r.health)) +
          SummaryRow(
              "steps",
-             fmt::format("load {}, build {} (trees {} in {}), render {}, write {}",
+             fmt::format("load {}, build {} (BVH {} in {}), render {}, write {}",
                          DurationText(job.loaded->load_seconds),
                          DurationText(job.loaded->build_seconds),
                          job.loaded->trees.Origin(),
@@ -151,22 +166,6 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 }
 
 }  // namespace
-
-std::string StageTable(const RunResult& result) {
-  double total = 0;
-  for (const StageProfile& s : result.stages) total += s.seconds;
-  std::vector<std::vector<std::string>> lines = {
-      {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
-  for (const StageProfile& s : result.stages) {
-    lines.push_back(
-        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
-         fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
-         fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
-         fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
-  }
-  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0}) +
-         fmt::format("{:.3f} seconds of all threads together\n", total);
-}
 
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
                              bool verbose) {

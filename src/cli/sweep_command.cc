@@ -3,15 +3,12 @@
 #include <map>
 #include <memory>
 
-#include "src/cli/checkpoint_options.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
-#include "src/cli/defaults.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
-#include "src/cli/scene_options.h"
-#include "src/cli/validators.h"
-#include "src/cli/work_progress.h"
+#include "src/cli/options.h"
+#include "src/cli/progress.h"
 #include "src/measure/sweep/prediction.h"
 #include "src/measure/sweep/runner.h"
 
@@ -95,7 +92,8 @@ int RunSweepCommand(SweepCommandOptions& options) {
   if (options.dry_run) return DryRun(sweep, options);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
-      "\nstopping: the cell in hand is given up; the same command goes on with it (once "
+      "\nstopping: the current cell is discarded; the same command renders it again "
+      "(once "
       "more to abort)\n");
   SweepHooks hooks;
   hooks.on_progress = [&](const SweepProgress& p) { progress.Update(StepOf(p)); };
@@ -111,11 +109,9 @@ int RunSweepCommand(SweepCommandOptions& options) {
 }
 
 void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
-  command
-      .add_option("--part", options.part,
-                  "Render every N-th cell only, from the I-th on; each process with a "
-                  "part of its own needs no locks")
-      ->type_name("I/N");
+  AddOption(command, "--part I/N", options.part,
+            "Render every N-th cell only, from the I-th on; each process with a "
+            "part of its own needs no locks");
   command.add_flag("--wait", options.sweep.wait,
                    "Wait for the cells that other processes render, and do them if those "
                    "die");
@@ -129,24 +125,19 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
   CLI::App* command =
       root.add_subcommand("sweep", "Render a grid of scenes, strategies and settings");
   auto options = std::make_shared<SweepCommandOptions>();
-  command->add_option("SWEEP", options->file, "The grid, a TOML file (docs/sweep.md)")
-      ->required()
-      ->type_name("");
-  command->add_option("--out", options->sweep.out, "Directory that the cells go to")
-      ->required()
-      ->type_name("DIR");
+  AddOption(*command, "SWEEP", options->file, "The grid, a TOML file (docs/sweep.md)")
+      ->required();
+  AddOption(*command, "--out DIR", options->sweep.out, "Directory that the cells go to")
+      ->required();
   AddSharingOptions(*command, *options);
   CLI::Option* dry = command->add_flag(
       "--dry-run", options->dry_run,
       "Print the cells, and the time and space they will take, and render none");
-  command
-      ->add_option(
-          "--pilots", options->pilots,
-          WithDefault("Most short renders that --dry-run predicts from; 0: no times",
-                      options->pilots))
+  AddOption(*command, "--pilots N", options->pilots,
+            WithDefault("Most short renders that --dry-run predicts from; 0: no times",
+                        options->pilots))
       ->transform(ValueFrom(0, 100000))
-      ->needs(dry)
-      ->type_name("N");
+      ->needs(dry);
   command
       ->add_flag("--table-only", options->sweep.table_only,
                  "Write the table and the page of what there is, and render nothing")
@@ -155,11 +146,10 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
   command->footer(
       "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv,\n"
       "DIR/sweep.json and DIR/report.html. Start the same command as often as you like, "
-      "on any machines "
-      "that\n"
-      "share DIR: each cell is rendered by one process, and those of a process that "
-      "died\n"
-      "by another. Exit code 6: interrupted, to be started again.\n"
+      "on\n"
+      "any machines that share DIR: each cell is rendered by one process, and the cells "
+      "of\n"
+      "a process that died by another. Exit code 6: interrupted; start it again.\n"
       "\nExamples:\n"
       "  lanelight sweep sweep.toml --out out --dry-run\n"
       "  lanelight sweep sweep.toml --out out\n"

@@ -89,7 +89,7 @@ TEST_CASE("a strategy that the scene cannot have is refused with what would do",
   CHECK_THAT(refusal(sky, "reuse=block,roulette=adjoint"),
              Contains("roulette=throughput"));
   CHECK_THAT(refusal(sky, "paper-control,reuse=block"),
-             Contains("control=regression needs samples of one path"));
+             Contains("control=regression needs samples of single paths"));
   const std::string point = WriteScene(
       directory, "LightSource \"point\" \"rgb I\" [ 9 9 9 ] \"point3 from\" [ 0 3 0 ]\n");
   const ProcessResult note = RunLanelight(

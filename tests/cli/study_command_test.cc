@@ -101,7 +101,7 @@ TEST_CASE("study: Ctrl-C reports what is finished", "[cli]") {
   const ProcessResult r = RunLanelight(arguments, options);
   INFO(r.err);
   CHECK(r.exit_code == kExitInterrupted);
-  CHECK_THAT(r.err, Contains("--resume goes on"));
+  CHECK_THAT(r.err, Contains("--resume continues"));
   CHECK_THAT(r.out, Contains("interrupted"));
   const Json json = ReadJson(directory / "out/study.json");
   CHECK(json["scenes"][0]["interrupted"] == true);

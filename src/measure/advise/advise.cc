@@ -21,29 +21,29 @@ namespace {
 // Shares of the trial: a few samples of all candidates; those that may be better; the
 // best again; the very best alone.
 constexpr double kProbe = 0.15, kFirst = 0.25, kSecond = 0.2, kLast = 0.25;
-// And of paths that serve their block, beside what has been chosen.
+// Share of path reuse, beside what has been chosen.
 constexpr double kTiles = 0.15;
 // Fewer samples say nothing of a candidate: rather leave candidates out.
 constexpr std::uint64_t kLeastSamples = 4096;
 constexpr std::size_t kBest = 2;  // that are tried again, beside what they make together
 // Changes that may be worth combining, and going on with.
 constexpr double kPromising = 1.03;
-// A trial that takes so many times the processor time that it should, of two processors,
-// is ended; but not in the first second, in which much is done for the first time. Advice
-// then hangs on the machine, but not on what else runs on it.
-constexpr double kPatience = 3, kProcessors = 2, kFirstSecond = 1;
+// A trial is ended if it takes this factor of its planned processor time, on two
+// processors; but not in the first second, in which much runs for the first time. Advice
+// then depends on the machine, but not on other programs.
+constexpr double kTimeoutFactor = 3, kProcessors = 2, kFirstSecond = 1;
 // Rays of a sample, to plan by before one is traced.
-constexpr double kUsualRays = 8;
+constexpr double kTypicalRays = 8;
 constexpr double kNormal95 = 1.645;
-// Of standard errors by the scatter over pixels, where intervals are stated: few pixels
-// carry an error, and those that would have are not among them. Of 555 intervals on 26
-// scenes 85 % held without, 89 % with it, of 90.
-constexpr double kDoubt = 1.5;
+// Factor on standard errors by the scatter over pixels, where intervals are stated: few
+// pixels carry an error, and others that would are not among them. Of 555 intervals (90
+// %) on 26 scenes 85 % held without, 89 % with it.
+constexpr double kExtraUncertainty = 1.5;
 // Samples of a pixel. What strata gain in longer randomisations than a quarter of them is
 // not seen, so there are many, as long as there are many pixels too.
 constexpr std::uint64_t kLeastSpp = 32, kMostSpp = 512, kPixels = 256;
 
-// What has been tried of a candidate.
+// A candidate in the trial.
 struct Tried {
   std::size_t index = 0;  // in Advice::candidates
   TriedStrategy entry;    // of the last round
@@ -51,13 +51,14 @@ struct Tried {
 
 // A gain with its 90 % interval, in which the scatter from scene to scene of what rays
 // cost has a part. `least`: the lower end without any noise.
-Interval WithDoubt(const TrialGain& gain, double least, double price_spread) {
-  const double error = kNormal95 * std::hypot(kDoubt * gain.standard_error, price_spread);
+Interval WithUncertainty(const TrialGain& gain, double least, double price_spread) {
+  const double error =
+      kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_spread);
   return {std::exp(gain.log), std::exp(least - error), std::exp(gain.most + error)};
 }
 
 std::uint32_t SppFor(std::uint64_t samples) {
-  return static_cast<std::uint32_t>(
+  return std::uint32_t(
       std::clamp(std::bit_floor(samples / kPixels), kLeastSpp, kMostSpp));
 }
 
@@ -88,10 +89,10 @@ class Adviser {
   // Candidates learn as if for a quarter of the render: what they learn from is part of
   // the trial.
   std::uint64_t PlannedSamples() const {
-    return static_cast<std::uint64_t>(options_.seconds * kRaysPerSecond / kUsualRays / 4);
+    return std::uint64_t(options_.seconds * kRaysPerSecond / kTypicalRays / 4);
   }
-  // Of each in a round with this share of the trial. What has not been tried yet, since
-  // it is made of two others, is taken to cost what they do.
+  // Returns the samples of each in a round with this share of the trial. A combination
+  // that has not been tried yet is taken to cost what its parts do.
   std::uint64_t SamplesFor(const std::vector<Tried>& tried, double share) const {
     double rays = 0;
     for (const Tried& t : tried) {
@@ -99,7 +100,7 @@ class Adviser {
       rays += (known ? t : tried[1]).entry.measure.cost;
     }
     if (rays == 0) return 0;
-    return static_cast<std::uint64_t>(share * pilot_ * kRaysPerSecond / rays);
+    return std::uint64_t(share * pilot_ * kRaysPerSecond / rays);
   }
 
   // A few samples of each show what it costs, and what is clearly worse; then as many as
@@ -110,10 +111,10 @@ class Adviser {
     for (std::size_t i = 1; i < all_.size(); ++i) {
       if (all_[i].status != CandidateStatus::kRefused) tried.push_back({i, {}});
     }
-    const double of_all = double(kLeastSamples) * kUsualRays * double(tried.size());
+    const double of_all = double(kLeastSamples) * kTypicalRays * double(tried.size());
     advice_.seconds_to_try = of_all / (kProbe * kRaysPerSecond);
     const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
-    const auto reached = static_cast<std::size_t>(share * double(tried.size()));
+    const auto reached = std::size_t(share * double(tried.size()));
     for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
       all_[tried[i].index].reason = "the trial's time did not reach it";
     }
@@ -161,29 +162,28 @@ class Adviser {
     return WithStrategy(job_.scene, prepared);
   }
 
-  // By the last round. Where few pixels carry the error, what they would tell is not
-  // known.
+  // Returns the efficiency by the last round, with the uncertainty of pixels that were
+  // omitted.
   Interval EfficiencyOf(const Tried& t) const {
     TrialGain gain = t.entry.Told();
     const double by_all = GainOf(t.entry.measure, t.entry.usual).log;
     gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
-    return WithDoubt(gain, t.entry.Gain().log, all_[t.index].price_spread);
+    return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_spread);
   }
 
-  // By few samples: what nobody would expect to be the best after more of them.
+  // Drops, after few samples, candidates that are not expected to become the best.
   void DropWorse(std::vector<Tried>& tried) {
     std::erase_if(tried, [&](const Tried& t) {
       const bool misses = t.entry.MissesLight(), worse = EfficiencyOf(t).high < 1;
       if (t.index == 0 || !(misses || worse)) return false;
-      Drop(t, misses
-                  ? "finds less light than the default: what is missing is seldom, bright"
-                  : "clearly less efficient than the default");
+      Drop(t, misses ? "finds less light than the default: it misses rare bright samples"
+                     : "clearly less efficient than the default");
       return true;
     });
   }
 
   bool IsTooSlow() const {
-    return watch_.CpuSeconds() > kFirstSecond + kPatience * kProcessors * pilot_;
+    return watch_.CpuSeconds() > kFirstSecond + kTimeoutFactor * kProcessors * pilot_;
   }
 
   static double Score(const Tried& t) { return t.entry.Gain().log; }
@@ -223,28 +223,29 @@ class Adviser {
     tried.push_back({all_.size() - 1, {}});
   }
 
-  // Paths that split serve no others: there it is one or the other.
   void TryBlocks(std::vector<Tried>& tried) {
-    const Tried& chosen = chosen_ == 0 ? tried.front() : tried.back();
-    const bool splits = all_[chosen.index].strategy.Splits();
-    const Tried& base = splits ? tried.front() : chosen;
-    const double must = splits ? EfficiencyOf(chosen).value : kMustGain;
+    const Tried& usual = tried.front();
+    const Tried& chosen = chosen_ == 0 ? usual : tried.back();
+    const Tried& base = chosen.entry.splits ? usual : chosen;
+    const double gain = chosen_ == 0 ? 1 : EfficiencyOf(chosen).value;
     // Half as many again since they cost more.
-    const auto samples = static_cast<std::uint64_t>(kTiles * pilot_ * kRaysPerSecond /
-                                                    (2.5 * base.entry.measure.cost));
-    for (const TriedBlocks& blocks : trial_.TryBlocks(base.entry, samples, must)) {
+    const auto samples =
+        std::uint64_t(kTiles * pilot_ * kRaysPerSecond / (2.5 * base.entry.measure.cost));
+    for (const TriedBlocks& blocks :
+         trial_.TryBlocks(usual.entry, chosen.entry, gain, samples)) {
       AddBlocks(base, blocks, samples);
       if (blocks.pays) chosen_ = all_.size() - 1;
     }
     advice_.rays = trial_.spent().rays;
   }
 
-  // What `base` makes together with the blocks.
+  // Adds `base` combined with the blocks.
   void AddBlocks(const Tried& base, const TriedBlocks& blocks, std::uint64_t samples) {
     AdvisedCandidate both = WithMore(all_[base.index], blocks.changes);
-    both.meaning = "pays where most of the noise is indirect light";
+    both.meaning = "gains where most of the noise is indirect light";
     const Interval usual = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
-    const Interval more = WithDoubt(blocks.gain, blocks.gain.least, kReusePriceSpread);
+    const Interval more =
+        WithUncertainty(blocks.gain, blocks.gain.least, kReusePriceSpread);
     both.efficiency = {usual.value * more.value, usual.low * more.low,
                        usual.high * more.high};
     both.status = CandidateStatus::kDropped;
@@ -281,9 +282,8 @@ class Adviser {
     if (stopped) return "the trial was interrupted";
     if (advice_.interrupted) {
       return fmt::format(
-          "the trial was ended after {:g} times the processor time that "
-          "it should take: the default",
-          kPatience);
+          "the trial was ended after {:g} times its planned processor time: the default",
+          kTimeoutFactor);
     }
     if (advice_.rays == 0) {
       return "the trial's time is too short to compare strategies: the default";

@@ -8,8 +8,8 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/source_location.h"
-#include "src/render/plan/plan_key.h"
-#include "src/render/train/decision_candidates.h"
+#include "src/render/plan/plan_features.h"
+#include "src/render/train/strategy_trial.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/prepare/prepared_scene.h"
 

@@ -7,8 +7,8 @@
 #include "src/base/core/check.h"
 #include "src/base/core/stopwatch.h"
 #include "src/render/run/run.h"
-#include "src/render/wave/partition.h"
 #include "src/render/wave/profile.h"
+#include "src/render/wave/tiles.h"
 #include "src/scene/compiled/view.h"
 
 namespace lanelight::live {

@@ -11,7 +11,7 @@
 #include "src/base/image/color_matrix.h"
 #include "src/base/image/spectrum.h"
 #include "src/measure/report/page.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight::live {
 namespace {

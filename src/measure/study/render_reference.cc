@@ -5,8 +5,8 @@
 
 #include "src/base/core/error.h"
 #include "src/measure/study/reference.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/films/colors.h"
-#include "src/render/films/for_each_pixel.h"
 #include "src/render/job/checkpoint.h"
 #include "src/render/job/report.h"
 

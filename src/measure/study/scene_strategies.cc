@@ -3,7 +3,7 @@
 
 #include "src/measure/study/scene_runner.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/render/plan/plan_key.h"
+#include "src/render/plan/plan_features.h"
 
 namespace lanelight {
 

@@ -4,13 +4,14 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/base/stat/distributions.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 namespace {
@@ -47,15 +48,15 @@ struct Shares {
   double K2() const { return squares > 0 ? SquaredSum() / by_freedom : 1; }
 
  private:
-  // Of (sum of true shares)^2: the estimate's own variance is taken off.
+  // Returns an estimate of (sum of true shares)^2, without the estimate's own variance.
   double SquaredSum() const { return std::max(squares, sum * sum - 2 * by_freedom); }
 };
 
-// What is known of a channel's true value: a gamma distribution with this mean.
+// The posterior of a channel's true value: a gamma distribution with this mean.
 struct Posterior {
   double mean = 0, shape = std::numeric_limits<double>::infinity();
 
-  // Where the standard normal is z (Wilson and Hilferty 1931).
+  // Returns the quantile at z of the standard normal (Wilson and Hilferty 1931).
   double Quantile(double z) const {
     const double root = 1 - 1 / (9 * shape) + z / (3 * std::sqrt(shape));
     return mean * root * root * root;  // the root is positive for z > -2 and shape >= 1
@@ -65,7 +66,7 @@ struct Posterior {
 struct ChannelTruth {
   Posterior own;
   double noise = 0;  // variance that the neighbours bring into its mean
-  // Both, if the neighbourhood's variance were the pixel's.
+  // The same with the neighbourhood's variance in place of the pixel's.
   double pooled = 0, pooled_noise = 0;
 };
 
@@ -138,12 +139,12 @@ class PixelGrid {
     });
   }
 
-  // In the order of the rows, so that it is the same for any number of threads; `share`
-  // of the variances, as more samples would leave it.
+  // Sums in the order of the rows, so that the result is the same for any number of
+  // threads. `share`: part of the variances that more samples would leave.
   Sums Total(double share = 1) const {
     std::vector<Sums> rows(static_cast<std::size_t>(height_));
     ForRows([&](int y) {
-      Sums& row = rows[static_cast<std::size_t>(y)];
+      Sums& row = rows[std::size_t(y)];
       for (int x = 0; x < width_; ++x) {
         const std::size_t i = Index(x, y);
         if (!pixels_[i].known) continue;
@@ -155,27 +156,22 @@ class PixelGrid {
     return total;
   }
 
-  /// Nothing that it says counts any more.
   bool Stopped() const { return stop_ != nullptr && *stop_; }
 
-  /// No sample has met light.
   bool IsBlack() const {
-    return std::all_of(pixels_.begin(), pixels_.end(),
-                       [](const PixelEstimate& p) { return p.mean == Rgb{}; });
+    return std::ranges::all_of(pixels_,
+                               [](const PixelEstimate& p) { return p.mean == Rgb{}; });
   }
 
  private:
-  std::size_t Count() const {
-    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  }
+  std::size_t Count() const { return std::size_t(width_) * std::size_t(height_); }
   std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
+    return std::size_t(y) * std::size_t(width_) + std::size_t(x);
   }
   template <class Body>
   void ForRows(const Body& body) const {
     ParallelFor(static_cast<std::size_t>(height_), [&](std::size_t y) {
-      if (!Stopped()) body(static_cast<int>(y));
+      if (!Stopped()) body(int(y));
     });
   }
   // Calls body(index) for the known pixels around (x, y), itself included.
@@ -189,7 +185,8 @@ class PixelGrid {
     }
   }
 
-  // Without the pixel itself; its own mean if it stands alone.
+  // Returns the mean of the neighbours, without the pixel; its own mean if there are
+  // none.
   Rgb MeanAround(int x, int y) const {
     const std::size_t self = Index(x, y);
     Rgb sum;
@@ -202,7 +199,7 @@ class PixelGrid {
     return count > 0 ? sum / count : pixels_[self].mean;
   }
 
-  // What the pixels around one say, itself included.
+  // Statistics of the pixels around one, itself included.
   struct Surroundings {
     Rgb spread;          // mean of (m - n)^2 - v, 5 x 5 pixels
     Rgb mean, variance;  // sums over 3 x 3 pixels
@@ -225,7 +222,7 @@ class PixelGrid {
     return s;
   }
 
-  // By empirical Bayes, the neighbours' mean being the prior's.
+  // Estimates the truth by empirical Bayes, with the neighbours' mean as the prior's.
   std::array<ChannelTruth, 3> Truth(int x, int y, double share) const {
     const PixelEstimate& p = pixels_[Index(x, y)];
     const Surroundings s = Around(x, y);
@@ -257,7 +254,7 @@ class PixelGrid {
 // and what the weights may be wrong by in the ends.
 Interval WithWeights(const Interval& v, const Sums& sums) {
   if (!(v.value > 0)) return v;
-  const double n = static_cast<double>(sums.pixels);
+  const double n = double(sums.pixels);
   const double skew = kSkewDoubt * std::sqrt(std::min(v.value, 1.0));
   const double low = std::log(v.low / v.value);
   const double pooled = std::log(std::min(1.0, sums.pooled / sums.relative.sum));
@@ -268,7 +265,7 @@ Interval WithWeights(const Interval& v, const Sums& sums) {
           value + std::hypot(v.high - v.value, up, value * skew)};
 }
 
-// Only the lower end of an interval is known.
+// Returns the interval without an upper end.
 Interval AtLeast(const Interval& v) {
   return {v.value, v.low, std::numeric_limits<double>::infinity()};
 }
@@ -278,7 +275,7 @@ ErrorEstimate FromSums(const Sums& sums) {
   out.pixels = sums.pixels;
   out.available = sums.pixels > 0;
   if (!out.available) return out;
-  const double n = static_cast<double>(sums.pixels);
+  const double n = double(sums.pixels);
   const Shares &square = sums.square, &relative = sums.relative;
   out.effective_pixels = relative.sum > 0 ? relative.K1() : n;
   const Interval mse = ErrorInterval(square.sum / n, square.K1(), square.K2());
@@ -313,16 +310,8 @@ ErrorEstimate OfAPart(std::uint64_t known, std::uint64_t all) {
   return out;
 }
 
-// How often samples are expected to have met what shines.
-double Met(const FilmAccumulator& film) {
-  double samples = 0;
-  ForEachPixel(film,
-               [&](int x, int y) { samples += static_cast<double>(film.Samples(x, y)); });
-  return samples * film.chance_of_light();
-}
-
-// By what factor more samples would give an interval, as a power of two; 0 if none does.
-// More than those give one as well, so that halves of the range can be left out.
+// Returns the factor of samples, a power of two, that would give an interval; 0 if none
+// does.
 int MoreSamples(const PixelGrid& grid) {
   const auto suffice = [&grid](int doublings) {
     return FromSums(grid.Total(std::ldexp(1.0, -doublings))).has_interval;
@@ -354,8 +343,8 @@ ErrorEstimate EstimateError(const PixelRect& window,
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };
   const double rmse = times(out.rmse), most = std::max(rmse * rmse, times(out.relmse));
-  const int x = window.x0 + static_cast<int>(sums.most_up_at) % window.width();
-  const int y = window.y0 + static_cast<int>(sums.most_up_at) / window.width();
+  const int x = window.x0 + int(sums.most_up_at) % window.width();
+  const int y = window.y0 + int(sums.most_up_at) / window.width();
   const int more = MoreSamples(grid);
   if (grid.Stopped()) return {};
   out.why = fmt::format(
@@ -371,19 +360,19 @@ ErrorEstimate EstimateError(const PixelRect& window,
 }
 
 ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>* stop) {
-  const PixelRect window = {film.x0(), film.y0(), film.x0() + film.width(),
-                            film.y0() + film.height()};
   const auto pixel = [&film](int x, int y) {
     PixelEstimate p;
     p.known = film.HasVariance(x, y);
     if (!p.known) return p;
     p.mean = film.Mean(x, y);
     p.variance = film.Variance(x, y);
-    p.freedom = static_cast<double>(film.Observations(x, y) - 1);
+    p.freedom = double(film.Observations(x, y) - 1);
     return p;
   };
-  ErrorEstimate out = EstimateError(window, pixel, film.groups().dependents, stop);
-  const double met = Met(film);
+  ErrorEstimate out =
+      EstimateError(WindowOf(film), pixel, film.groups().dependents, stop);
+  // How often samples are expected to have met a light.
+  const double met = TotalSamples(film) * film.chance_of_light();
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
   return Unseen(
       std::move(out),
@@ -391,6 +380,18 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
                   "missing: an interval takes {:.2g} times as many, or "
                   "directions=mis, which samples lights",
                   met, kLeastMet / met));
+}
+
+Interval ErrorInterval(double estimate, double k1, double k2) {
+  LL_CHECK_GE(estimate, 0.0);
+  if (estimate == 0) return {0, 0, 0};
+  constexpr double kTail = (1 - kEstimateConfidence) / 2;
+  // Beyond these bounds nothing is left to widen, and FQuantile has its range.
+  k1 = std::clamp(k1, 1.0, 1e9);
+  k2 = std::clamp(k2, 1.0, 1e9);
+  // The median of F is near 1, so the ends are on either side of the estimate.
+  return {estimate, estimate * std::min(1.0, stat::FQuantile(kTail, k1, k2)),
+          estimate * std::max(1.0, stat::FQuantile(1 - kTail, k1, k2))};
 }
 
 }  // namespace lanelight

@@ -14,16 +14,15 @@
 
 namespace lanelight {
 
-/// Estimates of what `lanelight compare` would measure against the converged image, with
-/// intervals that contain it with probability kEstimateConfidence.
+/// Probability that an interval contains the true error.
 inline constexpr double kEstimateConfidence = 0.95;
 
-/// Where the samples cannot tell an upper end, it is infinite, and `low` is what the
-/// error is at least, with probability kEstimateConfidence.
 /// ErrorEstimate::why of an image whose samples are all black.
 inline constexpr const char* kNoLight =
     "no light reached the image; does the scene have a light?";
 
+/// Estimates of what `lanelight compare` would measure against the converged image. Where
+/// the samples do not give an upper end, it is infinite; `low` remains a lower bound.
 struct ErrorEstimate {
   bool available = false;     // every pixel has two independent observations
   bool has_interval = false;  // `rmse` and `relmse` both have an upper end
@@ -31,13 +30,12 @@ struct ErrorEstimate {
   Interval relmse;            // mean of variance / (mean^2 + kRelativeEpsilon)
   std::string why;            // an upper end is missing, and what would give it; or empty
   std::uint64_t pixels = 0;   // that the estimate rests on
-  /// Pixels of equal relative error that would scatter as much: few if few pixels carry
-  /// most of the error.
+  /// Effective sample size, in pixels: small if few pixels carry most of the error.
   double effective_pixels = 0;
 };
 
-/// What is known of one pixel. `known`: it has two independent observations. An image in
-/// which some pixels are known and others are not has no estimate.
+/// An estimate of one pixel. `known`: it has two independent observations. An image in
+/// which only some pixels are known has no estimate.
 struct PixelEstimate {
   bool known = false;
   Rgb mean, variance;  // `variance` >= 0: estimated, of the mean
@@ -96,8 +94,8 @@ ErrorEstimate EstimateError(const FilmAccumulator& film,
 inline constexpr double kMostTimes = 32, kLeastMet = 50;
 inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
 
-/// The same for any source of pixels of the window, which may be asked from several
-/// threads at once. `dependents`: SampleGroups; pixels then count for so much less.
+/// Estimates from any source of pixels of the window, which is called from several
+/// threads at once. `dependents`: see SampleGroups; pixels count for less by this factor.
 ErrorEstimate EstimateError(const PixelRect& window,
                             const std::function<PixelEstimate(int, int)>& pixel,
                             double dependents = 1,
@@ -106,5 +104,25 @@ ErrorEstimate EstimateError(const PixelRect& window,
 /// Interval of the true error: the estimate times quantiles of the F distribution with
 /// k1 and k2 degrees of freedom.
 Interval ErrorInterval(double estimate, double k1, double k2);
+
+/// Limits of the true error; 0 = none.
+struct ErrorTarget {
+  double relmse = 0, rmse = 0;
+  bool Any() const { return relmse > 0 || rmse > 0; }
+};
+
+/// Returns whether the upper ends of the estimate's intervals are below the target.
+bool Reached(const ErrorTarget& target, const ErrorEstimate& estimate);
+
+/// Returns whether the estimate has no upper end although kHopeless times as many samples
+/// were taken as its value asks for.
+bool IsHopeless(const ErrorTarget& target, const ErrorEstimate& estimate);
+inline constexpr double kHopeless = 64;
+
+/// Returns the samples per pixel that the target is expected to take, of which `done` are
+/// taken: squared errors fall like 1 / samples. At most `done` if it is reached, more if
+/// not; infinite without an upper end; below 0 if there will be none (IsHopeless).
+double SamplesNeeded(const ErrorTarget& target, const ErrorEstimate& estimate,
+                     std::uint64_t done);
 
 }  // namespace lanelight

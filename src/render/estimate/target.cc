@@ -1,4 +1,4 @@
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace lanelight {
 namespace {
 
-// The part of the target that these errors are, in terms of their squares.
+// Returns these errors relative to the target, squared.
 double Part(const ErrorTarget& target, double relmse, double rmse) {
   double part = 0;
   if (target.relmse > 0) part = relmse / target.relmse;
@@ -15,7 +15,7 @@ double Part(const ErrorTarget& target, double relmse, double rmse) {
   return part;
 }
 
-// That the upper end is. Without one it is infinite.
+// Returns the Part of the upper ends; infinite without one.
 double Excess(const ErrorTarget& target, const ErrorEstimate& estimate) {
   return Part(target, estimate.relmse.high, estimate.rmse.high);
 }
@@ -35,7 +35,7 @@ double SamplesNeeded(const ErrorTarget& target, const ErrorEstimate& estimate,
                      std::uint64_t done) {
   if (!estimate.available) return std::numeric_limits<double>::infinity();
   if (IsHopeless(target, estimate)) return -1;
-  const double excess = Excess(target, estimate), now = static_cast<double>(done);
+  const double excess = Excess(target, estimate), now = double(done);
   return Reached(target, estimate) ? now * excess : std::max(now * excess, now + 1);
 }
 

@@ -14,8 +14,7 @@ FilmAccumulator::FilmAccumulator(int x0, int y0, int width, int height,
   LL_CHECK_GT(width, 0);
   LL_CHECK_GT(height, 0);
   LL_CHECK(groups.unit == 1 || groups.unit == 2);
-  const std::size_t pixels =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const std::size_t pixels = std::size_t(width) * std::size_t(height);
   ResizeInHugePages(samples_, pixels);
   if (groups.replicates) {
     ResizeInHugePages(replicates_, pixels);
@@ -133,7 +132,7 @@ Rgb FilmAccumulator::Mean(int x, int y) const {
   if (samples == 0) return {};
   Rgb sum = Sum(index);
   if (control_) sum = sum - control_->Correction(index, samples);
-  return sum / static_cast<double>(samples);
+  return sum / double(samples);
 }
 
 Rgb FilmAccumulator::Variance(int x, int y) const {
@@ -155,8 +154,8 @@ Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
 // Sample variance of the units' means, over their number for the variance of their mean,
 // and scaled down by the share of a sample that has no partner yet.
 Rgb FilmAccumulator::UnitVariance(std::size_t index) const {
-  const double n = static_cast<double>(groups_.Observations(samples_[index]));
-  const double share = n * groups_.unit / static_cast<double>(samples_[index]);
+  const double n = double(groups_.Observations(samples_[index]));
+  const double share = n * groups_.unit / double(samples_[index]);
   if (control_) {
     return control_->ResidualSquares(index, samples_[index]) * (share / (n * (n - 1)));
   }
@@ -174,22 +173,21 @@ double FilmAccumulator::Aov(int x, int y, int plane) const {
   LL_CHECK(has_aov());
   const std::size_t index = Index(x, y);
   if (samples_[index] == 0) return 0;
-  return aov_[index].of[plane] / static_cast<double>(samples_[index]);
+  return aov_[index].of[plane] / double(samples_[index]);
 }
 
 double FilmAccumulator::Gbuffer(int x, int y, int plane) const {
   const std::size_t index = Index(x, y);
   const double hits = gbuffer_[index].of[0];
   if (hits == 0) return 0;
-  return plane == 0 ? hits / static_cast<double>(samples_[index])
-                    : gbuffer_[index].of[plane] / hits;
+  return plane == 0 ? hits / double(samples_[index]) : gbuffer_[index].of[plane] / hits;
 }
 
 double FilmAccumulator::Bucket(int x, int y, int bucket) const {
   LL_CHECK(bucket_film_ != nullptr);
   const std::size_t index = Index(x, y);
   if (samples_[index] == 0) return 0;
-  return bucket_film_->Sum(index, bucket) / static_cast<double>(samples_[index]);
+  return bucket_film_->Sum(index, bucket) / double(samples_[index]);
 }
 
 std::vector<MutableStateColumn> FilmAccumulator::Columns() {

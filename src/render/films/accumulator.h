@@ -12,9 +12,9 @@
 
 #include "src/base/core/column.h"
 #include "src/base/core/vec.h"
+#include "src/base/image/pixel_rect.h"
 #include "src/render/films/bucket_film.h"
 #include "src/render/films/regression_film.h"
-#include "src/render/films/replicate_sums.h"
 #include "src/vocabulary/path/sample_planes.h"
 
 namespace lanelight {
@@ -31,31 +31,31 @@ class FilmAccumulator {
   int width() const { return width_; }
   int height() const { return height_; }
   const SampleGroups& groups() const { return groups_; }
-  /// Of SampleGroups: a pilot may decide that paths serve their block.
+  /// Sets SampleGroups::dependents: a trial run may have chosen path reuse.
   void set_dependents(double dependents) { groups_.dependents = dependents; }
-  /// Of ChanceOfLight (src/scene/prepare/chance_of_light.h).
+  /// See ChanceOfLight (src/scene/prepare/chance_of_light.h).
   double chance_of_light() const { return chance_of_light_; }
   void set_chance_of_light(double chance) { chance_of_light_ = chance; }
   bool has_aov() const { return !aov_.empty(); }
   bool has_gbuffer() const { return !gbuffer_.empty(); }
   static std::size_t BytesPerPixel(const SampleGroups& groups, Auxiliary auxiliary);
 
-  /// From here on (before any sample), samples have further planes: the numbers of
-  /// control=regression, whose fit is multiplied by `coefficient`. After FitControl, Mean
-  /// and Variance are those of the corrected samples.
+  /// Adds the planes of control=regression, whose fit is multiplied by `coefficient`;
+  /// before any sample. After FitControl, Mean and Variance are those of the corrected
+  /// samples.
   void UseRegression(double coefficient);
   void FitControl();
-  /// From here on (before any sample) samples have their wavelengths as well, and the
-  /// film keeps means by bucket.
+  /// Adds the planes of wavelengths, of which the film keeps means by bucket; before any
+  /// sample.
   void UseBuckets(const SpectralBuckets& buckets);
-  /// Null without.
+  /// Returns null without UseBuckets.
   const SpectralBuckets* buckets() const {
     return bucket_film_ ? &bucket_film_->buckets() : nullptr;
   }
   /// Returns the effect of the control variate; empty without UseRegression.
   std::optional<ControlReport> Control() const;
 
-  /// Planes that a film takes of a sample, at most.
+  /// Most planes of a sample.
   static constexpr int kMostPlanes =
       kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kRadiance) +
       NumPlanes(PlaneGroup::kTriple) + NumPlanes(PlaneGroup::kNumbers);
@@ -78,16 +78,15 @@ class FilmAccumulator {
   }
   /// Mean of an auxiliary plane.
   double Aov(int x, int y, int plane) const;
-  /// Of a plane of the g-buffer; the first, the share of samples that hit something,
-  /// over all samples, the others over those. Zero where there are none.
+  /// Returns the mean of a plane of the g-buffer: of the first, the share of samples that
+  /// hit something; of the others, the mean over these. Zero without samples.
   double Gbuffer(int x, int y, int plane) const;
-  /// Of a bucket: mean over the samples of the mean radiance at those of its wavelengths
-  /// that paths carry, in units of WhiteRadiance() before exposure. Zero without samples,
-  /// and of a bucket in which paths carry none.
+  /// Returns the mean radiance in a bucket at the wavelengths that paths carry, in units
+  /// of WhiteRadiance() before exposure. Zero without samples or such wavelengths.
   double Bucket(int x, int y, int bucket) const;
 
-  /// All that AddSamples has brought, by pixel, row by row: a film of the same pixels,
-  /// planes and groups that is given these goes on from there.
+  /// Returns all sums by pixel, row by row; a film of the same pixels, planes and groups
+  /// that loads them resumes from there.
   std::vector<MutableStateColumn> Columns();
 
  private:
@@ -113,8 +112,7 @@ class FilmAccumulator {
   Rgb ReplicateVariance(std::size_t index) const;
 
   std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y - y0_) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x - x0_);
+    return std::size_t(y - y0_) * std::size_t(width_) + std::size_t(x - x0_);
   }
 
   int x0_, y0_, width_, height_;
@@ -131,5 +129,34 @@ class FilmAccumulator {
   SamplePlanes planes_;  // that it takes
   std::unique_ptr<RegressionFilm> control_;
 };
+
+/// Calls visit(x, y) for every pixel.
+template <class Visit>
+void ForEachPixel(const PixelRect& rect, const Visit& visit) {
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x) visit(x, y);
+  }
+}
+
+inline PixelRect WindowOf(const FilmAccumulator& film) {
+  return {film.x0(), film.y0(), film.x0() + film.width(), film.y0() + film.height()};
+}
+template <class Visit>
+void ForEachPixel(const FilmAccumulator& film, const Visit& visit) {
+  ForEachPixel(WindowOf(film), visit);
+}
+
+/// Samples of all pixels together.
+inline double TotalSamples(const FilmAccumulator& film) {
+  double samples = 0;
+  ForEachPixel(film, [&](int x, int y) { samples += double(film.Samples(x, y)); });
+  return samples;
+}
+/// Pixels of the film that have a sample.
+inline std::uint64_t SampledPixels(const FilmAccumulator& film) {
+  std::uint64_t count = 0;
+  ForEachPixel(film, [&](int x, int y) { count += film.Samples(x, y) > 0; });
+  return count;
+}
 
 }  // namespace lanelight

@@ -1,12 +1,13 @@
-// What a film that keeps spectra adds up, by pixel and bucket of wavelengths. Linear, so
-// that pixels can be cut, put down, dealt out and added like all other sums.
+// Sums of a film that keeps spectra, by pixel and bucket of wavelengths.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "src/base/core/check.h"
 #include "src/base/core/column.h"
+#include "src/base/core/huge_pages.h"
 #include "src/base/image/bucket_shares.h"
 #include "src/base/image/spectral_buckets.h"
 
@@ -14,21 +15,37 @@ namespace lanelight {
 
 class BucketFilm {
  public:
-  BucketFilm(const SpectralBuckets& buckets, std::size_t pixels);
+  BucketFilm(const SpectralBuckets& buckets, std::size_t pixels)
+      : buckets_(buckets), shares_(buckets) {
+    LL_CHECK_GT(buckets.count, 0);
+    ResizeInHugePages(sums_, pixels * std::size_t(buckets.count));
+  }
   static std::size_t BytesPerPixel(const SpectralBuckets& buckets) {
-    return static_cast<std::size_t>(buckets.count) * sizeof(double);
+    return std::size_t(buckets.count) * sizeof(double);
   }
 
   const SpectralBuckets& buckets() const { return buckets_; }
-  /// Samples of a pixel: radiance at the long, the middle and the short wavelength of
-  /// their paths, in units of D65, and the triple that these are of.
+  /// Adds samples of a pixel: radiance at the long, the middle and the short wavelength
+  /// of their paths, in units of D65, and the triple of wavelengths.
   void Add(std::size_t pixel, const float* const* radiance, const float* triple,
-           std::uint32_t count);
-  double Sum(std::size_t pixel, int bucket) const {
-    return sums_[pixel * static_cast<std::size_t>(buckets_.count) +
-                 static_cast<std::size_t>(bucket)];
+           std::uint32_t count) {
+    double* const sums = sums_.data() + pixel * std::size_t(buckets_.count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      auto bin = std::uint32_t(triple[i]);
+      LL_DCHECK(bin < kTriples);
+      for (int from_short = 2; from_short >= 0; --from_short, bin += kTriples) {
+        shares_.Add(bin, double(radiance[from_short][i]), sums);
+      }
+    }
   }
-  MutableStateColumn Column();
+  double Sum(std::size_t pixel, int bucket) const {
+    return sums_[pixel * std::size_t(buckets_.count) + std::size_t(bucket)];
+  }
+  MutableStateColumn Column() {
+    return MakeStateColumn<double>(
+        "buckets", "sums of radiance by bucket of wavelengths, D65 of luminance 1", sums_,
+        {std::size_t(buckets_.count)});
+  }
 
  private:
   SpectralBuckets buckets_;

@@ -2,7 +2,7 @@
 
 #include "src/base/core/check.h"
 #include "src/base/image/exr.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 
@@ -20,7 +20,7 @@ void WriteColors(const std::string& path, int width, int height,
     for (int c = 0; c < 3; ++c) {
       ExrPlane plane = {layer.prefix + "RGB" [c], {}, true};
       for (const Rgb& color : *layer.colors) {
-        plane.values.push_back(static_cast<float>(color[c]));
+        plane.values.push_back(float(color[c]));
       }
       planes.push_back(std::move(plane));
     }

@@ -9,23 +9,23 @@
 
 namespace lanelight {
 
-/// The means of all pixels of a film.
+/// Returns the means of all pixels of a film.
 std::vector<Rgb> FilmColors(const FilmAccumulator& film);
 
-/// As it comes back from a file.
+/// Returns the colour as a file stores it.
 inline Rgb RoundToFloat(const Rgb& c) { return VecCast<double>(VecCast<float>(c)); }
 
-/// Channels R, G, B with a prefix before their names.
+/// Channels R, G and B, named with a prefix.
 struct ColorLayer {
   std::string prefix;
   const std::vector<Rgb>* colors;  // empty: left out
 };
 
-/// EXR, 32 bit. Throws InputError if it cannot be written.
+/// Writes an EXR file of 32-bit floats. Throws InputError if it cannot be written.
 void WriteColors(const std::string& path, int width, int height,
                  const std::vector<ColorLayer>& layers);
 
-/// R, G, B of an EXR file.
+/// Reads R, G and B of an EXR file.
 std::vector<Rgb> ReadColors(const std::string& path);
 
 }  // namespace lanelight

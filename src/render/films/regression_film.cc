@@ -19,25 +19,25 @@ constexpr float kNeighbourFreedom = 24;
 // Orthonormal P1 in the middle of a cell.
 float Linear(std::uint32_t cell, int bits) {
   constexpr float kRoot3 = 1.73205081f;
-  const float width = 2 * kRoot3 / static_cast<float>(1 << bits);
-  return static_cast<float>(static_cast<int>(cell)) * width + (width / 2 - kRoot3);
+  const float width = 2 * kRoot3 / float(1 << bits);
+  return float(int(cell)) * width + (width / 2 - kRoot3);
 }
 
 // Three times 1[u < p] - p: of variance 1 at p = 1/7, between what glass reflects head-on
 // and aslant, so that the sample that a fit adds weighs as with the other functions.
 float Choice(std::uint32_t code) {
   constexpr float kScale = 3.0f / (1 << kBitsOfProbability);
-  const auto p = static_cast<int>(code >> 1), first = static_cast<int>(code & 1);
-  return static_cast<float>((first << kBitsOfProbability) - p) * kScale;
+  const auto p = int(code >> 1), first = int(code & 1);
+  return float((first << kBitsOfProbability) - p) * kScale;
 }
 
-// What a plain loop over the functions needs to be free of.
+// Returns 0 for values that would spoil sums.
 float Finite(float v) { return std::abs(v) < 1e30f ? v : 0; }
 
 }  // namespace
 
-// Of one half of a pixel's samples, or of all pixels of a block: sums of squares and
-// products about the pixels' means.
+// Sums of squares and products about the pixels' means, over one half of a pixel's
+// samples or all pixels of a block.
 struct RegressionFilm::Scatter {
   float freedom = 0, ff[3] = {};  // freedom: samples less one per mean
   Values squares = {}, products[3] = {};
@@ -46,7 +46,7 @@ struct RegressionFilm::Scatter {
   void Add(const Scatter& o) {
     freedom += o.freedom;
     for (int j = 0; j < kFunctions; ++j) {
-      const auto i = static_cast<std::size_t>(j);
+      const auto i = std::size_t(j);
       squares[i] += o.squares[i];
       scattered[i] += o.scattered[i];
       for (int c = 0; c < 3; ++c) products[c][i] += o.products[c][i];
@@ -89,7 +89,7 @@ RegressionFilm::RegressionFilm(const PixelRect& window, const SampleGroups& grou
       coefficient_(coefficient),
       turns_(groups.replicates ? kReplicates : 2) {
   LL_CHECK(groups.unit == 1 || groups.replicates);
-  const auto pixels = static_cast<std::size_t>(window.pixels());
+  const auto pixels = std::size_t(window.pixels());
   ResizeInHugePages(sums_, pixels * turns_);
   ResizeInHugePages(colors_, pixels);
   ResizeInHugePages(products_, pixels);
@@ -169,13 +169,13 @@ void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
 }
 
 double RegressionFilm::SamplesOfHalf(std::uint64_t samples, int half) const {
-  const auto of = static_cast<std::uint64_t>(half);
-  if (!groups_.replicates) return static_cast<double>((samples + 1 - of) / 2);
+  const auto of = std::uint64_t(half);
+  if (!groups_.replicates) return double((samples + 1 - of) / 2);
   std::uint64_t n = 0;
-  for (auto r = static_cast<std::uint32_t>(half); r < kReplicates; r += 2) {
+  for (auto r = std::uint32_t(half); r < kReplicates; r += 2) {
     n += groups_.InReplicate(samples, r);
   }
-  return static_cast<double>(n);
+  return double(n);
 }
 
 RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors,
@@ -186,16 +186,16 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   if (all < 2) return out;
   // Beyond kMostFitted colours and functions know more than their products do.
   const double n = SamplesOfHalf(std::min(samples, kMostFitted), half), share = n / all;
-  const auto side = static_cast<std::size_t>(half);
+  const auto side = std::size_t(half);
   const Colors& own = colors_[pixel][side];
   const Products& sums = products_[pixel][side];
-  out.freedom = static_cast<float>(n - 1);
+  out.freedom = float(n - 1);
   Values phi = {};
   for (std::size_t t = side; t < turns_; t += 2) {
     for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += Sums(pixel, t)[j];
   }
-  const auto inverse = static_cast<float>(share * share / n);
-  const auto g = static_cast<float>((own.f[0] + own.f[1] + own.f[2]) / (3 * all));
+  const auto inverse = float(share * share / n);
+  const auto g = float((own.f[0] + own.f[1] + own.f[2]) / (3 * all));
   for (std::size_t j = 0; j < phi.size(); ++j) {
     out.squares[j] = std::max(0.0f, sums.squares[j] - phi[j] * phi[j] * inverse);
     const float about = sums.twice[j] - g * (2 * sums.once[j] - g * sums.squares[j]);
@@ -203,8 +203,8 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   }
   for (int c = 0; c < 3; ++c) {
     const double mean = own.f[c] / all;
-    out.ff[c] = static_cast<float>(std::max(0.0, own.ff[c] - own.f[c] * mean) * share);
-    const auto scale = static_cast<float>(mean * share);
+    out.ff[c] = float(std::max(0.0, own.ff[c] - own.f[c] * mean) * share);
+    const auto scale = float(mean * share);
     for (std::size_t j = 0; j < phi.size(); ++j) {
       out.products[c][j] = sums.products[c][j] - scale * phi[j];
     }
@@ -216,7 +216,7 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
 void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples,
                          int half) {
   Fitted& out = fitted_[pixel];
-  const auto side = static_cast<std::size_t>(half);
+  const auto side = std::size_t(half);
   const Products& sums = products_[pixel][side];
   const double fitted = SamplesOfHalf(std::min(samples, kMostFitted), half);
   const double more = fitted > 0 ? SamplesOfHalf(samples, half) / fitted : 0;
@@ -231,8 +231,8 @@ void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t 
       product += b[c][j] * sums.products[c][j];
       square += b[c][j] * b[c][j] * sums.squares[j];
     }
-    out.products[c] += product * static_cast<float>(more);
-    out.squares[c] += square * static_cast<float>(more);
+    out.products[c] += product * float(more);
+    out.squares[c] += square * float(more);
   }
 }
 
@@ -254,19 +254,18 @@ void RegressionFilm::FitBlock(const ControlledColors& colors,
 }
 
 void RegressionFilm::Fit(const ControlledColors& colors) {
-  std::fill(fitted_.begin(), fitted_.end(), Fitted());
+  std::ranges::fill(fitted_, Fitted());
   const int first = window_.y0 / kBlock, last = (window_.y1 - 1) / kBlock;
   ParallelFor(static_cast<std::size_t>(last - first + 1), [&](std::size_t row) {
-    const int top = (first + static_cast<int>(row)) * kBlock;
+    const int top = (first + int(row)) * kBlock;
     for (int left = window_.x0 / kBlock * kBlock; left < window_.x1; left += kBlock) {
       std::size_t pixels[kBlock * kBlock], count = 0;
       for (int y = std::max(top, window_.y0); y < std::min(top + kBlock, window_.y1);
            ++y) {
         for (int x = std::max(left, window_.x0); x < std::min(left + kBlock, window_.x1);
              ++x) {
-          pixels[count++] = static_cast<std::size_t>(y - window_.y0) *
-                                static_cast<std::size_t>(window_.width()) +
-                            static_cast<std::size_t>(x - window_.x0);
+          pixels[count++] = std::size_t(y - window_.y0) * std::size_t(window_.width()) +
+                            std::size_t(x - window_.x0);
         }
       }
       FitBlock(colors, {pixels, count});
@@ -302,7 +301,7 @@ Rgb RegressionFilm::ResidualSquares(std::size_t pixel, std::uint64_t samples) co
     const double sum = of[0].f[c] + of[1].f[c] - correction[c];
     const double squares =
         of[0].ff[c] + of[1].ff[c] - coefficient_ * (2 * product - coefficient_ * square);
-    out[c] = std::max(0.0, squares - sum * sum / static_cast<double>(samples));
+    out[c] = std::max(0.0, squares - sum * sum / double(samples));
   }
   return out;
 }
@@ -315,8 +314,7 @@ ControlReport RegressionFilm::Report(const ControlledColors& colors) const {
       products += double(fitted_[i].products[c]);
       squares += double(fitted_[i].squares[c]);
       const Halves<Colors>& of = colors_[i];
-      const double f = of[0].f[c] + of[1].f[c],
-                   n = static_cast<double>(colors.samples[i]);
+      const double f = of[0].f[c] + of[1].f[c], n = double(colors.samples[i]);
       variance += std::max(0.0, of[0].ff[c] + of[1].ff[c] - f * f / n);
     }
   }

@@ -4,7 +4,7 @@
 //
 //   estimator   1/n (sum over half A of (f - c b_B.phi) + sum over half B of
 //               (f - c b_A.phi)), b_X by least squares from the samples of half X
-//   functions   phi_j: Legendre polynomials, orthonormal over uniform numbers, of degrees
+//   functions   phi_j: Legendre polynomials, orthonormal over uniform numbers, of degree
 //   1
 //               in the position in the pixel (2 functions); 1 and 2 in each of the
 //               numbers of the first scattered direction, and the product (5); 1 in those
@@ -31,10 +31,39 @@
 #include "src/base/core/column.h"
 #include "src/base/core/vec.h"
 #include "src/base/image/pixel_rect.h"
-#include "src/render/films/replicate_sums.h"
 #include "src/vocabulary/path/first_numbers.h"
+#include "src/vocabulary/path/replicates.h"
 
 namespace lanelight {
+
+struct ReplicateSums {
+  double of[kReplicates][3] = {};
+
+  double Total(int channel) const {
+    double total = 0;
+    for (const auto& sum : of) total += sum[channel];
+    return total;
+  }
+  /// Estimated variance of Total() / samples in one channel. The variance of a
+  /// replicate's sum is taken to be in proportion to its samples n_r, so that with the
+  /// deviations D_r from n_r times the mean, E[sum D_r^2] is that of one sample times n -
+  /// sum n_r^2 / n.
+  double VarianceOfMean(int channel, std::uint64_t samples,
+                        const SampleGroups& groups) const;
+};
+
+inline double ReplicateSums::VarianceOfMean(int channel, std::uint64_t samples,
+                                            const SampleGroups& groups) const {
+  const double n = double(samples), mean = Total(channel) / n;
+  double squares = 0, freedom = n;
+  for (std::uint32_t r = 0; r < kReplicates; ++r) {
+    const double own = double(groups.InReplicate(samples, r));
+    const double deviation = of[r][channel] - own * mean;
+    squares += deviation * deviation;
+    freedom -= own * own / n;
+  }
+  return squares / (freedom * n);
+}
 
 /// Effect of control=regression over an image.
 struct ControlReport {
@@ -42,7 +71,7 @@ struct ControlReport {
   double correlation = 0;  // of f and its fit, over the variance of all pixels, channels
 };
 
-/// What the film knows of a pixel's f: the other half of what a fit needs.
+/// Sums of f that the film keeps and a fit needs.
 struct ControlledColors {
   const std::vector<std::uint64_t>& samples;
   const std::vector<ReplicateSums>& replicates;  // empty without replicates
@@ -64,16 +93,16 @@ class RegressionFilm {
   /// direction, point on a light, choices.
   static constexpr int kPlanes = kFirstNumbers;
   static constexpr int kFunctions = 12;
-  /// Pixels know of each other within blocks of so many squared, from the image's origin
-  /// on: how a render is cut does not matter.
+  /// Pixels of a block (kBlock x kBlock, from the image's origin on) share information,
+  /// so the result is the same for any split of the render.
   static constexpr int kBlock = 4;
   static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
 
-  /// Units are single samples, or there are replicates (GroupsOf).
+  /// Requires units of single samples, or replicates (GroupsOf).
   RegressionFilm(const PixelRect& window, const SampleGroups& groups, double coefficient);
   static std::size_t BytesPerPixel(const SampleGroups& groups);
 
-  /// Values of the functions.
+  /// Evaluates the functions.
   static void Functions(const float* codes, float* phi);
 
   /// Adds a pixel's samples, in order. Safe for different pixels from different threads.
@@ -111,7 +140,7 @@ class RegressionFilm {
   struct Scatter;
 
   std::uint32_t TurnOf(std::uint64_t sample) const {
-    return static_cast<std::uint32_t>(sample / groups_.unit % turns_);
+    return std::uint32_t(sample / groups_.unit % turns_);
   }
   const Values& Sums(std::size_t pixel, std::size_t turn) const {
     return sums_[pixel * turns_ + turn];

@@ -1,14 +1,15 @@
-#include "src/render/job/add_seeds.h"
+#include "src/render/job/merge.h"
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
 namespace {
 
-// What a replicate or unit of the sum is made of must not depend on the order of samples.
+// Checks that the samples of each replicate or unit do not depend on the order of
+// samples.
 void CheckWhole(const MergedRender& render) {
   if (render.missing > 0) {
     throw InputError(fmt::format(

@@ -7,11 +7,10 @@
 #include "src/base/core/json_text.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/png.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
-#include "src/render/job/run_content.h"
 #include "src/render/job/saving.h"
 #include "src/render/wave/tiles.h"
 
@@ -50,12 +49,6 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
   return TilesOfPart(job.window, part, strategy.MayReuse() ? kReuseTile : 1);
 }
 
-std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
-  std::uint64_t pixels = 0;
-  for (const PixelRect& tile : tiles) pixels += tile.pixels();
-  return pixels;
-}
-
 }  // namespace
 
 std::optional<Decide> DecisionOfState(const CheckpointSettings& settings) {
@@ -81,14 +74,14 @@ Checkpoint::Checkpoint(const Job& job, const CheckpointSettings& settings,
   tiles_ = TilesToRender(job, settings.part);
   if (!settings.path.empty()) lock_.emplace(settings.path, on_problem_);
   Open();
-  next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
+  next_ = Milliseconds() + std::int64_t(1000 * settings_.seconds);
 }
 
 Checkpoint::~Checkpoint() {
   if (writing_.valid()) writing_.wait();
 }
 
-// Never silently from the beginning, and never over what took hours.
+// Neither restarts silently, nor overwrites an existing state.
 void Checkpoint::Open() {
   const bool exists = Exists(settings_.path);
   if (settings_.resume == Resume::kNever) {
@@ -115,7 +108,7 @@ void Checkpoint::CheckSame(const StateFile& file) {
                      "' is the state of another render:" + differences);
   }
   if (file.tiles() == tiles_) return;
-  // What a merge of parts has made goes on as a whole.
+  // A state of merged parts is resumed as a whole.
   const bool whole = PixelsOf(file.tiles()) == job_.window.pixels();
   if (whole && settings_.part.count == 1) {
     tiles_ = file.tiles();
@@ -173,7 +166,7 @@ void Checkpoint::Keep(RunState& state) {
   });
   ++count_;
   pause_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-  next_ = Milliseconds() + static_cast<std::int64_t>(1000 * settings_.seconds);
+  next_ = Milliseconds() + std::int64_t(1000 * settings_.seconds);
 }
 
 std::unique_ptr<StateCopy> Checkpoint::Copy(RunState& state) const {

@@ -1,4 +1,4 @@
-// Keeps a render on the disk while it goes on: state files (src/base/state,
+// Stores a running render on disk: state files (src/base/state,
 // docs/state.md), and the image so far.
 #pragma once
 
@@ -8,19 +8,48 @@
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "src/base/core/file_lock.h"
 #include "src/base/state/state_file.h"
 #include "src/render/job/job.h"
 #include "src/render/job/parts.h"
-#include "src/render/job/state_lock.h"
+#include "src/render/wave/run_state.h"
 
 namespace lanelight {
 
-/// True if a render goes on from a state.
+/// Locks a state: no other process keeps `path` meanwhile. The lock is a file PATH.lock,
+/// which is removed at the end. After a SIGKILL it stays, without effect.
+class StateLock {
+ public:
+  /// Throws InputError, naming the owner, if another process keeps the state. Removes
+  /// temporary files that killed writers have left (PATH.*.*.tmp). Calls `on_problem` if
+  /// the file system has no locks.
+  StateLock(const std::string& path,
+            const std::function<void(const std::string&)>& on_problem);
+  ~StateLock();
+  StateLock(const StateLock&) = delete;
+  StateLock& operator=(const StateLock&) = delete;
+
+ private:
+  std::optional<LockFile> file_;  // none: no locks here
+  std::optional<HeldLock> lock_;
+};
+
+/// Makes the content of a state, without tiles and window. `about`: further members of
+/// its report. Keeps references to the films and to the tables of `run`.
+StateContent ContentOf(const nlohmann::json& identity, nlohmann::json about, Films& films,
+                       const RunRecord& run);
+
+/// Reads the record of a run; `report` is the file's. Throws nlohmann::json::exception
+/// where it differs from what ContentOf writes.
+RunRecord ReadRecord(const StateFile& file, const nlohmann::json& report);
+
+/// Whether a render resumes from a state.
 enum class Resume {
   kNever,  // a state that is there already is an error: it would be lost
   kIfAny,  // from the state if there is one
@@ -41,34 +70,34 @@ struct CheckpointSettings {
   bool Any() const { return !path.empty() || !watch.empty(); }
 };
 
-/// What the state that a render is to go on from says of decide=; nothing if there is no
-/// state to go on from. Throws InputError for one that is damaged.
+/// Returns the decide= of the state that a render is to resume from; nothing without such
+/// a state. Throws InputError for a damaged one.
 std::optional<Decide> DecisionOfState(const CheckpointSettings& settings);
 
 class Checkpoint : public RunKeeper {
  public:
-  /// `head`: what a report says of this render whatever it comes to. `on_problem` is told
-  /// at once, from any thread, of states that cannot be written. Throws InputError if the
-  /// state to go on from is missing, damaged, or of another render (naming each
-  /// difference), if one is there that must not be, or if another process keeps it.
+  /// `head`: the head of the report (HeadJson). `on_problem` is called at once, from any
+  /// thread, for states that cannot be written. Throws InputError if the state to resume
+  /// from is missing, damaged, or of another render (naming each difference), if one
+  /// exists that would be lost, or if another process keeps it.
   Checkpoint(const Job& job, const CheckpointSettings& settings,
              const nlohmann::json& head,
              std::function<void(const std::string&)> on_problem);
   ~Checkpoint() override;
 
-  /// What this render is to render: its part, in the order of the state.
+  /// Returns the tiles of this render, in the order of the state.
   const std::vector<PixelRect>& tiles() const { return tiles_; }
   bool resumed() const { return from_ != nullptr; }
 
   bool Restore(RunState& state) override;
   bool Due() const override;
   void Keep(RunState& state) override;
-  /// After the last Keep: waits for what is being written. If the state cannot be written
-  /// where it should be, it goes to the temporary directory. Messages about that.
+  /// Waits for the last state to be written. If that fails, writes it to the temporary
+  /// directory. Returns messages about that.
   std::vector<std::string> Finish();
-  /// Returns whether the last state that was to be kept is on the disk.
+  /// Returns whether the last state is on the disk.
   bool kept() const { return kept_; }
-  /// Of all calls of Keep: how often, and how long the render stood still for them.
+  /// Number of calls of Keep, and the seconds for which they stopped the render.
   int count() const { return count_; }
   double pause_seconds() const { return pause_seconds_; }
 
@@ -77,9 +106,10 @@ class Checkpoint : public RunKeeper {
   void CheckSame(const StateFile& file);
   void CheckNotTooMany(const Films& films) const;
   std::unique_ptr<StateCopy> Copy(RunState& state) const;
-  /// What writes the image so far; nothing if nobody watches.
+  /// Returns the function that writes the image so far; empty if none is asked for.
   std::function<void()> Watch(RunState& state) const;
-  /// False after an exception, of which on_problem is told, once until all is well.
+  /// Calls write(). Reports an exception to on_problem, each message once until a write
+  /// succeeds. Returns whether it succeeded.
   bool Try(const std::function<void()>& write);
 
   const Job& job_;

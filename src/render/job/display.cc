@@ -1,21 +1,83 @@
 #include "src/render/job/display.h"
 
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <concepts>
+#include <cstdint>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-
+#include "src/base/core/check.h"
 #include "src/base/image/spectrum.h"
-#include "src/render/job/display_packets.h"
 #include "src/render/wave/tiles.h"
 
 namespace lanelight {
 namespace {
 
+constexpr char kCreateImage = 4, kUpdateImage = 6;
+constexpr const char* kChannels[] = {"R", "G", "B"};
+
+class Packet {
+ public:
+  explicit Packet(char type) : bytes_(4, '\0') { bytes_ += type; }
+
+  template <std::integral T>
+  void Add(T value) {
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      bytes_ += static_cast<char>((std::uint64_t(value) >> (8 * i)) & 0xff);
+    }
+  }
+  void Add(float value) { Add(std::bit_cast<std::uint32_t>(value)); }
+  void Add(const std::string& text) { bytes_ += text + '\0'; }
+  void AddChannels() {
+    Add(std::int32_t{3});
+    for (const std::string channel : kChannels) Add(channel);
+  }
+  void Reserve(std::size_t bytes) { bytes_.reserve(bytes_.size() + bytes); }
+
+  /// All of it, with its length.
+  std::string Bytes() && {
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes_[i] = static_cast<char>((bytes_.size() >> (8 * i)) & 0xff);
+    }
+    return std::move(bytes_);
+  }
+
+ private:
+  std::string bytes_;
+};
+
 constexpr auto kBetween = std::chrono::milliseconds(250);
 constexpr double kConnectSeconds = 2;
 
 }  // namespace
+
+std::string CreateImagePacket(const std::string& name, int width, int height) {
+  Packet packet(kCreateImage);
+  packet.Add(std::uint8_t{1});  // it is brought to the front
+  packet.Add(name);
+  packet.Add(std::int32_t{width});
+  packet.Add(std::int32_t{height});
+  packet.AddChannels();
+  return std::move(packet).Bytes();
+}
+
+std::string UpdateImagePacket(const std::string& name, const PixelRect& place,
+                              std::span<const float> rgb) {
+  LL_CHECK_EQ(rgb.size(), 3 * place.pixels());
+  Packet packet(kUpdateImage);
+  packet.Reserve(name.size() + 128 + 4 * rgb.size());
+  packet.Add(std::uint8_t{0});
+  packet.Add(name);
+  packet.AddChannels();
+  for (const int v : {place.x0, place.y0, place.width(), place.height()}) {
+    packet.Add(std::int32_t{v});
+  }
+  for (std::int64_t offset = 0; offset < 3; ++offset) packet.Add(offset);
+  for (int channel = 0; channel < 3; ++channel) packet.Add(std::int64_t{3});
+  for (const float value : rgb) packet.Add(value);
+  return std::move(packet).Bytes();
+}
 
 Display::Display(const Endpoint& endpoint, const std::string& name,
                  const FilmAccumulator& film, const std::string& color_space,
@@ -23,7 +85,7 @@ Display::Display(const Endpoint& endpoint, const std::string& name,
     : endpoint_(endpoint),
       name_(name),
       color_space_(color_space),
-      window_{film.x0(), film.y0(), film.x0() + film.width(), film.y0() + film.height()},
+      window_(WindowOf(film)),
       on_problem_(std::move(on_problem)),
       shown_(3 * window_.pixels()),
       thread_([this] { Serve(); }) {}
@@ -46,7 +108,7 @@ Display::Tile Display::TileOf(const FilmAccumulator& film, const PixelRect& plac
   for (int y = place.y0; y < place.y1; ++y) {
     for (int x = place.x0; x < place.x1; ++x) {
       const Rgb mean = ToSrgb(color_space_, film.Mean(x, y), SpectrumUse::kUnbounded);
-      for (int c = 0; c < 3; ++c) tile.rgb.push_back(static_cast<float>(mean[c]));
+      for (int c = 0; c < 3; ++c) tile.rgb.push_back(float(mean[c]));
     }
   }
   return tile;
@@ -60,14 +122,13 @@ void Display::Changed(const FilmAccumulator& film, const PixelRect& place) {
 }
 
 bool Display::Keep(const Tile& tile) {
-  const auto width = static_cast<std::size_t>(window_.width());
-  const auto row = 3 * static_cast<std::size_t>(tile.place.width());
+  const auto width = std::size_t(window_.width());
+  const auto row = 3 * std::size_t(tile.place.width());
   bool differs = false;
   for (int y = tile.place.y0; y < tile.place.y1; ++y) {
-    const float* const from =
-        tile.rgb.data() + static_cast<std::size_t>(y - tile.place.y0) * row;
-    float* const to = shown_.data() + 3 * (static_cast<std::size_t>(y) * width +
-                                           std::size_t(tile.place.x0));
+    const float* const from = tile.rgb.data() + std::size_t(y - tile.place.y0) * row;
+    float* const to =
+        shown_.data() + 3 * (std::size_t(y) * width + std::size_t(tile.place.x0));
     differs |= !std::equal(from, from + row, to);
     std::copy(from, from + row, to);
   }
@@ -108,8 +169,8 @@ void Display::Serve() {
   std::shared_ptr<Connection> server = Connection::Open(endpoint_, kConnectSeconds, why);
   if (!server) {
     return Fail(
-        fmt::format("no display server at {} ({}): nothing is shown, and the "
-                    "render goes on; start `tev` first, or give its host and "
+        fmt::format("no display server at {} ({}): the render continues without it; "
+                    "start `tev` first, or give its host and "
                     "port",
                     endpoint_.Text(), why));
   }

@@ -1,4 +1,4 @@
-// Shows a render while it goes on, in a viewer that speaks tev's protocol.
+// Shows a running render in a viewer that speaks tev's protocol.
 #pragma once
 
 #include <condition_variable>
@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -20,25 +21,24 @@ namespace lanelight {
 /// Where tev listens.
 inline constexpr EndpointType kDisplayEndpoint{14158};
 
-/// Sends the tiles of a film that have changed, four times a second, from a thread of its
-/// own: what a slow viewer has not read yet is sent in its last state, and the render
-/// never waits. Where nobody listens, or the viewer goes away, it says so once, and
-/// nothing else happens.
+/// Sends changed tiles of a film four times a second, from its own thread: a slow viewer
+/// receives the last state of each tile, and the render never waits. If the viewer cannot
+/// be reached or disconnects, it reports that once.
 class Display {
  public:
   using OnProblem = std::function<void(const std::string&)>;
 
   /// `film` has no samples yet; its pixels are of `color_space` and are shown in linear
-  /// sRGB, under this name. `on_problem` is called from any thread.
+  /// sRGB, under the name `name`. `on_problem` is called from any thread.
   Display(const Endpoint& endpoint, const std::string& name, const FilmAccumulator& film,
           const std::string& color_space, OnProblem on_problem);
-  /// Sends what is left, for kLastSeconds at most.
+  /// Sends the remaining tiles, for at most kLastSeconds.
   ~Display();
   static constexpr double kLastSeconds = 2;
 
-  /// The film has new samples in these pixels. From any thread, for different pixels.
+  /// Notes that these pixels have new samples. From any thread, for different pixels.
   void Changed(const FilmAccumulator& film, const PixelRect& place);
-  /// The film is as it will be: what it has that was not told of is sent too.
+  /// Sends what has changed in the final film.
   void Finish(const FilmAccumulator& film);
 
  private:
@@ -49,9 +49,9 @@ class Display {
   };
 
   Tile TileOf(const FilmAccumulator& film, const PixelRect& place) const;
-  /// Keeps a tile as what is shown. Whether it is anything else than before.
+  /// Stores a tile as shown. Returns whether it differs from before.
   bool Keep(const Tile& tile);
-  /// The thread.
+  /// Runs in the thread.
   void Serve();
   bool SendAll(const std::vector<Tile>& tiles);
   void Fail(const std::string& message);
@@ -69,5 +69,14 @@ class Display {
   bool ended_ = false, failed_ = false;
   std::thread thread_;  // the last to be made
 };
+
+/// CreateImage (type 4): an image of channels R, G, B under this name, or an empty one
+/// again if there is one of that name.
+std::string CreateImagePacket(const std::string& name, int width, int height);
+
+/// UpdateImage with offsets and strides (type 6): colours of the pixels of `place`, row
+/// by row, three values each.
+std::string UpdateImagePacket(const std::string& name, const PixelRect& place,
+                              std::span<const float> rgb);
 
 }  // namespace lanelight

@@ -3,24 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 
 namespace lanelight {
-namespace {
-
-double SamplesOf(const FilmAccumulator& film) {
-  double samples = 0;
-  ForEachPixel(film, [&](int x, int y) { samples += double(film.Samples(x, y)); });
-  return samples;
-}
-
-}  // namespace
-
 void ErrorSoFar::Listen(std::uint64_t pixels, RunOptions& options) {
   if (!options.samples_needed) {
     options.on_film = [this, pixels](const FilmAccumulator& film) {
       if (SampledPixels(film) < pixels) return;
-      Set(EstimateError(film), SamplesOf(film), 0);
+      Set(EstimateError(film), TotalSamples(film), 0);
     };
     return;
   }

@@ -1,4 +1,4 @@
-// What a render knows of its error while it goes on.
+// The error of a render while it runs.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,17 @@
 #include <mutex>
 #include <optional>
 
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 #include "src/render/run/run.h"
 
 namespace lanelight {
 
 struct RenderProgress : Progress {
-  /// What the last estimate comes to with the samples of now: squared errors fall as
-  /// 1 / samples. Empty: there has been none.
+  /// The last estimate, scaled to the current samples: squared errors fall as 1 /
+  /// samples. Empty: none yet.
   std::optional<ErrorEstimate> error;
-  /// Seconds that a target of the error is expected to take from now on, by `error`;
-  /// empty: no target, or not known.
+  /// Expected seconds until the error target is reached, by `error`; empty: no target, or
+  /// not known.
   std::optional<double> target_seconds;
 };
 
@@ -24,10 +24,10 @@ class ErrorSoFar {
  public:
   explicit ErrorSoFar(const ErrorTarget& target) : target_(target) {}
 
-  /// Has the run estimate its error: at its looks where it has a target, else when it
-  /// shows its film. `this` must live as long as the run.
+  /// Lets the run estimate its error: at its checks if it has a target, else when it
+  /// shows its film. Must outlive the run.
   void Listen(std::uint64_t pixels, RunOptions& options);
-  /// What is known now. From any thread.
+  /// Returns the current error. From any thread.
   RenderProgress At(const Progress& progress) const;
 
  private:

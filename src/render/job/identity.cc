@@ -14,7 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What to do about a difference.
 const char* Remedy(const std::string& name) {
   if (name == "scene_hash") return " (the scene or a file of it has changed)";
   if (name == "target") return " (--simd chooses it)";
@@ -22,7 +21,7 @@ const char* Remedy(const std::string& name) {
   return "";
 }
 
-// Of strategies, what differs: all of one are hundreds of letters.
+// Returns a value for a message; of strategies, which are long, the choices that differ.
 std::string Shown(const Json& value, const Json& other) {
   const auto is_strategy = [](const Json& json) {
     return json.is_string() && json.get<std::string>().find('=') != std::string::npos;

@@ -9,16 +9,15 @@
 
 namespace lanelight {
 
-/// Scene and its files, settings, strategy, seed, SIMD target and program. Not part of
-/// it: how many samples, how long, and anything about threads, memory and trees over
-/// shapes.
+/// Returns scene and its files, settings, strategy, seed, SIMD target and program; not
+/// the number of samples, the time, threads, memory or BVH.
 nlohmann::json IdentityOf(const Job& job);
 
-/// Of a render whose film keeps spectra, from its identity.
+/// Returns the buckets of a render whose film keeps spectra, from its identity.
 SpectralBuckets BucketsOf(const nlohmann::json& identity);
 
-/// One line for each thing that differs, "seed: the state has 1, this render 2"; empty if
-/// nothing does. `had`, `has`: who the two are, e.g. "the state", "this render".
+/// Returns one line for each difference, "seed: the state has 1, this render 2"; empty if
+/// there is none. `who_a`, `who_b`: names of the two, e.g. "the state", "this render".
 std::string IdentityDifferences(const nlohmann::json& a, const std::string& who_a,
                                 const nlohmann::json& b, const std::string& who_b);
 

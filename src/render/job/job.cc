@@ -98,8 +98,7 @@ Job WithAmount(Job job, const RenderSettings& settings) {
   job.seconds = settings.seconds.value_or(0);
   job.target = {settings.target_relmse.value_or(0), settings.target_rmse.value_or(0)};
   const bool scene_decides = !settings.seconds && !job.target.Any();
-  job.spp =
-      settings.spp.value_or(scene_decides ? static_cast<std::uint64_t>(own.spp) : 0);
+  job.spp = settings.spp.value_or(scene_decides ? std::uint64_t(own.spp) : 0);
   job.seed = settings.seed.value_or(own.seed);
   return job;
 }

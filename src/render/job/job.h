@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 #include "src/render/job/settings.h"
 #include "src/render/plan/plan.h"
 #include "src/render/run/run.h"
@@ -15,8 +15,8 @@ namespace lanelight {
 
 struct LoadedScene;  // src/render/job/loaded_scene.h
 
-/// A scene ready to render. Nothing takes one to change it; another strategy or amount
-/// makes another job, and both can run at the same time. Copies share all that is large.
+/// A scene ready to render. Jobs are not changed: another strategy or amount makes
+/// another job, and both can run at the same time. Copies share all large data.
 struct Job {
   RenderSettings settings;  // that it was prepared with
   std::shared_ptr<const LoadedScene> loaded;
@@ -28,7 +28,7 @@ struct Job {
   ErrorTarget target;
   std::uint64_t seed = 0;
 
-  /// How many samples there will be is not known beforehand.
+  /// Returns whether the number of samples is not known beforehand.
   bool OpenEnded() const { return spp == 0 || seconds > 0 || target.Any(); }
 };
 
@@ -36,27 +36,26 @@ struct Job {
 /// Throws InputError.
 Job PrepareJob(const std::string& scene_path, const RenderSettings& settings);
 
-/// The same for a scene that is parsed already; its hash is 0.
+/// Prepares a scene that is already parsed; its hash is 0.
 Job PrepareJob(SceneDescription description, const RenderSettings& settings);
 
-/// The job with another strategy. The scene is not compiled again, nor copied: what is
-/// made anew is the plan, and LightChances. Throws InputError if the scene does not take
-/// the strategy.
+/// Returns the job with another strategy. Only the plan and LightChances are made again.
+/// Throws InputError if the scene refuses the strategy.
 Job WithStrategy(Job job, const Strategy& strategy);
 
-/// The same as a render of so many samples per pixel.
+/// Returns the job with another strategy, number of samples per pixel, and seed.
 Job WithRender(Job job, const Strategy& strategy, std::uint64_t spp, std::uint64_t seed);
 
-/// The job as much as the settings say, and with their seed, or else the scene's.
+/// Returns the job with the amount and seed of the settings, or else of the scene.
 Job WithAmount(Job job, const RenderSettings& settings);
 
-/// An empty film of the job's size.
+/// Returns an empty film of the job's size.
 FilmAccumulator MakeFilm(const Job& job);
 
-/// How the job is to be run.
+/// Returns the options of a run of the job.
 RunOptions RunOptionsOf(const Job& job);
 
-/// A render of a job, and what it came to.
+/// The film and the result of a job.
 struct JobRun {
   FilmAccumulator film;
   RunResult result;
@@ -65,9 +64,9 @@ struct JobRun {
 JobRun RunJob(const Job& job, std::function<void(const Progress&)> on_progress = {},
               const std::atomic<bool>* stop = nullptr);
 
-/// 64-bit hash of the scene file and, recursively, of every
-/// file that a quoted string in it names: included scenes, meshes, images. Missing files
-/// are left out; the parser reports them.
+/// Returns a 64-bit hash of the scene file and, recursively, of every file that a quoted
+/// string in it names: included scenes, meshes, images. Missing files are omitted; the
+/// parser reports them.
 std::uint64_t HashSceneFiles(const std::string& scene_path);
 
 }  // namespace lanelight

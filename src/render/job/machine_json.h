@@ -1,25 +1,28 @@
-// A machine in reports, and in tables: whoever writes a throughput names it by these.
+// Machines and library versions in reports and tables.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/base/core/machine_info.h"
 
 namespace lanelight {
 
-/// Its members by name, null where unknown, and `text`, which MachineText() makes of
-/// them.
+/// Returns the members by name, null where unknown, and `text` (MachineText).
 nlohmann::json ToJson(const MachineInfo& machine);
 nlohmann::json ToJson(const std::vector<MachineInfo>& machines);
 
-/// The way back takes what it finds; from null, nothing is known.
+/// Reads the members that are present; null: nothing is known.
 MachineInfo MachineFromJson(const nlohmann::json& json);
 
-/// Names of a table's columns and values for them, separated by commas; what is unknown
-/// is empty.
+/// Return column names and values of a table, separated by commas; unknown values are
+/// empty.
 std::string MachineCsvHeader();
 std::string MachineCsvRow(const MachineInfo& machine);
+
+/// Name and version of the libraries in use, and of the compiler.
+std::vector<std::pair<std::string, std::string>> LibraryVersions();
 
 }  // namespace lanelight

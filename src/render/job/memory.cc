@@ -20,7 +20,7 @@ constexpr std::uint64_t kPlanesPerPixel = (2 * kColorPlanes + 1) * sizeof(float)
 std::uint64_t LayersPerPixel(const FilmLayers& layers) {
   const int aov = layers.auxiliary >= Auxiliary::kAov ? kAovPlanes : 0;
   const int gbuffer = layers.auxiliary >= Auxiliary::kGbuffer ? kGbufferPlanes : 0;
-  return static_cast<std::uint64_t>(aov + gbuffer + layers.buckets) * sizeof(float);
+  return std::uint64_t(aov + gbuffer + layers.buckets) * sizeof(float);
 }
 
 // Sums from which the coefficients of control variates are fitted.
@@ -31,7 +31,7 @@ std::uint64_t ControlPerPixel(const Strategy& strategy) {
 
 constexpr double kGiB = 1 << 30;
 
-// What `ulimit -v` leaves.
+// Returns the limit of `ulimit -v`.
 std::uint64_t AddressSpace() {
   rlimit limit;
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) {

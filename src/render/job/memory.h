@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// What a film has beside colours, as far as its memory goes.
+/// Layers of a film besides colours, for its memory.
 struct FilmLayers {
   Auxiliary auxiliary = Auxiliary::kNone;
   int buckets = 0;  // of wavelengths
@@ -17,15 +17,15 @@ struct FilmLayers {
 };
 FilmLayers LayersOf(const RenderSettings& settings, const Film& film);
 
-/// Bytes that the film and the planes of the output file take. Independent of the number
-/// of samples.
+/// Returns the bytes of the film and of the planes of the output file, for any number of
+/// samples.
 std::uint64_t FilmBytes(const PixelRect& window, const FilmLayers& layers,
                         const Strategy& strategy = {});
 
-/// Memory of the machine, or what a control group or `ulimit -v` limits this process to.
+/// Returns the memory of the machine, or the limit of a control group or `ulimit -v`.
 std::uint64_t PhysicalMemory();
 
-/// "out of memory: ..." with what the process has taken, and what there is, in GiB.
+/// Returns "out of memory: ..." with the memory taken and available, in GiB.
 std::string OutOfMemoryText();
 
 /// Throws InputError with both numbers if the film does not fit.

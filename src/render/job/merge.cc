@@ -8,12 +8,10 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/source_location.h"
 #include "src/base/state/tiles.h"
-#include "src/render/films/for_each_pixel.h"
-#include "src/render/job/add_seeds.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/job/checkpoint.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/machine_json.h"
-#include "src/render/job/run_content.h"
 #include "src/scene/prepare/groups.h"
 #include "src/vocabulary/strategy/strategy.h"
 
@@ -31,7 +29,7 @@ struct Input {
   std::uint64_t seed = 0;
   std::unique_ptr<StateFile> file = {};  // open, unless there are too many
 
-  // Where a part begins: the order of sums that no order of files may change.
+  // Orders parts by seed and place, so that sums do not depend on the order of files.
   auto Order() const {
     const PixelRect& t = tiles.front();
     return std::tuple(seed, t.y0, t.x0);
@@ -43,7 +41,7 @@ Json WithoutSeed(Json identity) {
   return identity;
 }
 
-// What merging and writing read later: a state without it is damaged, and is to be named.
+// Checks the members that merging and writing read, so that a damaged state is named.
 void CheckIdentity(const std::string& path, const Json& identity) {
   for (const char* key : {"crop", "resolution", "strategy", "version", "scene_hash"}) {
     identity.at(key);
@@ -54,7 +52,6 @@ void CheckIdentity(const std::string& path, const Json& identity) {
   ApplyStrategy(identity.at("strategy").get<std::string>(), where, strategy);
 }
 
-// What the image was rendered with.
 Strategy StrategyOf(const MergedRender& merged) {
   Strategy strategy;
   ApplyStrategy(merged.identity.at("strategy").get<std::string>(), {}, strategy);
@@ -140,8 +137,8 @@ class Merger {
       FromJsonOf(path, [&] { AddInput(path); });
     }
     for (const Input& input : inputs_) CheckSame(inputs_.front(), input);
-    std::sort(inputs_.begin(), inputs_.end(),
-              [](const Input& a, const Input& b) { return a.Order() < b.Order(); });
+    std::ranges::sort(
+        inputs_, [](const Input& a, const Input& b) { return a.Order() < b.Order(); });
   }
 
   MergedRender Merge() {
@@ -256,8 +253,8 @@ RunResult ResultOf(const MergedRender& merged) {
 void WriteMergedState(MergedRender& merged, const std::string& path) {
   if (merged.seeds.size() > 1) {
     throw InputError(
-        "several seeds together are no state that can be gone on with or merged again: "
-        "merge all of them at once");
+        "a state of several seeds can be neither resumed nor merged again: merge all "
+        "states at once");
   }
   StateContent content = ContentOf(
       merged.identity, {{"head", merged.head}, {"machines", ToJson(merged.machines)}},

@@ -21,7 +21,7 @@
 
 namespace lanelight {
 
-/// A render as states tell of it.
+/// A render as stored in states.
 struct MergedRender {
   nlohmann::json identity, head;  // see src/render/job/identity.h, HeadJson
   PixelRect window;
@@ -36,15 +36,20 @@ struct MergedRender {
 };
 
 /// Reads states, one after the other, into one film. Throws InputError for files that are
-/// damaged, of different renders (naming each difference), or hold the same pixels of the
-/// same render.
+/// damaged, belong to different renders (naming each difference), or hold the same pixels
+/// of the same render.
 MergedRender MergeStates(const std::vector<std::string>& paths);
 
-/// What a run of all that would have come to; without stages, which each machine had of
-/// its own.
+/// Returns the result of a run of all parts; without stages, which differ between
+/// machines.
 RunResult ResultOf(const MergedRender& merged);
 
-/// Writes it as a state, to be merged further or gone on with. Not for several seeds.
+/// Writes the merged state, which can be resumed or merged again. Not for several seeds.
 void WriteMergedState(MergedRender& merged, const std::string& path);
+
+/// Adds a render of a further seed, larger than those that are in `sum`. Throws
+/// InputError unless both are whole, all their pixels have as many samples as any other
+/// of the same render, and these are whole turns of the replicates.
+void AddSeed(MergedRender& sum, MergedRender& more);
 
 }  // namespace lanelight

@@ -11,7 +11,7 @@
 #include "src/base/core/source_location.h"
 #include "src/base/image/spectrum.h"
 #include "src/base/image/variance_unit.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
@@ -33,7 +33,8 @@ std::vector<ExrPlane> NamedPlanes(std::initializer_list<const char*> names,
   return planes;
 }
 
-// By the names of pbrt-v4's GBufferFilm, and the share of samples that hit something.
+// Uses the names of pbrt-v4's GBufferFilm, and adds the share of samples that hit
+// something.
 void AppendGbuffer(const FilmAccumulator& film, std::size_t pixels,
                    std::vector<ExrPlane>& planes) {
   auto gbuffer = NamedPlanes({"coverage", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z",
@@ -41,7 +42,7 @@ void AppendGbuffer(const FilmAccumulator& film, std::size_t pixels,
                              pixels, true);
   FillPixels(film, [&](std::size_t i, int x, int y) {
     for (int p = 0; p < kGbufferPlanes; ++p) {
-      gbuffer[p].values[i] = static_cast<float>(film.Gbuffer(x, y, p));
+      gbuffer[p].values[i] = float(film.Gbuffer(x, y, p));
     }
   });
   for (ExrPlane& plane : gbuffer) planes.push_back(std::move(plane));
@@ -56,7 +57,7 @@ void AppendAov(const FilmAccumulator& film, double scale, std::size_t pixels,
   FillPixels(film, [&](std::size_t i, int x, int y) {
     for (int p = 0; p < kAovPlanes; ++p) {
       const double unit = p == kAovPlanes - 1 ? scale : 1;
-      aov[p].values[i] = static_cast<float>(film.Aov(x, y, p) / unit);
+      aov[p].values[i] = float(film.Aov(x, y, p) / unit);
     }
   });
   for (ExrPlane& plane : aov) planes.push_back(std::move(plane));
@@ -67,7 +68,7 @@ void AppendBuckets(const FilmAccumulator& film, std::size_t pixels,
   for (int b = 0; b < film.buckets()->count; ++b) {
     ExrPlane plane = {ChannelName(*film.buckets(), b), std::vector<float>(pixels)};
     FillPixels(film, [&](std::size_t i, int x, int y) {
-      plane.values[i] = static_cast<float>(film.Bucket(x, y, b));
+      plane.values[i] = float(film.Bucket(x, y, b));
     });
     planes.push_back(std::move(plane));
   }
@@ -88,7 +89,7 @@ int VarianceExponent(const FilmAccumulator& film) {
 }
 
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
-  const std::size_t pixels = static_cast<std::size_t>(film.width()) * film.height();
+  const std::size_t pixels = std::size_t(film.width()) * film.height();
   auto planes = NamedPlanes({"R", "G", "B"}, pixels, false);
   // Variances of dim pixels are far below the smallest half.
   for (ExrPlane& p :
@@ -100,11 +101,11 @@ std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale) {
     const Rgb mean = film.Mean(x, y), variance = film.Variance(x, y) * unit;
     const bool known = film.HasVariance(x, y);
     for (int c = 0; c < 3; ++c) {
-      planes[c].values[i] = static_cast<float>(mean[c]);
-      planes[3 + c].values[i] = known ? static_cast<float>(variance[c])
-                                      : std::numeric_limits<float>::quiet_NaN();
+      planes[c].values[i] = float(mean[c]);
+      planes[3 + c].values[i] =
+          known ? float(variance[c]) : std::numeric_limits<float>::quiet_NaN();
     }
-    planes[6].values[i] = static_cast<float>(film.Samples(x, y));
+    planes[6].values[i] = float(film.Samples(x, y));
   });
   if (film.has_aov()) AppendAov(film, scale, pixels, planes);
   if (film.has_gbuffer()) AppendGbuffer(film, pixels, planes);
@@ -119,7 +120,7 @@ void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options) {
 
 namespace {
 
-// What the image knows of its own error. Without an upper end: why.
+// Stores the estimated error, or why it has no upper end.
 void NoteError(const ErrorEstimate& error, ExrOptions& options) {
   if (!error.available) return;
   options.attributes["relmse"] = error.relmse.value;
@@ -131,24 +132,23 @@ void NoteError(const ErrorEstimate& error, ExrOptions& options) {
   }
 }
 
-// What variances of pixels rest on: as many observations as the pixel with the fewest
-// has.
+// Stores the smallest number of observations of a pixel, on which variances rest.
 void NoteObservations(const FilmAccumulator& film, ExrOptions& options) {
   constexpr std::uint64_t kMost = 1 << 30;
   std::uint64_t least = kMost;
   FillPixels(film, [&](std::size_t, int x, int y) {
     if (film.HasVariance(x, y)) least = std::min(least, film.Observations(x, y));
   });
-  if (least < kMost) options.attributes[kObservations] = static_cast<int>(least);
+  if (least < kMost) options.attributes[kObservations] = int(least);
   const std::uint64_t pixels = std::uint64_t(film.width()) * std::uint64_t(film.height());
   const std::uint64_t empty = pixels - SampledPixels(film);
-  if (empty > 0) options.attributes[kEmptyPixels] = static_cast<int>(empty);
+  if (empty > 0) options.attributes[kEmptyPixels] = int(empty);
   if (film.groups().dependents > 1) {
     options.attributes[kDependentPixels] = film.groups().dependents;
   }
 }
 
-// Of an identity, as a pilot has changed it: what rendered the image.
+// Returns the strategy of an identity with the changes by its trial run.
 std::string ChangedStrategy(const std::string& own, const std::string& changes) {
   Strategy strategy;
   ApplyStrategy(own, {}, strategy);
@@ -187,7 +187,7 @@ ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& h
   const nlohmann::json machine = head.value("machine", nlohmann::json());
   if (!machine.is_null()) options.attributes["machine"] = machine.value("text", "");
   if (film.buckets() != nullptr) {
-    // As pbrt-v4 says it.
+    // The same attributes as in pbrt-v4.
     options.attributes["spectralLayoutVersion"] = "1.0";
     options.attributes["emissiveUnits"] = "W.m^-2.sr^-1";
   }
@@ -201,7 +201,7 @@ Image FilmImage(const FilmAccumulator& film, const std::string& color_space) {
   Image image = MakeImage(film.width(), film.height(), {"R", "G", "B"});
   FillPixels(film, [&](std::size_t i, int x, int y) {
     const Rgb mean = ToSrgb(color_space, film.Mean(x, y), SpectrumUse::kUnbounded);
-    for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = static_cast<float>(mean[c]);
+    for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = float(mean[c]);
   });
   return image;
 }

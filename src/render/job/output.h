@@ -13,33 +13,32 @@
 
 namespace lanelight {
 
-/// Of the variances of the film (src/base/image/variance_unit.h).
+/// Returns the exponent of the unit of variances (src/base/image/variance_unit.h).
 int VarianceExponent(const FilmAccumulator& film);
-/// Adds the attribute that tells of it, unless it is 0.
+/// Adds the attribute with that exponent, unless it is 0.
 void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);
 
-/// Channels of the output file: R, G, B; variance.R/G/B (of the pixel mean, over 2 to the
-/// VarianceExponent; NaN where there are fewer than two observations); samples; with
-/// auxiliary planes
-/// albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale` is
-/// CompiledScene::scale); of a film that keeps spectra its buckets, by ChannelName().
+/// Returns the channels of the output file: R, G, B; variance.R/G/B (of the pixel mean,
+/// over 2 to the VarianceExponent; NaN below two observations); samples; with auxiliary
+/// planes albedo.R/G/B, normal.X/Y/Z and depth.Z in units of the scene file (`scale`:
+/// CompiledScene::scale); the buckets of a spectral film, by ChannelName().
 std::vector<ExrPlane> FilmPlanes(const FilmAccumulator& film, double scale);
 
-/// What has been done: how much, what a pilot has changed of the strategy
-/// (TrainingOutcome::changes), and the error that is left.
+/// Counts of a run, changes of the strategy by its trial run (TrainingOutcome::changes),
+/// and its error.
 struct OutputRun {
   const RunCounts& counts;
   const std::string& changes;
   const ErrorEstimate& error;
 };
 
-/// Data window, and the attributes of docs/output.md of a render of this identity
-/// (src/render/job/identity.h); `head` is of HeadJson.
+/// Returns the data window and the attributes of docs/output.md for a render of this
+/// identity (src/render/job/identity.h); `head` is of HeadJson.
 ExrOptions OutputOptions(const nlohmann::json& identity, const nlohmann::json& head,
                          const OutputRun& run, const FilmAccumulator& film, bool half);
 
-/// R, G, B of the film, which holds a color space (src/base/image/color_spaces.h), in
-/// linear sRGB: for the PNG. The space's white is white there.
+/// Returns R, G, B in linear sRGB for the PNG; `color_space` is that of the film
+/// (src/base/image/color_spaces.h), whose white becomes white.
 Image FilmImage(const FilmAccumulator& film, const std::string& color_space = "srgb");
 
 }  // namespace lanelight

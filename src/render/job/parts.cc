@@ -21,15 +21,15 @@ std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
   auto parts = DealTiles(TilesOf(window, kSide), equal, least_side);
   // The last one has least.
   if (parts.back().empty()) {
-    const auto tiles = std::count_if(parts.begin(), parts.end(),
-                                     [](const auto& p) { return !p.empty(); });
+    const auto tiles =
+        std::ranges::count_if(parts, [](const auto& p) { return !p.empty(); });
     const int side = std::min(kSide, least_side);
     throw InputError(fmt::format(
         "{} parts are more than the {} tiles of {}x{} pixels that this render can be cut "
         "into: at most {} parts, or renders with different seeds",
         part.count, tiles, side, side, tiles));
   }
-  return std::move(parts[static_cast<std::size_t>(part.index - 1)]);
+  return std::move(parts[std::size_t(part.index - 1)]);
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// How the pixels of a render are shared out among parts that know nothing of each other.
+// Divides the pixels of a render among independent parts.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ struct Part {
   int index = 1, count = 1;
 };
 
-/// Tiles of a part of the window: every pixel is in exactly one part. Tiles are dealt out
-/// along a Z-order curve, so that any part has its share of each region, and are as small
-/// as it takes for many of them, but not below `least_side` pixels. Throws InputError if
+/// Returns the tiles of a part of the window; every pixel is in exactly one part. Tiles
+/// are dealt along a Z-order curve, so that each part has its share of each region; they
+/// are halved until there are many, down to `least_side` pixels. Throws InputError if
 /// there are more parts than tiles.
 std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
                                    int least_side = 1);

@@ -1,4 +1,4 @@
-#include "src/render/job/peaks.h"
+#include "src/render/job/profile_report.h"
 
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ constexpr int kTrials = 5;
 
 std::size_t CacheBytes(int name, std::size_t otherwise) {
   const long bytes = sysconf(name);
-  return bytes > 0 ? static_cast<std::size_t>(bytes) : otherwise;
+  return bytes > 0 ? std::size_t(bytes) : otherwise;
 }
 
 // Words 0, 1, 2, ... whose sum is known.
@@ -34,7 +34,7 @@ class ReadBuffer {
         ::operator new(words_ * sizeof(std::uint32_t), std::align_val_t(kCacheLine)));
     // The pages of a buffer this large should not be what is measured.
     AdviseHugePages(data_, words_ * sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < words_; ++i) data_[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < words_; ++i) data_[i] = std::uint32_t(i);
   }
   ~ReadBuffer() { ::operator delete(data_, std::align_val_t(kCacheLine)); }
   ReadBuffer(const ReadBuffer&) = delete;
@@ -45,7 +45,7 @@ class ReadBuffer {
     const std::size_t words = std::min(RoundedWords(bytes), words_);
     double passes = 1, best = 0;
     for (int trial = 0; trial < kTrials;) {
-      const auto count = static_cast<std::size_t>(passes);
+      const auto count = std::size_t(passes);
       const double taken = Read(words, count);
       best = std::max(best, double(count) * double(words) * 4 / taken);
       // The first trials find out how many passes there have to be.
@@ -68,7 +68,7 @@ class ReadBuffer {
     const std::uint32_t sum = ReadSum(target_, data_, words, passes);
     const double taken = watch.Seconds();
     const std::uint64_t once = std::uint64_t{words} * (words - 1) / 2;
-    LL_CHECK_EQ(sum, static_cast<std::uint32_t>(once * passes));
+    LL_CHECK_EQ(sum, std::uint32_t(once * passes));
     return std::max(taken, 1e-9);
   }
 

@@ -7,7 +7,6 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/profile_report.h"
 #include "src/render/job/report.h"
-#include "src/render/job/trace_json.h"
 
 namespace lanelight {
 namespace {

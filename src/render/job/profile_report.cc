@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "src/render/job/roofline.h"
-
 namespace lanelight {
 namespace {
 
@@ -54,12 +52,33 @@ void AddSums(ProfileReport& report) {
   }
 }
 
+constexpr double kLineBytes = 64;
+
+// Misses fetch a line each from the level behind: those of the first cache from the
+// second, those of the last from main memory. As parts of what was measured.
+double MissTraffic(const Peaks& peaks, const ProfileRow& row) {
+  const double ns = row.NsPerItem();
+  if (peaks.levels.size() < 2 || !(ns > 0)) return 0;
+  const double second = row.PerItem(Counter::kL1Misses) * kLineBytes / (ns * 1e-9);
+  const double memory = row.PerItem(Counter::kLlcMisses) * kLineBytes / (ns * 1e-9);
+  return std::max(second / peaks.levels[1].bytes_per_second,
+                  memory / peaks.levels.back().bytes_per_second);
+}
+
+Bound BoundOf(const Peaks& peaks, const ProfileRow& row) {
+  if (row.of_peak >= kBoundFrom) return Bound::kMemory;
+  const double ipc = row.InstructionsPerCycle();
+  if (!(ipc > 0) || !(peaks.fma_ipc > 0)) return Bound::kUnknown;
+  if (MissTraffic(peaks, row) >= kBoundFrom) return Bound::kMemory;
+  return ipc >= kBoundFrom * peaks.fma_ipc ? Bound::kCompute : Bound::kNeither;
+}
+
 }  // namespace
 
 const char* Name(RowKind kind) {
   static constexpr const char* kNames[] = {"stage", "task", "pilot", "outside"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(RowKind::kOutside) + 1);
-  return kNames[static_cast<int>(kind)];
+  static_assert(std::size(kNames) == std::size_t(RowKind::kOutside) + 1);
+  return kNames[int(kind)];
 }
 
 double ProfileRow::NsPerItem() const {
@@ -67,7 +86,7 @@ double ProfileRow::NsPerItem() const {
 }
 
 double ProfileRow::PerItem(Counter counter) const {
-  const auto value = counts.counted[static_cast<std::size_t>(counter)];
+  const auto value = counts.counted[std::size_t(counter)];
   return counts.counted_items > 0 ? double(value) / double(counts.counted_items) : 0;
 }
 
@@ -94,12 +113,24 @@ ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks) {
     row.share = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
     if (row.kind == RowKind::kStage) PlaceOnRoofline(peaks, report.level, row);
   }
-  std::sort(report.rows.begin(), report.rows.end(),
-            [](const ProfileRow& a, const ProfileRow& b) {
-              return a.share != b.share ? a.share > b.share
-                                        : a.counts.name < b.counts.name;
-            });
+  std::ranges::sort(report.rows, [](const ProfileRow& a, const ProfileRow& b) {
+    return a.share != b.share ? a.share > b.share : a.counts.name < b.counts.name;
+  });
   return report;
+}
+
+const char* Name(Bound bound) {
+  static constexpr const char* kNames[] = {"-", "memory", "compute", "neither"};
+  static_assert(std::size(kNames) == std::size_t(Bound::kNeither) + 1);
+  return kNames[int(bound)];
+}
+
+void PlaceOnRoofline(const Peaks& peaks, const MemoryLevel& level, ProfileRow& row) {
+  const StageProfile& c = row.counts;
+  if (!(c.seconds > 0) || c.items == 0) return;
+  row.bandwidth = c.bytes_per_item * double(c.items) / c.seconds;
+  if (level.bytes_per_second > 0) row.of_peak = row.bandwidth / level.bytes_per_second;
+  row.bound = BoundOf(peaks, row);
 }
 
 }  // namespace lanelight

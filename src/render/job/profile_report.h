@@ -2,21 +2,40 @@
 // of `lanelight profile`.
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "kernels/simd/target.h"
 #include "src/render/job/job.h"
-#include "src/render/job/peaks.h"
+#include "src/render/run/run.h"
 
 namespace lanelight {
+
+/// A level of memory: the caches that the system knows of, and main memory.
+struct MemoryLevel {
+  std::string name;             // "L1", "L2", "L3", "memory"
+  std::size_t bytes = 0;        // its size; of main memory: of the machine
+  std::size_t probe = 0;        // bytes that were read to measure it
+  double bytes_per_second = 0;  // of contiguous reads; best of several trials
+};
+
+struct Peaks {
+  std::vector<MemoryLevel> levels;  // from the nearest to the farthest
+  double flops = 0;                 // single precision operations per second
+  double fma_ipc = 0;               // instructions per cycle at that; 0 if unknown
+  double seconds = 0;               // that the measurement took
+
+  /// The nearest level that is larger than `bytes`.
+  const MemoryLevel& LevelOf(double bytes) const;
+};
 
 /// Changes when a member changes its meaning or goes away, not when one is added.
 inline constexpr int kProfileSchema = 1;
 
-/// The limit that a stage works at, as far as the numbers show it. docs/profile.md has
-/// the rule.
+/// The limit of a stage, as far as the numbers show it (docs/profile.md).
 enum class Bound {
   kUnknown,  // the counters that could tell are not there
   kMemory,   // at 60 % or more of the measured read bandwidth of a level
@@ -42,7 +61,7 @@ struct ProfileRow {
   Bound bound = Bound::kUnknown;
 
   double NsPerItem() const;
-  /// Of the processor's counters; 0 without them.
+  /// Returns a processor counter per item; 0 without counters.
   double PerItem(Counter counter) const;
   double InstructionsPerCycle() const;
 };
@@ -51,15 +70,15 @@ struct ProfileReport {
   std::vector<ProfileRow> rows;  // by falling share
   double seconds = 0;            // processor time of all threads: the sum of the rows
   double intersect_seconds = 0, other_stage_seconds = 0;
-  /// By which the clocks of the stages exceed the processor time: the threads waited for
-  /// a processor.
+  /// Seconds by which the stages' clocks exceed the processor time: threads waited for a
+  /// processor.
   double waiting_seconds = 0;
   Peaks peaks;
   MemoryLevel level;  // where the columns of a wavefront live
 
-  /// Other stages over intersect; 0 without an intersect stage.
+  /// Returns the time of other stages over that of intersect stages; 0 without these.
   double Ratio() const;
-  /// The same with everything that is no stage.
+  /// Returns the same ratio with all that is not a stage included.
   double RatioWithAll() const;
 };
 
@@ -68,5 +87,27 @@ ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks);
 /// See docs/profile.md.
 nlohmann::json ToJson(const ProfileReport& report, const Job& job,
                       const RunResult& result);
+
+/// Measures for about half a second. Checks the result of every loop (CheckFailure), so
+/// that none is optimised away. `counters`: read the processor's, if available.
+Peaks MeasurePeaks(SimdTarget target, bool counters);
+
+/// Share of a limit from which a stage counts as bound by it.
+inline constexpr double kBoundFrom = 0.6;
+
+/// Fills bandwidth, of_peak and bound of a row from its counts, after Williams, Waterman
+/// and Patterson 2009 ("Roofline"). `level`: where the columns live. Columns alone can
+/// show that memory is the limit, never that it is not, since scene data (BVH, triangles,
+/// textures, tables) is not in them; processor counters can.
+void PlaceOnRoofline(const Peaks& peaks, const MemoryLevel& level, ProfileRow& row);
+
+/// Returns a trace for chrome://tracing and ui.perfetto.dev ("Trace Event Format", JSON
+/// array): one complete event ("X") per stage call and part of a task, in microseconds
+/// since the start of the run, about 120 bytes each; one named track per thread, with an
+/// instant event at its end if events were dropped. `process`: name in the viewer.
+std::string TraceText(const RunResult& result, const std::string& process);
+
+/// Returns the dropped events of all threads.
+std::uint64_t DroppedEvents(const RunTrace& trace);
 
 }  // namespace lanelight

@@ -9,12 +9,13 @@
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
 #include "src/base/image/png.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/job/display.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
 #include "src/render/job/saving.h"
+#include "src/render/wave/tiles.h"
 
 namespace lanelight {
 namespace {
@@ -48,7 +49,6 @@ bool IsBlack(const FilmAccumulator& film) {
   return black && sampled;
 }
 
-// Without any sample there is no image.
 RenderTargets PartialTargets(RenderTargets targets, bool any) {
   for (std::string* path : {&targets.exr, &targets.png}) {
     *path = any ? PartialPath(*path) : "";
@@ -57,15 +57,7 @@ RenderTargets PartialTargets(RenderTargets targets, bool any) {
   return targets;
 }
 
-// Pixels of the film that a job renders: with --part those of its tiles.
-std::uint64_t PixelsOf(const Job& job, const RunOptions& options) {
-  if (options.tiles.empty()) return job.window.pixels();
-  std::uint64_t pixels = 0;
-  for (const PixelRect& tile : options.tiles) pixels += tile.pixels();
-  return pixels;
-}
-
-// All ranks are to render the same, bit by bit.
+// Throws InputError if a rank would render something else.
 void AgreeOnJob(const Job& job, RankGroup& group) {
   const std::string own = DumpJson(IdentityOf(job));
   group.Gather(own, [&](int rank, std::string_view its) {
@@ -77,12 +69,12 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
   });
 }
 
-// Where a rank fails: what was done is kept, and the user is to know.
+// Keeps the state after the failure of a rank, and tells the user.
 [[noreturn]] void GiveUp(const RankFailure& failure, const CheckpointSettings& settings,
                          Checkpoint& checkpoint) {
   checkpoint.Finish();
   if (settings.path.empty() || !checkpoint.kept()) throw failure;
-  throw RankFailure(fmt::format("{}\nwhat was done is kept: go on with --resume '{}'",
+  throw RankFailure(fmt::format("{}\nthe state is kept: continue with --resume '{}'",
                                 failure.what(), settings.path));
 }
 
@@ -92,7 +84,7 @@ Display::OnProblem Problems(const RenderHooks& hooks) {
   };
 }
 
-// Options of a run that is shown while it goes on: in words, and in a viewer.
+// Options of a run whose progress is printed or shown in a viewer.
 struct ShownRun {
   ShownRun(const Job& job, const RenderTargets& targets, const RenderHooks& hooks,
            const FilmAccumulator& film, const std::string& scene)
@@ -144,7 +136,9 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
     shown.options.tiles = checkpoint->tiles();
     shown.options.keeper = &*checkpoint;
   }
-  facts.pixels = PixelsOf(job, shown.options);
+  // With --part only the pixels of its tiles.
+  const std::vector<PixelRect>& tiles = shown.options.tiles;
+  facts.pixels = tiles.empty() ? job.window.pixels() : PixelsOf(tiles);
   if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);
   try {
     out.report.result = Run(job.scene, job.plan, shown.options, film);
@@ -182,7 +176,7 @@ void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
                     const RenderTargets& asked, const Json& members, Rendering& out) {
   const std::uint64_t sampled = SampledPixels(film);
   out.report.unsampled_pixels =
-      std::uint64_t(film.width()) * static_cast<std::uint64_t>(film.height()) - sampled;
+      std::uint64_t(film.width()) * std::uint64_t(film.height()) - sampled;
   out.report.partial = sampled < facts.pixels && !facts.partial;
   if (sampled >= facts.pixels) {
     out.report.error = EstimateError(film);

@@ -30,8 +30,7 @@ struct RenderHooks {
   bool tells_error = false;  // progress has the error so far, which costs a little
   std::function<void()> on_training;  // RunOptions
   std::function<void()> on_rendered;  // before anything is written
-  /// Of a state or watched image that could not be written, or a viewer that is not
-  /// there; from any thread.
+  /// Receives problems with states, watched images or the viewer; from any thread.
   std::function<void(const std::string&)> on_problem;
   RankGroup* group = nullptr;               // who renders; null: this process alone
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
@@ -46,33 +45,33 @@ struct Rendering {
 };
 
 /// Renders the job, estimates the error, and writes images and report; `scene`: name of
-/// the scene in the report. What cannot be written where it should is kept elsewhere, and
-/// so is an image with pixels that have no sample (PartialPath()).
-/// With a checkpoint the state is kept all along, and the render goes on from one. Throws
-/// InputError for a state that it cannot go on from.
+/// the scene in the report. What cannot be written is kept in the temporary directory; an
+/// image with pixels without samples goes to PartialPath(). With a checkpoint the state
+/// is kept, and the render may resume. Throws InputError for a state that it cannot
+/// resume.
 Rendering RenderToFiles(const Job& job, const std::string& scene,
                         const RenderTargets& targets, const RenderHooks& hooks);
 
-/// The same for a worker (src/base/core/rank_group.h): nothing is written.
+/// Renders as a worker (src/base/core/rank_group.h): writes nothing.
 void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop);
 
-/// What a film is of.
+/// Facts about the render of a film.
 struct RenderFacts {
   nlohmann::json identity, head;  // src/render/job/identity.h, HeadJson
   double scale = 1;               // CompiledScene::scale
   std::string color_space;        // that the film holds (src/base/image/color_spaces.h)
-  /// Pixels that are to have samples: all of the film, or those of a part. Images with
-  /// fewer go to PartialPath(), unless `partial` asks for them.
+  /// Pixels that should have samples: all of the film, or those of a part. Images with
+  /// fewer go to PartialPath(), unless `partial` is set.
   std::uint64_t pixels = 0;
   bool partial = false;
 };
 
-/// Where an image with pixels that have no sample goes: out.partial.exr for out.exr. So
-/// it never replaces a better one.
+/// Returns the path of an image with pixels without samples, out.partial.exr for out.exr,
+/// so that it never replaces a complete one.
 std::string PartialPath(const std::string& path);
 
-/// The second half of it, for a film whoever has rendered it. `members`: of the report,
-/// beside its own. out.report.result is what it came to.
+/// Estimates the error and writes images and report of any film; out.report.result is its
+/// result. `members`: further members of the report.
 void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
                     const RenderTargets& targets, const nlohmann::json& members,
                     Rendering& out);

@@ -16,7 +16,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An end that is not known is null.
 Json StageJson(const StageProfile& s, double total) {
   return {{"name", s.name},
           {"calls", s.calls},
@@ -68,7 +67,7 @@ Json NotesJson(const Job& job) {
   return out;
 }
 
-// Where states were merged nobody had any.
+// Merged states have no BVH of their own.
 Json TreesJson(const TreeReport& trees) {
   if (trees.bytes == 0) return nullptr;
   return {{"origin", trees.Origin()}, {"bytes", trees.bytes}};
@@ -106,7 +105,7 @@ Json ToJson(const Plan& plan) {
   }
   for (Field f : plan.live_fields) live.push_back(FieldName(f));
   for (Field f : plan.absent_fields) absent.push_back(FieldName(f));
-  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+  for (int i = 0; i < int(Feature::kCount); ++i) {
     const auto feature = static_cast<Feature>(i);
     if (plan.features.Has(feature)) features.push_back(FeatureName(feature));
   }

@@ -21,8 +21,8 @@ struct RenderReport {
   RunResult result;
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
-  /// Pixels were left without a sample: images and report are in partial files, and those
-  /// of the names that were asked for are as they were. Without any sample there is none.
+  /// Some pixels have no sample: images and report are in partial files, and the files
+  /// asked for are unchanged. Without any sample there is no image.
   bool partial = false;
   bool black = false;  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
@@ -32,22 +32,19 @@ struct RenderReport {
 
 nlohmann::json ToJson(const Plan& plan);
 nlohmann::json ToJson(const ErrorEstimate& error);
-/// What a report says whatever the render comes to; `scene`: its name.
+/// Returns the members of a report that are known before the render; `scene`: its name.
 nlohmann::json HeadJson(const Job& job, const std::string& scene, bool half);
-/// All of it; `head` is of HeadJson.
+/// Returns the whole report; `head` is of HeadJson.
 nlohmann::json ToJson(const RenderReport& report, const nlohmann::json& head);
 
 /// Returns the strategy that rendered the image: the job's, with the changes that its
 /// trial run has made.
 Strategy StrategyInForce(const RunResult& result, const Job& job);
 
-/// How the sample points are randomised.
+/// Says how the sample points are randomised.
 std::string PointsText(const Job& job);
 
-/// Name and version of the libraries in use, and of the compiler.
-std::vector<std::pair<std::string, std::string>> LibraryVersions();
-
-/// Name, lanes and alternatives of a SIMD target.
+/// Returns name, lanes and alternatives of a SIMD target.
 nlohmann::json TargetJson(SimdTarget target);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/render/job/run_content.h"
+#include "src/render/job/checkpoint.h"
 
 #include "src/base/core/json_text.h"
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 std::string Reason() { return std::strerror(errno); }
 
-// Where a path leads by whatever links, or will once there is something.
+// Returns the place of a file, with all links resolved.
 fs::path Place(const std::string& path) {
   std::error_code ignored;
   return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
@@ -71,7 +71,7 @@ void Saver::Save(std::string& path,
     problems_.push_back("the result is kept in '" + fallback + "'");
     path = fallback;
   } catch (const std::exception& error) {
-    problems_.push_back("nor could it be kept elsewhere: " + WithoutPrefix(error));
+    problems_.push_back("it could not be kept elsewhere either: " + WithoutPrefix(error));
   }
 }
 

@@ -10,17 +10,16 @@
 
 namespace lanelight {
 
-/// Saves results, and remembers what went wrong.
+/// Saves results and collects error messages.
 class Saver {
  public:
-  /// Calls write(path); if that throws, writes into the temporary directory, so that
-  /// nothing computed is lost. Replaces `path` by where the file is, or by nothing if
-  /// nowhere. Nothing happens for an empty path.
+  /// Calls write(path); if that throws, writes into the temporary directory, so that no
+  /// result is lost. Sets `path` to where the file is, or to nothing. Ignores an empty
+  /// path.
   void Save(std::string& path, const std::function<void(const std::string&)>& write);
-  /// Saves a text.
   void SaveText(std::string path, const std::string& text);
 
-  /// Messages, in order; empty if all is where it should be.
+  /// Returns messages in order; empty if all files are in place.
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
@@ -33,23 +32,23 @@ struct OutputPaths {
   std::vector<std::string> folders = {};  // whose content is the command's
 };
 
-/// An output would overwrite what is read: nothing at all is to be written.
+/// An output would overwrite an input; nothing may be written then.
 class WouldOverwrite : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// For every command that writes, before its work, with what it reads as far as that is
-/// known: throws WouldOverwrite for one of `inputs`, and InputError if two outputs are
-/// one file, or one cannot be written. Files are the same whatever links lead to them.
+/// Checks the outputs of a command before its work. Throws WouldOverwrite if one is among
+/// `inputs`, and InputError if two outputs are the same file (links included), or one
+/// cannot be written.
 void CheckOutputPaths(OutputPaths outputs, const std::set<std::string>& inputs);
 
 /// Throws InputError unless a file can be created at `path`: its directory exists and is
 /// writable, and what exists there is a regular file. Leaves nothing behind.
 void CheckWritable(const std::string& path);
 
-/// Where a result goes that could not be written to `path`: a file of the temporary
-/// directory that does not exist.
+/// Returns a new file of the temporary directory for a result that could not be written
+/// to `path`.
 std::string FallbackPath(const std::string& path);
 
 }  // namespace lanelight

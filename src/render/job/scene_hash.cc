@@ -35,7 +35,7 @@ class QuotedNames {
       } else {
         const char* const begin = text_.data();
         const char* const next = SkipSpaces(begin + at_ + 1, begin + text_.size());
-        at_ = static_cast<std::size_t>(next - begin);
+        at_ = std::size_t(next - begin);
       }
     }
     return std::move(names_);
@@ -45,7 +45,7 @@ class QuotedNames {
   static bool IsLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   }
-  // What lies between `from` and the next `end`, where it goes on.
+  // Returns the text between `from` and the next `end`, and moves there.
   std::string_view Until(char end, std::size_t from) {
     at_ = std::min(text_.find(end, from), text_.size());
     return text_.substr(from, at_ - from);

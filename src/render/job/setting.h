@@ -17,11 +17,11 @@ namespace lanelight {
 
 struct Job;
 
-/// What a value is in a file of values: TOML or JSON. A size is a text in TOML, and two
-/// integers in JSON; a window is four integers.
+/// Form of a value in TOML or JSON. A size is a text in TOML, and two integers in JSON; a
+/// window is four integers.
 enum class ValueForm { kFlag, kInteger, kNumber, kText, kSize, kWindow };
 
-/// Who takes and tells a setting.
+/// Where a setting is used.
 enum SettingUse : unsigned {
   kSceneFlag = 1u << 0,      // commands that read one scene have a flag for it
   kAmountFlag = 1u << 1,     // `render` has: how much
@@ -33,30 +33,30 @@ enum SettingUse : unsigned {
   kReported = 1u << 7,       // reports have it
 };
 
-/// How a setting is called and explained.
+/// Name and explanation of a setting.
 struct SettingText {
   const char* name;  // of the flag without its dashes, and of the key in TOML
-  /// Of the value in help texts; empty: that of a flag, or the names that there are.
+  /// Type of the value in help texts; empty: that of a flag, or the names to choose from.
   std::string type = "";
   std::string meaning = "";  // what it does
-  /// What there is without it, if RenderSettings do not say so.
+  /// The default in help texts, if RenderSettings do not have it.
   std::string otherwise = "";
   const char* key = "";  // in JSON, unless it is the name with other dashes
-  /// Another setting, of which this one is a way to write the value: only one of the two
-  /// may be given, and only the other one is told.
+  /// Another setting that this one sets in another form: only one of the two may be
+  /// given, and only the other one is reported.
   const char* writes = "";
 };
 
 struct Setting : SettingText {
   ValueForm form = ValueForm::kText;
   unsigned uses = 0;
-  /// Reads a text. Throws InputError without a place for one that is not right.
+  /// Reads a text. Throws InputError, without a place, for an invalid one.
   std::function<void(RenderSettings&, const std::string&)> read;
-  /// The text of the value; none if it is not set.
+  /// Returns the text of the value; none if it is not set.
   std::function<std::optional<std::string>(const RenderSettings&)> text;
 
   bool Is(unsigned use) const { return (uses & use) != 0; }
-  /// Returns whether it is anything else than without being asked for.
+  /// Returns whether it differs from the default.
   bool IsSet(const RenderSettings& s) const { return text(s) != text({}); }
 };
 
@@ -98,8 +98,7 @@ Setting Declare(SettingText about, const Type& type, Member member, unsigned use
   return setting;
 }
 
-/// Calls read(), which reads a text. Its InputErrors get the place of the text, and name
-/// what it is of.
+/// Calls read(), and adds place and name of the text to its InputErrors.
 template <class Read>
 auto ReadAt(const SourceLocation& where, const std::string& name, Read&& read) {
   try {
@@ -109,18 +108,18 @@ auto ReadAt(const SourceLocation& where, const std::string& name, Read&& read) {
   }
 }
 
-/// All of them: a new one is a line of setting_list.cc and the place that uses it.
+/// Returns all settings: a new one is a line of setting_list.cc and the place that uses
+/// it.
 const std::vector<Setting>& SettingList();
-/// The one of that name, which there must be.
+/// Returns the setting of that name, which must exist.
 const Setting& SettingNamed(const std::string& name);
 
-/// The name of the setting that is another way to write this one's value; empty: none.
+/// Returns the name of the setting that sets this one in another form; empty: none.
 std::string WrittenBy(const Setting& setting);
 
-/// What was asked for, and where that is nothing, what the scene and the program have
-/// decided.
+/// Returns the settings asked for, completed by what scene and program have decided.
 RenderSettings SettingsInForce(const Job& job);
-/// The settings of that use with their values, by their keys; null: none.
+/// Returns the settings of that use with their values, by key; null: none.
 nlohmann::json SettingsJson(const RenderSettings& settings, SettingUse use);
 
 NamesType<Scattering> ScatteringNames();

@@ -28,7 +28,7 @@ RenderSettings SettingsInForce(const Job& job) {
   s.aov = job.plan.options.auxiliary != Auxiliary::kNone;
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
-  s.max_depth = static_cast<int>(job.plan.options.max_depth);
+  s.max_depth = int(job.plan.options.max_depth);
   s.transport = job.scene.transport() == Transport::kSpectral ? AskedTransport::kSpectral
                                                               : AskedTransport::kRgb;
   s.build = job.scene.compiled->accel.quality;
@@ -48,13 +48,13 @@ nlohmann::json ValueJson(ValueForm form, const std::optional<std::string>& text)
     return ParseJson(*text);
   }
   std::string list = "[" + *text + "]";
-  std::replace(list.begin(), list.end(), 'x', ',');
+  std::ranges::replace(list, 'x', ',');
   return ParseJson(list);
 }
 
 std::string KeyOf(const SettingText& setting) {
   std::string key = *setting.key == '\0' ? setting.name : setting.key;
-  std::replace(key.begin(), key.end(), '-', '_');
+  std::ranges::replace(key, '-', '_');
   return key;
 }
 

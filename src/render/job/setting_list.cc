@@ -20,7 +20,7 @@ using S = RenderSettings;
 constexpr unsigned kEveryFlag = kSceneFlag | kStudyFlag;
 constexpr unsigned kEverySame = kIdentity | kStudyIdentity;
 
-// What a flag does that is not given, where scenes may say it: "the scene's, else 16".
+// Returns the default of a flag that scenes may set: "the scene's, else 16".
 template <class T>
 std::string OfScene(const T& value) {
   return fmt::format("the scene's, else {}", value);
@@ -34,7 +34,6 @@ struct ChangesType {
   static std::string Right(const std::string&) { return ""; }
 };
 
-// How much is rendered.
 std::vector<Setting> Amounts() {
   const NumberType<double> error{1e-12, 1e12};
   constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
@@ -60,7 +59,6 @@ std::vector<Setting> Amounts() {
               kAmountFlag | kStudyFlag | kEverySame | kReported)};
 }
 
-// What is seen, and how.
 std::vector<Setting> Contents() {
   const Film film;
   return {
@@ -103,7 +101,6 @@ std::vector<Setting> Contents() {
               ScatteringNames(), &S::scattering, kEveryFlag | kSweepKey | kEverySame)};
 }
 
-// What is written of it.
 std::vector<Setting> Images() {
   return {Declare(
               {"depth", "half|float", "Type of colours in the EXR"},
@@ -118,7 +115,6 @@ std::vector<Setting> Images() {
               [](auto& s) -> auto& { return s.image.png; }, kSweepKey)};
 }
 
-// How it is computed.
 std::vector<Setting> Execution() {
   const NamesType<BuildQuality> builds = {
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}}};
@@ -126,8 +122,7 @@ std::vector<Setting> Execution() {
       Declare({"wavefront", "N", "Paths in flight per thread; 0 = fit the cache"},
               NumberType<std::uint32_t>{0, kMaxWavefront}, &S::wavefront,
               kEveryFlag | kSweepKey),
-      Declare({"build", "",
-               "How to build the trees over shapes, in less time or for faster rays",
+      Declare({"build", "", "How to build the BVH: in less time, or for faster rays",
                builds.Write(CompileOptions{}.build)},
               builds, &S::build, kEveryFlag | kReported),
       Declare(
@@ -161,9 +156,8 @@ const std::vector<Setting>& SettingList() {
 
 const Setting& SettingNamed(const std::string& name) {
   const std::vector<Setting>& list = SettingList();
-  const auto found = std::find_if(list.begin(), list.end(), [&](const auto& setting) {
-    return setting.name == name;
-  });
+  const auto found = std::ranges::find_if(
+      list, [&](const auto& setting) { return setting.name == name; });
   LL_CHECK(found != list.end());
   return *found;
 }

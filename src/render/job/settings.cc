@@ -18,10 +18,10 @@ namespace {
 // A scene's own crop window, carried over to another resolution.
 void ScaleCrop(Film& film, int width, int height) {
   const double sx = double(width) / film.width, sy = double(height) / film.height;
-  film.crop[0] = static_cast<int>(std::ceil(film.crop[0] * sx));
-  film.crop[1] = static_cast<int>(std::ceil(film.crop[1] * sx));
-  film.crop[2] = static_cast<int>(std::ceil(film.crop[2] * sy));
-  film.crop[3] = static_cast<int>(std::ceil(film.crop[3] * sy));
+  film.crop[0] = int(std::ceil(film.crop[0] * sx));
+  film.crop[1] = int(std::ceil(film.crop[1] * sx));
+  film.crop[2] = int(std::ceil(film.crop[2] * sy));
+  film.crop[3] = int(std::ceil(film.crop[3] * sy));
 }
 
 void CheckSize(const Film& film) {
@@ -46,7 +46,7 @@ void CheckCrop(const Film& film) {
 }
 
 void CheckSpp(std::int64_t spp) {
-  if (spp >= 1 && static_cast<std::uint64_t>(spp) <= kMaxSpp) return;
+  if (spp >= 1 && std::uint64_t(spp) <= kMaxSpp) return;
   throw InputError(
       fmt::format("{} samples per pixel are not supported: 1 to {}", spp, kMaxSpp));
 }
@@ -94,7 +94,7 @@ void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
   transport = Transport::kSpectral;
 }
 
-// Nothing is left where the scene is to decide.
+// Removes the transport where the scene decides.
 void ApplyTransport(const std::optional<AskedTransport>& asked,
                     std::optional<Transport>& transport) {
   if (!asked) return;
@@ -149,9 +149,9 @@ bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& sc
   if (settings.decision == DefaultDecision::kAlways) return true;
   if (settings.seconds) return *settings.seconds >= kLeastDecidedSeconds;
   const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
-  // Towards a target nobody knows: as many as that takes at least.
+  // A render with a target takes at least this many.
   const std::uint64_t own =
-      HasTarget(settings) ? kTrainingSpp : static_cast<std::uint64_t>(scene.sampler.spp);
+      HasTarget(settings) ? kTrainingSpp : std::uint64_t(scene.sampler.spp);
   const double samples = double(settings.spp.value_or(own)) * double(pixels);
   return samples >= double(DecidedBy(pixels));
 }
@@ -178,7 +178,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
 PlanOptions PlanOptionsOf(const RenderSettings& settings, const SceneDescription& scene) {
   PlanOptions options;
   options.target = SimdTarget(settings.target);
-  options.max_depth = static_cast<std::uint32_t>(scene.integrator.max_depth);
+  options.max_depth = std::uint32_t(scene.integrator.max_depth);
   options.auxiliary = AuxiliaryOf(settings, scene.film);
   options.spectral_film = scene.film.buckets.count > 0;
   options.wavefront = settings.wavefront;

@@ -31,7 +31,7 @@ enum class DefaultDecision {
 /// What paths are to carry; kByScene: see ChooseTransport (src/render/job/transport.h).
 enum class AskedTransport { kRgb, kSpectral, kByScene };
 
-/// Of instances, copied into the world if nothing else is asked for: about 25 MB.
+/// Default limit of triangles of instances that are copied into the world: about 25 MB.
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
 inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
 
@@ -57,8 +57,8 @@ struct RenderSettings {
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
   std::optional<AskedTransport> transport;
-  /// That are to be rendered in turn (WithStrategy), beside the scene's: kByScene chooses
-  /// what none of them refuses.
+  /// Strategies that will be rendered in turn (WithStrategy), besides the scene's:
+  /// kByScene chooses a transport that none of them refuses.
   std::vector<Strategy> compared;
   std::optional<BuildQuality> build;                  // of the trees over shapes
   std::shared_ptr<const KnownTree> known_tree;        // as in CompileOptions
@@ -80,18 +80,17 @@ inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
 inline constexpr int kMaxThreads = 1024;
 
-/// Puts the overrides into the description; with kByScene it says nothing of transport
-/// afterwards. A crop window of the scene is scaled along
-/// with a new resolution. Throws InputError for sizes, windows, depths and sample counts
-/// that are out of range, wherever they come from.
+/// Applies the overrides to the description; with kByScene it has no transport
+/// afterwards. Scales a crop window of the scene to a new resolution. Throws InputError
+/// for sizes, windows, depths and sample counts out of range, of either source.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 
-/// Returns whether decide=pilot is in force though nobody asked for it: with kIfLong, for
-/// 4 seconds and more, and for as many samples as the pilot is planned for (DecidedBy).
+/// Returns whether decide=pilot is the default of this render: with kIfLong, from 4
+/// seconds on, or from the samples that the trial run is planned for (DecidedBy).
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
 inline constexpr double kLeastDecidedSeconds = 4;
 
-/// What such a render of a film tells of first hits.
+/// Returns the auxiliary planes of such a render.
 Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film);
 
 CompileOptions CompileOptionsOf(const RenderSettings& settings);

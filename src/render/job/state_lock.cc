@@ -1,4 +1,4 @@
-#include "src/render/job/state_lock.h"
+#include "src/render/job/checkpoint.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ StateLock::StateLock(const std::string& path,
     file_.emplace(LinkTarget(path) + ".lock");
     if (!file_->locking()) {
       on_problem(fmt::format(
-          "{}: this file system knows no locks: see to it that nobody else keeps '{}'",
+          "{}: this file system has no locks: make sure that no other process keeps '{}'",
           file_->path(), path));
       unlink(file_->path().c_str());
       file_.reset();
@@ -41,14 +41,15 @@ StateLock::StateLock(const std::string& path,
           "in another file",
           path, who.empty() ? "another process" : who));
     }
-    // Who had it before may have removed the file just after it was opened here.
+    // The previous owner may have removed the file just after it was opened here.
   } while (!file_->IsNamed());
   file_->SetNote(WhoAmI());
-  // Only who keeps a state writes it: with the lock, nobody is at work on these.
+  // The owner of the lock is the only writer of these files.
   RemoveTemporaries(path);
 }
 
-// Removed first, unlocked then: nobody else can have the lock of a file that is there.
+// Removes the file before unlocking it: another process cannot own the lock of an
+// existing file.
 StateLock::~StateLock() {
   if (file_ && file_->IsNamed()) unlink(file_->path().c_str());
 }

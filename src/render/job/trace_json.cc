@@ -1,4 +1,4 @@
-#include "src/render/job/trace_json.h"
+#include "src/render/job/profile_report.h"
 
 #include <fmt/format.h>
 

@@ -18,7 +18,7 @@ std::vector<Index> MaterialsOf(const SceneDescription& scene) {
   for (const ObjectDefinition& object : scene.objects) {
     for (const Shape& shape : object.shapes) used.push_back(shape.material);
   }
-  std::sort(used.begin(), used.end());
+  std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
   return used;
 }
@@ -41,12 +41,12 @@ std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
   return "";
 }
 
-// And why the scene does not.
+// Says why the scene does not go with wavelengths; empty if it does.
 std::string Refusal(const SceneDescription& scene) {
   const auto dark = [](const auto& light) { return !EmitsCarried(light.spectrum); };
-  if (std::any_of(scene.lights.begin(), scene.lights.end(), dark) ||
-      std::any_of(scene.area_lights.begin(), scene.area_lights.end(), dark) ||
-      std::any_of(scene.media.begin(), scene.media.end(), [](const Medium& m) {
+  if (std::ranges::any_of(scene.lights, dark) ||
+      std::ranges::any_of(scene.area_lights, dark) ||
+      std::ranges::any_of(scene.media, [](const Medium& m) {
         return m.emission != Rgb{} && !EmitsCarried(m.emission_spectrum);
       })) {
     return fmt::format("a light emits nothing from {} to {} nm", kFirstCarriedNm,

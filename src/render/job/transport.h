@@ -20,8 +20,8 @@ struct TransportChoice {
   bool refused = false;
 };
 
-/// Wavelengths if a material or a light has a spectrum, or glass disperses, and neither
-/// the scene nor one of the strategies refuses them; else red, green and blue.
+/// Chooses wavelengths if a material or a light has a spectrum, or glass disperses, and
+/// neither the scene nor one of the strategies refuses them; else red, green and blue.
 TransportChoice ChooseTransport(const SceneDescription& scene,
                                 std::span<const Strategy> strategies);
 

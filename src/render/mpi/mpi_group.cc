@@ -41,7 +41,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 30;
 template <class Post>
 void InPieces(char* bytes, std::size_t size, const Post& post) {
   for (std::size_t at = 0; at < size; at += kPiece) {
-    Await(post(bytes + at, static_cast<int>(std::min(kPiece, size - at))), kTransferNap);
+    Await(post(bytes + at, int(std::min(kPiece, size - at))), kTransferNap);
   }
 }
 
@@ -71,15 +71,15 @@ MpiGroup::MpiGroup() {
   constexpr std::size_t kSize = MPI_MAX_PROCESSOR_NAME;
   char own[kSize] = {};
   MPI_Get_processor_name(own, &length);
-  std::vector<char> hosts(kSize * static_cast<std::size_t>(ranks));
+  std::vector<char> hosts(kSize * std::size_t(ranks));
   MPI_Allgather(own, kSize, MPI_CHAR, hosts.data(), kSize, MPI_CHAR, MPI_COMM_WORLD);
   for (int r = 0; r < ranks; ++r) {
-    hosts_.emplace_back(&hosts[kSize * static_cast<std::size_t>(r)]);
+    hosts_.emplace_back(&hosts[kSize * std::size_t(r)]);
   }
 }
 
 std::string MpiGroup::Name(int rank) const {
-  return fmt::format("rank {} on {}", rank, hosts_[static_cast<std::size_t>(rank)]);
+  return fmt::format("rank {} on {}", rank, hosts_[std::size_t(rank)]);
 }
 
 std::vector<int> MpiGroup::AllGather(int number) {
@@ -128,10 +128,10 @@ bool MpiGroup::SwapBytes(int partner, std::span<char> out, std::span<char> in,
                          const std::function<bool()>& gives_up) {
   constexpr int kTag = 1;
   MPI_Request requests[2];
-  MPI_Isend(out.data(), static_cast<int>(out.size()), MPI_BYTE, partner, kTag,
-            MPI_COMM_WORLD, &requests[0]);
-  MPI_Irecv(in.data(), static_cast<int>(in.size()), MPI_BYTE, partner, kTag,
-            MPI_COMM_WORLD, &requests[1]);
+  MPI_Isend(out.data(), int(out.size()), MPI_BYTE, partner, kTag, MPI_COMM_WORLD,
+            &requests[0]);
+  MPI_Irecv(in.data(), int(in.size()), MPI_BYTE, partner, kTag, MPI_COMM_WORLD,
+            &requests[1]);
   bytes_ += out.size() + in.size();
   return Await(requests[1], kTransferNap, gives_up) &&
          Await(requests[0], kTransferNap, gives_up);
@@ -165,7 +165,7 @@ std::optional<RankStatus> MpiGroup::Sum(const RankStatus& own,
   return sum_;
 }
 
-// Before all else that is collective: who has failed calls this, and nothing else.
+// Precedes every collective call; a failed rank calls only this.
 void MpiGroup::HearFailures() {
   if (Sum({}, nullptr)->failed > 0) ThrowFailure();
 }

@@ -19,7 +19,7 @@ class MpiGroup : public RankGroup {
   MpiGroup();
 
   int rank() const override { return rank_; }
-  int ranks() const override { return static_cast<int>(hosts_.size()); }
+  int ranks() const override { return int(hosts_.size()); }
   std::string Name(int rank) const override;
   std::uint64_t bytes() const override { return bytes_; }
   std::vector<int> AllGather(int number) override;

@@ -1,4 +1,3 @@
-#include "src/render/plan/check_strategy.h"
 
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
@@ -14,13 +13,13 @@ using Notes = std::vector<std::string>;
   throw InputError("strategy: " + message);
 }
 
-// A sample of a block is not what one path has brought.
+// Refuses what path reuse does not work with: samples then are not those of one path.
 void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   if (s.reuse == Reuse::kNone) return;
   if (plan.HasAll({Feature::kReuse, Feature::kSpectralFilm})) {
     Refuse(
-        "reuse=block does not work with Film \"spectral\": what a block shares out are "
-        "colours, not wavelengths; use reuse=none, or Film \"rgb\"");
+        "reuse=block does not work with Film \"spectral\": its blocks share colours, not "
+        "wavelengths; use reuse=none, or Film \"rgb\"");
   }
   if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
     Refuse(
@@ -33,13 +32,13 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
            Name(s.roulette) + ": use roulette=throughput");
   }
   if (s.control != Control::kNone) {
-    Refuse(std::string("control=") + Name(s.control) +
-           " needs samples of one path each, which reuse=block does not leave: leave out "
-           "one of the two");
+    Refuse(
+        std::string("control=") + Name(s.control) +
+        " needs samples of single paths, which reuse=block combines: use one of the two");
   }
 }
 
-// What the checks of single keys know.
+// Inputs of the checks of single keys.
 struct Checked {
   const Strategy& strategy;
   const FeatureSet &scene, &plan;  // features
@@ -117,7 +116,7 @@ void NotePaths(const Checked& c) {
                : ": no path scatters a second time from a diffuse surface");
   }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
-    c.Note("decide=pilot", ": with reuse=block asked for it tries nothing else");
+    c.Note("decide=pilot", ": it compares nothing with reuse=block");
   }
 }
 
@@ -136,10 +135,9 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   if (s.control == Control::kRegression && !plan.Has(Feature::kRegressionControl)) {
     checked.Note("control=regression", ": nothing scatters");
   } else if (s.control == Control::kRegression && s.points != Points::kIndependent) {
-    notes.push_back(std::string("control=regression gains little with points=") +
-                    Name(s.points) +
-                    ", which integrate polynomials well already: its place is "
-                    "points=independent");
+    notes.push_back(
+        std::string("control=regression gains little with points=") + Name(s.points) +
+        ", which integrate polynomials well already: use it with points=independent");
   }
   return notes;
 }

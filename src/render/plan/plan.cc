@@ -8,12 +8,10 @@
 #include "kernels/stages.h"
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/render/plan/check_strategy.h"
 #include "src/render/plan/plan_features.h"
 #include "src/scene/prepare/path_values.h"
 
 namespace lanelight {
-
 namespace {
 
 using Stages = std::vector<Stage>;
@@ -27,7 +25,7 @@ Stages RegisteredStages(SimdTarget target) {
 }
 
 std::string ReasonToOmit(const Stage& stage, const FeatureSet& features) {
-  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+  for (int i = 0; i < int(Feature::kCount); ++i) {
     const Feature f = static_cast<Feature>(i);
     if (stage.needs.Has(f) && !features.Has(f)) return WithoutFeature(f);
   }
@@ -57,15 +55,16 @@ void FindRepeated(Phase& phase) {
     return planned.stage.role == StageRole::kResample;
   };
   const auto& stages = phase.stages;
-  const auto first = std::find_if(stages.begin(), stages.end(), resamples);
+  const auto first = std::ranges::find_if(stages, resamples);
   if (first == stages.end()) return;
   const auto last = std::find_if(stages.rbegin(), stages.rend(), resamples);
-  phase.first_repeated = static_cast<std::size_t>(first - stages.begin()) + 1;
-  phase.last_repeated = static_cast<std::size_t>(stages.rend() - last) - 1;
+  phase.first_repeated = std::size_t(first - stages.begin()) + 1;
+  phase.last_repeated = std::size_t(stages.rend() - last) - 1;
   LL_CHECK_LT(phase.first_repeated, phase.last_repeated);
 }
 
-// Returns whether two vertices see each other has nothing to do with lights.
+// Finds the shadow kernels for path reuse, which tests visibility between vertices
+// without lights.
 void FindShadowKernels(const Stages& registered, Plan& plan) {
   if (!plan.features.Has(Feature::kReuse)) return;
   RayKernels& found = plan.ray_kernels;
@@ -146,23 +145,23 @@ RayKernels FindRayKernels(const Plan& plan) {
 // the rest to the scene: the stages stream the columns once per bounce.
 std::uint32_t WavefrontForCache(std::size_t bytes_per_path) {
   const long level2 = sysconf(_SC_LEVEL2_CACHE_SIZE);
-  const double cache = level2 > 0 ? static_cast<double>(level2) : 1024.0 * 1024.0;
-  const double paths = 0.5 * cache / static_cast<double>(bytes_per_path);
-  return static_cast<std::uint32_t>(std::clamp(paths, 256.0, 8192.0)) / 64 * 64;
+  const double cache = level2 > 0 ? double(level2) : 1024.0 * 1024.0;
+  const double paths = 0.5 * cache / double(bytes_per_path);
+  return std::uint32_t(std::clamp(paths, 256.0, 8192.0)) / 64 * 64;
 }
 
 }  // namespace
 
 const Phase* Plan::Find(PhaseId id) const {
-  const auto found = std::find_if(phases.begin(), phases.end(),
-                                  [id](const Phase& phase) { return phase.id == id; });
+  const auto found =
+      std::ranges::find_if(phases, [id](const Phase& phase) { return phase.id == id; });
   return found == phases.end() ? nullptr : &*found;
 }
 
 Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
   if (options.auxiliary != Auxiliary::kNone && options.max_depth == 0) {
     throw InputError(
-        "auxiliary output (--aov, --gbuffer) tells of surfaces where paths scatter: it "
+        "auxiliary output (--aov, --gbuffer) describes surfaces where paths scatter: it "
         "needs a "
         "maximum depth of at least 1");
   }

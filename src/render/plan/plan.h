@@ -8,12 +8,44 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
-#include "src/render/plan/phase.h"
 #include "src/vocabulary/path/sample_planes.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+struct PlannedStage {
+  Stage stage;
+  StageFn kernel = nullptr;
+};
+
+enum class PhaseId : int { kPaths, kTile, kBlock, kVisibleLights, kFindEdges };
+
+struct PhaseInfo {
+  const char* prefix;  // of the names of its stages in a profile; may be empty
+  const char* meaning;
+};
+/// By PhaseId.
+inline constexpr PhaseInfo kPhases[] = {
+    {"", "paths of a range of samples"},
+    {"", "path reuse: one sample of all pixels of a tile"},
+    {"", "path reuse: one pixel block"},
+    {"seen: ", "camera rays at edges of directly visible lights"},
+    {"seen edges: ", "camera rays that find these edges, without spectra"},
+};
+inline const PhaseInfo& InfoOf(PhaseId id) { return kPhases[int(id)]; }
+
+struct Phase {
+  PhaseId id = PhaseId::kPaths;
+  /// Runs wave by wave until all samples of the work are done; otherwise runs once.
+  bool in_waves = false;
+  FeatureSet features;               // that the kernels are variants for
+  std::vector<PlannedStage> stages;  // in execution order
+  /// Stages [first, last) run once for each candidate of a light sample
+  /// (RunParameters::candidates). Empty if light samples are not resampled.
+  std::size_t first_repeated = 0, last_repeated = 0;
+  std::size_t first_row = 0;  // of its stages in a profile
+};
 
 struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
@@ -23,14 +55,13 @@ struct PlanOptions {
   Auxiliary auxiliary = Auxiliary::kNone;
   bool spectral_film = false;   // samples keep their wavelengths for its buckets
   std::uint32_t wavefront = 0;  // paths; 0 = sized so that the live columns fit in L2
-  /// Of a training pass (src/render/train/training.h): what it turns on to record. It has
-  /// independent points, no pairs and no control variate.
+  /// Features that a training pass (src/render/train/training.h) turns on to record. Such
+  /// a pass has independent points, no antithetic pairs and no control variate.
   std::optional<FeatureSet> training;
-  /// Of a training pass: it has the strategy's points all the same, and its reuse, so
-  /// that its samples depend on each other as those of a render do.
+  /// Keeps the strategy's points and path reuse in a training pass, so that its samples
+  /// depend on each other as those of a render do.
   bool own_points = false;
-  /// Instead of the scene's: what a training tries, or has found to be better (roulette,
-  /// reuse, decide).
+  /// Replaces the scene's strategy: what a training tries or has chosen.
   std::optional<Strategy> strategy;
 };
 
@@ -41,7 +72,7 @@ struct OmittedStage {
 
 struct Plan {
   FeatureSet features;  // of scene and options together
-  /// In the order of PhaseId; the first is that of paths. All work on the same columns.
+  /// In the order of PhaseId, kPaths first. All work on the same columns.
   std::vector<Phase> phases;
   /// For stages that send rays of their own; none without kInterfaces or kReuse.
   RayKernels ray_kernels;

@@ -9,8 +9,7 @@
 namespace lanelight {
 namespace {
 
-// Rays can meet something. Without (no shape, or none that can be seen) there is nothing
-// but the environment.
+// Returns whether rays can hit a surface; otherwise they see only the environment.
 bool HasSurfaces(const FeatureSet& f) {
   return f.HasAny({Feature::kTriangles, Feature::kSpheres, Feature::kLargeSpheres,
                    Feature::kDisks, Feature::kPlanes, Feature::kCurves});
@@ -34,7 +33,7 @@ bool HasAnyOf(const FeatureSet& f, std::uint32_t shade_kinds) {
   return f.HasAny(kinds);
 }
 
-// There is something to serve, and something to serve it with.
+// Adds path reuse where paths can be connected.
 void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& f) {
   // Vertices of other paths would be of other times.
   if (f.HasAny({Feature::kMedia, Feature::kMovingInstances})) return;
@@ -70,17 +69,6 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
   f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
-void AddMedia(const Strategy& strategy, const CompiledScene& scene, FeatureSet& f) {
-  f.Add(Feature::kOtherEvents);
-  if (!f.Has(Feature::kLights)) return;
-  if (HasAnchors(strategy, scene)) f.Add(TurnsOn(strategy.distances));
-}
-
-void AddControl(const Strategy& strategy, FeatureSet& f) {
-  if (strategy.control == Control::kNone || !f.Has(Feature::kScatters)) return;
-  f.Add(TurnsOn(strategy.control));
-}
-
 }  // namespace
 
 bool SamplesFlatLights(const FeatureSet& f) {
@@ -100,13 +88,16 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   if (media || (options.max_depth > 0 && HasSurfaces(f))) {
     f.Add(Feature::kScatters);
     AddLightSampling(strategy, f);
-    if (media) AddMedia(strategy, *scene.compiled, f);
+    if (media) f.Add(Feature::kOtherEvents);
+    if (media && f.Has(Feature::kLights) && HasAnchors(strategy, *scene.compiled)) {
+      f.Add(TurnsOn(strategy.distances));
+    }
     if (f.Has(Feature::kLights) && !f.Has(Feature::kInterfaces)) {
       f.Add(Feature::kOpaqueShadows);
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     AddReuse(strategy, options, f);
-    // What it compares serves no other pixels.
+    // Trial runs do not compare strategies beside path reuse.
     if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
   } else {
     RemoveScattering(f);
@@ -115,7 +106,9 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   if (f.Has(Feature::kGbuffer) && HasSurfaces(f)) f.Add(Feature::kUv);
   f.Add(TurnsOn(strategy.points));
   f.Add(TurnsOn(strategy.pairs));
-  AddControl(strategy, f);
+  if (strategy.control != Control::kNone && f.Has(Feature::kScatters)) {
+    f.Add(TurnsOn(strategy.control));
+  }
   if (options.spectral_film && !options.training) f.Add(Feature::kSpectralFilm);
   if (options.training) f.Add(*options.training);
   return f;

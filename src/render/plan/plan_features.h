@@ -2,32 +2,51 @@
 // options.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "src/render/plan/plan.h"
 
 namespace lanelight {
 
 FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options);
 
-/// The strategy of a plan of the scene: what the options leave of theirs, or of its own.
+/// Returns the strategy of a plan: that of the options, else the scene's, without what a
+/// training pass omits.
 Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options);
 
-/// The same options with a changed strategy; `changes` as in --strategy, may be empty.
-/// Throws InputError for changes that there are not.
+/// Returns the options with a changed strategy; `changes` as in --strategy, may be empty.
+/// Throws InputError for unknown changes.
 PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,
                         std::string_view changes);
 
-/// Light samples of triangles or rectangles are taken in a plan of these features.
+/// Returns whether triangles or rectangles are sampled as lights.
 bool SamplesFlatLights(const FeatureSet& features);
 
-/// Light samples of a vertex are not all the same in a plan of these features.
+/// Returns whether the light samples of a vertex may differ.
 bool SamplesOfLightDiffer(const FeatureSet& features);
 
-/// Returns whether the scene's strategy integrates lights apart, and it has any that can
-/// be seen.
+/// Returns whether directly visible lights are integrated apart.
 bool SeesLightsApart(const PreparedScene& scene);
 
-/// Of camera rays that are followed to the light they see and no further: a part of
+/// Returns the features of camera rays that end at the light they see: a subset of
 /// PlanFeatures(), with the same sample points.
 FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options);
+
+/// Throws InputError for a strategy that cannot work on this scene, saying what would.
+/// Returns explanations of choices that have no effect on it.
+std::vector<std::string> CheckStrategy(const PreparedScene& scene,
+                                       const PlanOptions& options);
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
+
+/// Everything of the scene's strategy that reaches the kernels and the film: features,
+/// stages with their kernels, parameters that some stage reads, how samples are grouped,
+/// the probabilities of the lights. The scene is prepared for the strategy
+/// (WithStrategy), the plan made for it. Two strategies of one scene with equal keys give
+/// the same samples, bit by bit, for the same work; with a probability of 2^-60 tables of
+/// lights that differ have equal keys. Strategies that do the same in different ways (a
+/// table of equal probabilities, and one found otherwise) may have different keys.
+std::string PlanKey(const PreparedScene& scene, const Plan& plan);
 
 }  // namespace lanelight

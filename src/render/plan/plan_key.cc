@@ -1,4 +1,3 @@
-#include "src/render/plan/plan_key.h"
 
 #include <fmt/format.h>
 
@@ -24,13 +23,13 @@ std::uint64_t HashLights(const LightChances& chances) {
 
 std::string FeaturesText(const FeatureSet& features) {
   std::string text;
-  for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
+  for (int i = 0; i < int(Feature::kCount); ++i) {
     text += features.Has(static_cast<Feature>(i)) ? '1' : '0';
   }
   return text;
 }
 
-// Of the strategy that the plan is for; what no stage of the plan reads is left out.
+// Returns the parameters of the plan's strategy; omits what no stage reads.
 std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   const PointsParameters points = MakePointsParameters(s.points);
   const PairParameters pairs = MakePairParameters(s);

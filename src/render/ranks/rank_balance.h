@@ -1,13 +1,17 @@
-// Which rank gives work to which while they render. Their parts were to cost the same,
-// but nobody knows that before: tiles cost what they show, and cores are as fast as what
-// else runs on them leaves them. So each rank compares itself in turn with its neighbours
-// in a hypercube, and the one that would end later gives the other so much that both end
-// at the same time (dimension exchange: Cybenko 1989, "Dynamic load balancing for
-// distributed memory multiprocessors"). What a rank sends does not grow with the number
-// of ranks.
+// Balances ranks while they render. Tiles cost unknown times, and cores have unknown
+// speeds, so each rank compares itself in turn with its neighbours in a hypercube; the
+// one that would end later hands over so much that both end together (dimension exchange:
+// Cybenko 1989, "Dynamic load balancing for distributed memory multiprocessors"). What a
+// rank sends does not grow with the number of ranks.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <chrono>
 #include <cstdint>
+
+#include "src/base/core/rank_group.h"
+#include "src/base/core/stopwatch.h"
 
 namespace lanelight {
 
@@ -16,12 +20,49 @@ struct RankLoad {
   double speed = 0;        // samples a second so far; 0: not known
 };
 
-/// With whom `rank` compares itself for the turn-th time; -1: with nobody. Both say so of
-/// each other.
-int BalancePartner(int rank, int ranks, std::uint64_t turn);
+/// Returns the rank that `rank` compares itself with in this turn, or -1. Symmetric.
+inline int BalancePartner(int rank, int ranks, std::uint64_t turn) {
+  const auto dimensions = std::bit_width(static_cast<unsigned>(std::max(ranks - 1, 1)));
+  const int partner = rank ^ (1 << (turn % static_cast<unsigned>(dimensions)));
+  return partner < ranks ? partner : -1;
+}
 
-/// Samples that the first is to give to the second for both to end at the same time; 0
-/// where the second would end later, or where too little time is won.
-std::uint64_t SamplesToGive(const RankLoad& from, const RankLoad& to);
+/// Balances that gain less time than this are not worth a message.
+inline constexpr double kMinSecondsGained = 0.005;
+/// Returns the samples that the first rank hands to the second so that both end together;
+/// 0 if the second would end later, or if too little time is won.
+inline std::uint64_t SamplesToGive(const RankLoad& from, const RankLoad& to) {
+  if (from.speed <= 0) return 0;
+  // A rank that has not ended a task yet, since it had none, is taken to be as fast.
+  const double speed = to.speed > 0 ? to.speed : from.speed;
+  const double excess =
+      (double(from.left) * speed - double(to.left) * from.speed) / (from.speed + speed);
+  return excess > kMinSecondsGained * from.speed ? std::uint64_t(excess) : 0;
+}
+
+/// How often ranks exchange their status. At most 100 ms: a fraction of the time that a
+/// signal leaves to a rank. Shorter towards the end of a round, so that no rank sleeps
+/// through it. All ranks compute it from the same sums, so they meet at about the same
+/// time.
+class PollInterval {
+ public:
+  std::chrono::duration<double> UntilNext() const {
+    return std::chrono::duration<double>(until_next_);
+  }
+  /// Takes the sum of the status of all ranks.
+  void Update(const RankStatus& all) {
+    const double seconds = since_.Lap(), taken = left_ - double(all.left);
+    left_ = double(all.left);
+    const double remaining = taken > 0 ? seconds * left_ / taken : kLongest;
+    until_next_ = std::clamp(remaining / 4, kShortest, kLongest);
+  }
+
+ private:
+  static constexpr double kShortest = 0.002, kLongest = 0.1;  // seconds
+
+  double left_ = 0;  // samples
+  double until_next_ = kShortest;
+  Stopwatch since_;
+};
 
 }  // namespace lanelight

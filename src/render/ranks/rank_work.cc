@@ -10,10 +10,9 @@
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/render/ranks/packed_tiles.h"
-#include "src/render/ranks/poll_interval.h"
 #include "src/render/ranks/rank_balance.h"
-#include "src/render/wave/stop_watcher.h"
+#include "src/render/ranks/rank_messages.h"
+#include "src/render/wave/task_watcher.h"
 
 namespace lanelight {
 namespace {
@@ -23,12 +22,6 @@ using Clock = std::chrono::steady_clock;
 // mpirun leaves a second after a signal. The leader does not wait longer than this for
 // ranks that do not answer.
 constexpr double kAnswerSeconds = 0.6;
-
-template <class Value>
-std::span<char> BytesOf(Value& value) {
-  static_assert(std::is_trivially_copyable_v<Value>);
-  return {reinterpret_cast<char*>(&value), sizeof(Value)};
-}
 
 template <class Value>
 std::string ToString(const Value& value) {
@@ -123,7 +116,7 @@ void RankWork::Deal(bool have_samples, int min_tile_side) {
   for (std::size_t rank = 0; rank < parts.size(); ++rank) {
     for (const PixelRect& tile : parts[rank]) {
       const std::uint64_t done = films_.film().Samples(tile.x0, tile.y0);
-      if (rank == static_cast<std::size_t>(group_.rank())) {
+      if (rank == std::size_t(group_.rank())) {
         own.push_back({all.size(), done});
       } else {
         other_levels_.Add({done, done});
@@ -147,7 +140,8 @@ RunCounts RankWork::Counts() const {
 }
 
 RankWork::Command RankWork::Share(Command command) {
-  group_.Broadcast(BytesOf(command));
+  static_assert(std::is_trivially_copyable_v<Command>);
+  group_.Broadcast({reinterpret_cast<char*>(&command), sizeof(command)});
   return command;
 }
 
@@ -193,7 +187,7 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
     all->samples -= status.samples;  // of others
     on_status(*all);
     if (all->busy == 0) return *all;
-    // All ranks see the same, and go on alike.
+    // All ranks have the same status, and decide alike.
     if (all->failed + all->interrupted + all->stopped > 0) continue;
     gave_up_ = !Balance(step, own, gives_up);
     if (gave_up_) return {};
@@ -258,7 +252,7 @@ void RankWork::SendPieces() {
   RunCounts counts = threads_.Counts();
   counts.cpu_seconds = clock_.CpuSeconds();
   std::string bytes;
-  const auto all = static_cast<std::size_t>(MostPieces(static_cast<int>(pieces.size())));
+  const auto all = std::size_t(MostPieces(int(pieces.size())));
   for (std::size_t i = 0; i < all; ++i) {
     bytes.clear();
     bytes += ToString(std::exchange(counts, {}));
@@ -271,7 +265,7 @@ void RankWork::SendPieces() {
 // Returns the largest number of pieces of any rank.
 int RankWork::MostPieces(int own) {
   const std::vector<int> all = group_.AllGather(own);
-  return *std::max_element(all.begin(), all.end());
+  return *std::ranges::max_element(all);
 }
 
 // All ranks meet once more, so that the leader learns of a failure.

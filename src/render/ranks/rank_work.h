@@ -14,23 +14,23 @@
 #include "src/base/core/rank_group.h"
 #include "src/render/schedule/thread_work.h"
 #include "src/render/wave/films.h"
-#include "src/render/wave/run_clock.h"
+#include "src/render/wave/run_options.h"
 
 namespace lanelight {
 
 class RankWork : public RoundRunner {
  public:
-  /// Refers to all of these for as long as it lives.
+  /// Keeps references to all of these.
   RankWork(RankGroup& group, const RunClock& clock, ThreadWork& threads, Films& films)
       : group_(group), clock_(clock), threads_(threads), films_(films) {}
 
-  /// Collective, before the first round, when all ranks have the same tiles: gives each
-  /// rank its part of them. `have_samples`: workers get the leader's first.
+  /// Gives each rank its part of the tiles; collective, before the first round.
+  /// `have_samples`: workers receive the leader's samples first.
   void Deal(bool have_samples, int min_tile_side);
 
   // Leader:
   void RunRound(const Round& round, TaskWatcher& watcher) override;
-  /// If some ranks do not answer, after a signal, theirs are those of the last time.
+  /// Keeps the last samples of ranks that do not answer after a signal.
   void Gather() override;
   TileLevels Levels() const override;
   RunCounts Counts() const override;
@@ -38,8 +38,8 @@ class RankWork : public RoundRunner {
   bool Stopped() const override { return stopped_; }
   void Finish() override;
 
-  /// Worker: renders what the leader asks for until it finishes. Calls begin(round)
-  /// before each round; `stop`: a signal came to this rank.
+  /// Renders for the leader until it finishes; on workers. Calls begin(round) before each
+  /// round; `stop`: a signal came to this rank.
   void Serve(const std::function<void(const Round&)>& begin,
              const std::atomic<bool>* stop);
 

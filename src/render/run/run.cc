@@ -7,9 +7,8 @@
 #include "src/base/core/check.h"
 #include "src/base/core/clock.h"
 #include "src/base/core/parallel.h"
+#include "src/render/ranks/rank_messages.h"
 #include "src/render/ranks/rank_work.h"
-#include "src/render/ranks/run_messages.h"
-#include "src/render/run/run_context.h"
 #include "src/render/run/run_schedule.h"
 #include "src/render/run/run_strategy.h"
 #include "src/render/run/run_watch.h"
@@ -19,7 +18,6 @@
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
-
 namespace {
 
 // A run from its start to its result. Members are initialised in order; each holds
@@ -114,7 +112,7 @@ void Runner::Keep(bool finished) {
 RunCounts Runner::Counts() {
   RunCounts counts = Work().Counts();
   counts.seconds = clock.Elapsed();
-  // What came before, and of other ranks, is in it already.
+  // Earlier time, and that of other ranks, is included already.
   counts.cpu_seconds += clock.CpuSeconds();
   return counts;
 }
@@ -122,8 +120,8 @@ RunCounts Runner::Counts() {
 void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
   clock.Start();
   if (start.planned_training > 0) strategy.Train(start.planned_training, Group());
-  // What the leader has learned, to the last bit, also where another processor's
-  // elementary functions are rounded otherwise.
+  // Uses the leader's training bit by bit, also if other processors round elementary
+  // functions differently.
   const RunTraining learned = RunTrainingFromBytes(Group().Share(""));
   if (learned.trained) {
     TrainingOutcome training;
@@ -157,7 +155,7 @@ RunResult Runner::Result() {
 const char* Name(StopReason reason) {
   static constexpr const char* kNames[] = {"samples", "time", "target", "interrupted",
                                            "hopeless"};
-  return kNames[static_cast<int>(reason)];
+  return kNames[int(reason)];
 }
 
 RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
@@ -177,7 +175,7 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
       if (keeper != nullptr && keeper->Due()) run.Keep(false);
       run.watch->ShowIfDue();
     }
-    // It may have been stopped before its end.
+    // The round may have been stopped before its end.
     if (run.Work().Done() >= round->end) run.schedule->Finish(*round);
   }
   run.watch->Report();

@@ -9,15 +9,15 @@
 
 namespace lanelight {
 
-/// Renders into `film`, without samples but those that options.keeper goes on from: its
-/// size must match the crop window of the scene, or the strip of options.windows, its
+/// Renders into `film`, which has no samples (or those that options.keeper restores). Its
+/// size must match the crop window of the scene, or the strip of options.windows; its
 /// groups the strategy (src/scene/prepare/groups.h).
 RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 
-/// The same for a worker of options.group: as the leader wants it, until it lets it go.
-/// `film` has the worker's part of the image alone; of `options`, what says how much to
-/// render and the keeper are the leader's business.
+/// Renders for the leader of options.group until it ends the run. `film` receives the
+/// worker's part of the image only; the leader decides how much is rendered, and keeps
+/// the state.
 void ServeRun(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

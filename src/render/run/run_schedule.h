@@ -7,33 +7,54 @@
 #include <optional>
 
 #include "src/base/core/stopwatch.h"
-#include "src/render/run/run_context.h"
+#include "src/render/run/run.h"
 #include "src/render/schedule/schedule.h"
+#include "src/render/schedule/thread_work.h"
+#include "src/render/wave/films.h"
+#include "src/render/wave/run_options.h"
 
 namespace lanelight {
 
+struct RunContext {
+  const RunOptions& options;
+  const RunClock& clock;
+  Films& films;
+  ThreadWork& threads;  // of this process
+  RoundRunner& work;    // `threads`, or all ranks
+
+  /// Samples per pixel at most.
+  std::uint64_t limit() const {
+    return options.spp > 0 ? options.spp : kMostSamplesPerPixel;
+  }
+  /// Samples that belong together.
+  std::uint32_t unit() const { return films.film().groups().unit; }
+  /// Pixels of all tiles of all ranks.
+  std::uint64_t pixels() const { return PixelsOf(threads.scheduler().tiles()); }
+};
+
 class RunSchedule {
  public:
-  /// Refers to the context for as long as it lives.
+  /// Keeps a reference to the context.
   explicit RunSchedule(const RunContext& context) : context_(context) {}
 
-  /// Before the first round, after any training. `resumed`: the films have samples, whose
-  /// error is checked again.
+  /// Called before the first round, after any training. `resumed`: the films have
+  /// samples, whose error is checked again.
   void Start(bool resumed);
   /// Returns the next round; nothing once the samples or the target are reached.
   std::optional<Round> Next();
-  /// A round has been rendered to its end.
+  /// Notes that a round has been rendered to its end.
   void Finish(const Round& round);
 
-  /// Seconds of a time budget that the work after the last task takes.
+  /// Returns the seconds of a time budget that are reserved for the work after the last
+  /// task.
   double reserved() const { return reserved_; }
-  /// Samples per pixel that the image needs, by the last check; infinite before.
+  /// Returns the samples per pixel that the image needs, by the last check; infinite
+  /// before.
   double needed() const { return needed_; }
-  /// The target is reached.
   bool reached() const { return reached_; }
-  /// No number of samples reaches the target.
+  /// Returns whether no number of samples is expected to reach the target.
   bool hopeless() const { return hopeless_; }
-  /// Number of checks up to the samples that are done.
+  /// Returns the number of checks up to the samples that are done.
   int Checks() const;
 
  private:

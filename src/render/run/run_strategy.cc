@@ -1,24 +1,53 @@
 #include "src/render/run/run_strategy.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "src/base/core/stopwatch.h"
 #include "src/render/plan/plan_features.h"
-#include "src/render/run/sample_rate.h"
 #include "src/render/train/rank_passes.h"
-#include "src/render/train/trained_tables.h"
+#include "src/render/train/training.h"
+#include "src/render/train/training_pass.h"
 #include "src/render/wave/profile.h"
-#include "src/render/wave/stop_watcher.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
+namespace {
+
+/// Samples that a time budget is expected to be enough for, by the speed of a few
+/// thousand samples with roulette=throughput in this process; rounded down to a power of
+/// two, so that runs on one machine mostly agree. At least 1. Takes about 20 ms.
+std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
+  constexpr int kPasses = 5;
+  constexpr std::uint64_t kSamples = 2048;
+  // Untrained strategies cannot render.
+  pass.options =
+      WithChanges(pass.scene, std::move(pass.options), "roulette=throughput,decide=none");
+  const TrainingWork work = MakeTrainingWork(pass.scene, kSamples, 16);
+  double rate = INFINITY;
+  // The first pass warms up: memory is touched, code and scene are read. Of the others
+  // the slowest counts: where others use the machine too, one may have it for itself.
+  for (int i = 0; i < kPasses; ++i) {
+    const Stopwatch watch;
+    RunTrainingPass(pass, work);
+    if (i == 0) continue;
+    rate = std::min(rate, double(work.samples()) / std::max(watch.Seconds(), 1e-6));
+  }
+  return std::bit_floor(std::uint64_t(std::clamp(rate * seconds, 1.0, 1e15)));
+}
+
+}  // namespace
+
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
   const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
-  return static_cast<std::uint32_t>(seed ^ (seed >> 32) ^ (turn >> 32));
+  return std::uint32_t(seed ^ (seed >> 32) ^ (turn >> 32));
 }
 
 RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
@@ -67,7 +96,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
   training_ = lanelight::Train({scene_, plan_, run_.seed, options, tables_});
   training_.seconds = clock_.Seconds();
   training_.cpu_seconds = clock_.CpuSeconds();
-  // What was cut short is trained anew when the run goes on.
+  // Interrupted training is repeated when the run is resumed.
   if (!StopWatcher(options.stop).Stopped()) UseTraining();
 }
 

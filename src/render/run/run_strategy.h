@@ -7,22 +7,23 @@
 
 #include "src/base/core/rank_group.h"
 #include "src/render/run/run.h"
+#include "src/render/schedule/thread_work.h"
 #include "src/render/train/training.h"
-#include "src/render/wave/run_clock.h"
+#include "src/render/wave/run_options.h"
 #include "src/render/wave/run_state.h"
 
 namespace lanelight {
 
-/// The seed of kernels, of a render's seed: another one after each kSamplesPerSeed
+/// Returns the seed of kernels for a render's seed; it changes after each kSamplesPerSeed
 /// samples.
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample);
 
 class RunStrategy {
  public:
-  /// Refers to all but the plan for as long as it lives.
+  /// Keeps references to all but the plan.
   RunStrategy(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               const RunClock& clock);
-  // Others refer to plan and parameters.
+  // Not copied: others refer to plan and parameters.
   RunStrategy(const RunStrategy&) = delete;
   RunStrategy& operator=(const RunStrategy&) = delete;
 
@@ -31,23 +32,23 @@ class RunStrategy {
   /// Sets the seed of the kernels for rounds from this sample on.
   void BeginWith(std::uint64_t first);
 
-  /// Samples that a training is planned for; 0 if the strategy asks for none.
+  /// Returns the samples that a training is planned for; 0 if the strategy needs none.
   std::uint64_t PlannedTraining() const;
-  /// Trains for so many, all ranks of the group together. What a signal cuts short does
+  /// Trains on all ranks of the group together. Training that a signal interrupts does
   /// not count.
   void Train(std::uint64_t planned, RankGroup& group);
-  /// Takes what has been learned before. Throws InputError for tables that kernels must
-  /// not be given, and for changes to the strategy that there are not.
+  /// Loads the result of an earlier training. Throws InputError for tables that kernels
+  /// cannot use, and for unknown changes of the strategy.
   void Restore(TrainingOutcome training, const std::vector<TrainedTable>& tables);
 
-  /// What follows has been learned to the end, and the image is rendered with it.
+  /// Returns whether training was completed, and the image uses it.
   bool trained() const { return trained_; }
   const TrainingOutcome& training() const { return training_; }
-  /// Empty if not trained().
+  /// Returns the trained tables; empty if not trained().
   std::vector<TrainedTable> Tables() const;
-  /// SampleGroups::dependents of what is rendered: after training.
+  /// Returns SampleGroups::dependents of the strategy after training.
   double Dependents() const;
-  /// Says in a result which strategy it was, and what the training has cost.
+  /// Stores the strategy and the cost of training in a result.
   void Describe(RunResult& result) const;
 
  private:

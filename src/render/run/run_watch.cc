@@ -54,7 +54,7 @@ bool RunWatch::Cancelled() const {
 StopReason RunWatch::Reason() const {
   if (schedule_.reached()) return StopReason::kTarget;
   if (schedule_.hopeless()) return StopReason::kHopeless;
-  // Only what has left samples out counts: a signal may come after the last one.
+  // A signal after the last sample does not count.
   if (context_.work.Done() >= context_.limit()) return StopReason::kSamples;
   return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
 }

@@ -7,35 +7,33 @@
 #include <mutex>
 #include <optional>
 
-#include "src/render/run/run_context.h"
 #include "src/render/run/run_schedule.h"
 #include "src/render/wave/task_watcher.h"
-#include "src/render/wave/time_limit.h"
 
 namespace lanelight {
 
-/// Tasks wait while the film is shown. That takes at most kShowShare of the run's time,
+/// Tasks wait while the film is shown, which takes at most kShowShare of the run's time
 /// if it takes as long as the last time; the first time is estimated by kShowSeconds per
 /// pixel.
 inline constexpr double kShowShare = 0.005, kShowSeconds = 2e-7;
 
 class RunWatch : public TaskWatcher {
  public:
-  /// Refers to both for as long as it lives.
+  /// Keeps references to both.
   RunWatch(const RunContext& context, const RunSchedule& schedule)
       : context_(context), schedule_(schedule) {}
 
-  /// Before the first round, after any training. Before it only Interrupted may be
-  /// called.
+  /// Called before the first round, after any training; until then only Interrupted may
+  /// be called.
   void Start();
-  /// Between rounds: whether the run ends here, before its samples are done.
+  /// Returns, between rounds, whether the run ends before all samples are done.
   bool Ended();
-  /// Between rounds, if it is time: calls RunOptions::on_film. One process alone.
+  /// Calls RunOptions::on_film between rounds, if it is due; in one process only.
   void ShowIfDue();
-  /// Why the run has ended.
+  /// Returns why the run has ended.
   StopReason Reason() const;
 
-  /// By a signal, to this process or another one.
+  /// Returns whether a signal came, to this process or another rank.
   bool Interrupted() const override {
     const std::atomic<bool>* const stop = context_.options.stop;
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||

@@ -34,16 +34,14 @@ int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
 
 Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit) {
   if (done >= per_task) return {done, done + kMostSamplesPerPixel, per_task};
-  const auto samples =
-      static_cast<std::uint32_t>(std::max<std::uint64_t>(3 * done, unit));
+  const auto samples = std::uint32_t(std::max<std::uint64_t>(3 * done, unit));
   return {done, done + samples, std::min(samples, per_task)};
 }
 
 std::uint32_t Pace::Whole(double samples) const {
   const double units = std::floor(samples / tasks_.unit);
   const double most = tasks_.per_task / tasks_.unit;
-  return static_cast<std::uint32_t>(std::clamp(units, 1.0, std::max(1.0, most))) *
-         tasks_.unit;
+  return std::uint32_t(std::clamp(units, 1.0, std::max(1.0, most))) * tasks_.unit;
 }
 
 Round Pace::Next(std::uint64_t done, double elapsed) const {
@@ -52,7 +50,7 @@ Round Pace::Next(std::uint64_t done, double elapsed) const {
   const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
   const double most = Reach(elapsed) / 2;
   const std::uint32_t per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
-  const auto ranges = static_cast<std::uint64_t>(std::max(1.0, most / per_task));
+  const auto ranges = std::uint64_t(std::max(1.0, most / per_task));
   return {done, done + per_task * ranges, per_task};
 }
 

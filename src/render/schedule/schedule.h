@@ -1,20 +1,21 @@
 // How a render whose number of samples is not fixed proceeds: how many samples it takes
-// at a time, and when it checks its own error. Decisions only: no clock
-// and no image, so that tests can play through them.
+// at a time, and when it checks its own error. Uses no clock and no image, so that tests
+// can play through its decisions.
 #pragma once
 
 #include <cstdint>
 
 namespace lanelight {
 
-/// Samples per pixel at which a render with a target checks its error, `unit` samples
-/// belonging together: 4, 5, 6 and 7 times powers of two, from 16 units on. The same
-/// whatever the target, so that a render which goes on towards a finer one ends where it
-/// would have ended at once. Few: each is a chance to stop for a lucky error.
+/// Returns the first of the samples per pixel at which a render with a target checks its
+/// error: 4, 5, 6 and 7 times powers of two, from 16 units on (`unit` samples belong
+/// together). They are the same for any target, so a render that resumes towards a
+/// smaller error ends where an uninterrupted one would. They are few, since each is a
+/// chance to stop at a lucky error.
 std::uint64_t FirstCheck(std::uint32_t unit);
-/// The first one at `done` or after.
+/// Returns the first check at `done` or later.
 std::uint64_t CheckFrom(std::uint64_t done, std::uint32_t unit);
-/// How many there are up to `done`, itself included.
+/// Returns the number of checks up to `done`, inclusive.
 int ChecksUpTo(std::uint64_t done, std::uint32_t unit);
 
 /// Brings all tiles from at least `begin` samples per pixel to `end`, in ranges of
@@ -26,16 +27,15 @@ struct Round {
   std::uint64_t samples() const { return end - begin; }
 };
 
-/// The next round of a render without a time budget, which has `done` samples per pixel.
-/// The first ones are short (up to 1, 4, 16, ... samples, times `unit`), so that an
-/// interruption leaves an image without holes; once tasks are as long as they can be
-/// (`per_task` samples), one round takes all that is left.
+/// Returns the next round of a render without a time budget, which has `done` samples per
+/// pixel. The first ones are short (up to 1, 4, 16, ... times `unit` samples), so that an
+/// interrupted image has no holes; once tasks have `per_task` samples, one round takes
+/// all that is left.
 Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit);
 
-/// Rounds of a render with a time budget. The first is as small as can be; each later one
+/// Chooses rounds for a time budget. The first is as small as possible; each later one
 /// takes at most half of the time left, by the speed of the one before. The last ones are
-/// small again, and what interrupts them (the caller, when the time is over) interrupts
-/// tasks of about 1/200 of the budget.
+/// small again, so that the end of the budget interrupts tasks of about 1/200 of it.
 class Pace {
  public:
   struct Tasks {
@@ -46,12 +46,11 @@ class Pace {
   };
   Pace(double budget, const Tasks& tasks) : budget_(budget), tasks_(tasks) {}
 
-  /// The round after `done` samples per pixel, `elapsed` seconds after the start of
-  /// rendering.
+  /// Returns the round after `done` samples per pixel, `elapsed` seconds into the render.
   Round Next(std::uint64_t done, double elapsed) const;
-  /// A round of so many samples per pixel took `seconds`.
+  /// Notes that a round of so many samples per pixel took `seconds`.
   void Took(std::uint64_t samples, double seconds);
-  /// Samples per pixel that the time left is enough for; 0 before the first round.
+  /// Returns the samples per pixel that the time left allows; 0 before the first round.
   double Reach(double elapsed) const;
 
  private:

@@ -46,7 +46,7 @@ std::optional<SampleRange> Scheduler::Next(const TaskWatcher& watcher) {
       next_ = tile + 1;
       begun_[tile] = std::min(round_.end, first + round_.per_task);
       ++in_flight_;
-      return SampleRange{tile, first, static_cast<std::uint32_t>(begun_[tile] - first)};
+      return SampleRange{tile, first, std::uint32_t(begun_[tile] - first)};
     }
     if (!left && !(limits_.may_adopt && in_flight_ > 0)) break;
     ended_.wait(lock);
@@ -93,7 +93,7 @@ std::vector<TileProgress> Scheduler::Snapshot() const {
 }
 
 void Scheduler::Resume(const std::vector<TileProgress>& tiles) {
-  std::fill(done_.begin(), done_.end(), kNotOwned);
+  std::ranges::fill(done_, kNotOwned);
   Adopt(tiles);
 }
 

@@ -16,9 +16,9 @@
 
 #include "src/base/image/pixel_rect.h"
 #include "src/render/schedule/schedule.h"
-#include "src/render/wave/sample_range.h"
+#include "src/render/wave/run_state.h"
 #include "src/render/wave/task_watcher.h"
-#include "src/render/wave/workspace.h"
+#include "src/render/wave/tiles.h"
 
 namespace lanelight {
 
@@ -37,11 +37,11 @@ TileLevels LevelsOf(const std::vector<TileProgress>& tiles);
 
 class Scheduler {
  public:
-  /// Owns all of these tiles of the image, without samples.
+  /// Owns all of these tiles, without samples.
   explicit Scheduler(std::vector<PixelRect> tiles)
       : tiles_(std::move(tiles)), done_(tiles_.size()), begun_(tiles_.size()) {}
 
-  /// The places of all tiles, also of those of other ranks.
+  /// Returns all tiles, including those of other ranks.
   const std::vector<PixelRect>& tiles() const { return tiles_; }
 
   struct Limits {
@@ -65,19 +65,19 @@ class Scheduler {
 
   /// Returns the tiles that this process owns, with their samples.
   std::vector<TileProgress> Snapshot() const;
-  /// Owns these tiles and no others from here on, between rounds.
+  /// Owns exactly these tiles from here on; between rounds.
   void Resume(const std::vector<TileProgress>& tiles);
 
   /// Gives up tiles without a range in flight that lack at most so many samples, summed
-  /// over tiles and pixels. Returns them.
+  /// over tiles and pixels, and returns them.
   std::vector<TileProgress> Release(std::uint64_t samples);
-  /// Owns these tiles too.
+  /// Owns these tiles in addition.
   void Adopt(const std::vector<TileProgress>& tiles);
-  /// Samples that these tiles lack to `end` samples per pixel.
+  /// Returns the samples that these tiles lack to `end` samples per pixel.
   std::uint64_t Missing(const std::vector<TileProgress>& tiles, std::uint64_t end) const;
 
  private:
-  /// Samples of a tile that another rank owns.
+  /// Marks a tile that another rank owns.
   static constexpr std::uint64_t kNotOwned = ~std::uint64_t{0};
 
   const std::vector<PixelRect> tiles_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "src/base/core/parallel.h"
-#include "src/render/wave/partition.h"
+#include "src/render/wave/tiles.h"
 
 namespace lanelight {
 namespace {
@@ -58,8 +58,8 @@ void ThreadWork::ShareTiles(const std::vector<PixelRect>& tiles,
 void ThreadWork::RunRound(const Round& round, TaskWatcher& watcher) {
   if (!begun_) runner_.Begin(scheduler_->tiles().size());
   begun_ = true;
-  const auto threads = static_cast<std::uint32_t>(MaxThreads());
-  const auto tiles = static_cast<std::uint32_t>(scheduler_->Snapshot().size());
+  const auto threads = std::uint32_t(MaxThreads());
+  const auto tiles = std::uint32_t(scheduler_->Snapshot().size());
   scheduler_->Begin(round, {std::max(1u, 8 * threads / std::max(1u, tiles)), shared_});
   ParallelFor(threads, [&](std::size_t) {
     try {

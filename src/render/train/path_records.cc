@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "src/base/core/check.h"
@@ -12,7 +13,7 @@
 namespace lanelight {
 namespace {
 
-// What a pixel adds without roulette, and what roulette adds to it.
+// Variance of a pixel without roulette, and what roulette adds.
 struct Part {
   double variance, added;
   bool operator<(const Part& o) const { return variance + added < o.variance + o.added; }
@@ -40,6 +41,20 @@ PathRecord ReadRecord(const float* next) {
   return record;
 }
 
+double Square(double x) { return x * x; }
+
+// From the square of what kernels call brightness to that of a sample's: the exposure,
+// and the weight of the pixel filter.
+double ScaleOf(const TrainingSamples& samples, const float channel[3]) {
+  double of_colors = 0, of_records = 0;
+  for (std::size_t i = 0; i < samples.colors.size(); ++i) {
+    const Vec3f& c = samples.colors[i];
+    of_colors += Square(channel[0] * c.x + channel[1] * c.y + channel[2] * c.z);
+    of_records += Square(samples.recorded[2 * i]);
+  }
+  return of_records > 0 ? of_colors / of_records : 0;
+}
+
 }  // namespace
 
 PathSamples ReadRecords(TrainingSamples samples) {
@@ -48,8 +63,7 @@ PathSamples ReadRecords(TrainingSamples samples) {
   LL_CHECK_EQ(out.planes, NumPlanes(PlaneGroup::kRecord));
   out.records.reserve(out.colors.size());
   for (std::size_t i = 0; i < out.colors.size(); ++i) {
-    out.records.push_back(
-        ReadRecord(out.recorded.data() + i * static_cast<std::size_t>(out.planes)));
+    out.records.push_back(ReadRecord(out.recorded.data() + i * std::size_t(out.planes)));
   }
   out.recorded = {};
   return out;
@@ -57,9 +71,8 @@ PathSamples ReadRecords(TrainingSamples samples) {
 
 ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
                       const TrainingWork& work) {
-  return {static_cast<std::uint32_t>(scene.view->film.width),
-          static_cast<std::uint32_t>(scene.view->film.height), work.pixels,
-          samples.colors};
+  return {std::uint32_t(scene.view->film.width), std::uint32_t(scene.view->film.height),
+          work.pixels, samples.colors};
 }
 
 double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
@@ -82,7 +95,7 @@ double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
     for (const std::size_t i : places) {
       weight[c] += image.ErrorWeight(work.pixels[i], c);
     }
-    // Of the sum over an observation; per sample.
+    // Scatter of the sum over an observation, per sample.
     const double scatter = std::max(0.0, squares[c] - sum[c] * sum[c] / n) * n;
     variance += scatter / (n - 1) / work.spp * weight[c] / 3;
   }
@@ -113,6 +126,36 @@ double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& wor
   double variance = 0, added = 0;
   for (const Part& p : parts) variance += p.variance, added += p.added;
   return added > 0 ? 1 + added / std::max(variance, 1e-9 * added) : 1;
+}
+
+double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixel) {
+  double about = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double inverse = values.inverse_pixel[std::size_t{pixel} * 3 + c];
+    if (!(inverse > 0)) return 0;
+    about += 1 / (3 * std::sqrt(3.0) * inverse);
+  }
+  return about / exposure;
+}
+
+std::vector<double> SinglePathVariances(const TrainingSamples& samples,
+                                        const TrainingWork& work, const ImageGuess& image,
+                                        const PathValues& values, float exposure,
+                                        std::vector<double> variances) {
+  LL_CHECK_EQ(samples.planes, NumPlanes(PlaneGroup::kSinglePath));
+  const double scale = ScaleOf(samples, values.channel);
+  for (std::size_t i = 0; i < variances.size(); ++i) {
+    const double about = MomentsAbout(values, exposure, work.pixels[i]);
+    double weight = 0, added = 0;
+    for (int c = 0; c < 3; ++c) {
+      weight += image.ErrorWeight(work.pixels[i], c) / 3 / Square(3 * values.channel[c]);
+    }
+    for (std::size_t k = i * work.spp; k < (i + 1) * work.spp; ++k) {
+      added += samples.recorded[2 * k + 1] - Square(samples.recorded[2 * k] - about);
+    }
+    variances[i] += added / work.spp * scale * weight;
+  }
+  return variances;
 }
 
 }  // namespace lanelight

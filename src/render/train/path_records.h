@@ -1,4 +1,4 @@
-// What training passes find out of paths, and variances from their few samples.
+// Records of paths in training passes, and variances from their few samples.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace lanelight {
 
-/// What a recording pass knows of a sample (kernels/roulette/training_records.cc).
+/// The record of a sample (kernels/roulette/training_records.cc).
 struct PathRecord {
   struct Vertex {
     std::uint32_t cell;
@@ -21,8 +21,8 @@ struct PathRecord {
   float end, depth;
   float risk[3];
 
-  /// What roulette on the throughput would add to the square of `end`, on average; zero
-  /// where rounding could have made it.
+  /// Returns what roulette on the throughput would add to the square of `end`, on
+  /// average; zero where rounding could have made it.
   double Risk() const {
     const double square = double{end} * end * risk[0];
     const double added = square - 2.0 * end * risk[1] + risk[2];
@@ -37,23 +37,42 @@ struct PathSamples : TrainingSamples {
 /// Reads the planes of PlaneGroup::kRecord, if there are any.
 PathSamples ReadRecords(TrainingSamples samples);
 
-/// What the image is like, by the samples of `work`.
+/// Estimates the image from the samples of `work`.
 ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
                       const TrainingWork& work);
 
-/// Variance of the mean of some pixels of `work` (their places in it), of a sample in
-/// each, as relative errors weigh it: of the means of observations, times the samples of
-/// one.
+/// Returns the variance of the mean of some pixels of `work` (their places in it), for
+/// one sample in each, as relative errors weigh it: the variance of the means of
+/// observations, times the samples of one.
 double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
                       const ImageGuess& image, std::span<const std::size_t> places);
 
-/// The same of each pixel by itself.
+/// Returns VarianceOfMean of each pixel by itself.
 std::vector<double> RelativeVariances(const TrainingSamples& samples,
                                       const TrainingWork& work, const ImageGuess& image);
 
-/// Variance with roulette on the throughput over that without, from the records of a pass
-/// without (PathRecord::Risk); the worst thousandth of the pixels counts in neither.
+/// Returns the variance with roulette on the throughput over that without, from the
+/// records of a pass without (PathRecord::Risk); omits the worst thousandth of the
+/// pixels.
 double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
                              const ImageGuess& image);
+
+/// Returns the value about which a pass with these values takes the moments of a pixel (y
+/// * width + x), as radiance: its brightness, by PathValues::inverse_pixel.
+double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixel);
+
+/// Variances of a sample by pixel, as RelativeVariances has them for `samples`, of the
+/// same strategy with roulette=throughput instead of splitting. `samples`: of a pass with
+/// `values` that records single-path moments (Feature::kRecordsSinglePaths); `variances`:
+/// its own.
+///
+/// The two differ by the second moments of independent samples: what stratified points
+/// take off is variance of the mean given the first numbers of a path, which decisions on
+/// its way leave as it is. A difference is taken to have the colour of the image. Of
+/// single pixels the result may be negative.
+std::vector<double> SinglePathVariances(const TrainingSamples& samples,
+                                        const TrainingWork& work, const ImageGuess& image,
+                                        const PathValues& values, float exposure,
+                                        std::vector<double> variances);
 
 }  // namespace lanelight

@@ -14,9 +14,9 @@ namespace {
 template <class Samples, class Copy>
 void ForEachTask(const std::vector<std::size_t>& begins, int rank, int ranks,
                  Samples& samples, const Copy& copy) {
-  const auto planes = static_cast<std::size_t>(samples.planes);
-  for (auto task = static_cast<std::size_t>(rank); task + 1 < begins.size();
-       task += static_cast<std::size_t>(ranks)) {
+  const auto planes = std::size_t(samples.planes);
+  for (auto task = std::size_t(rank); task + 1 < begins.size();
+       task += std::size_t(ranks)) {
     const std::size_t first = begins[task], count = begins[task + 1] - first;
     copy(samples.colors.data() + first, count);
     if (planes > 0) copy(samples.recorded.data() + first * planes, count * planes);
@@ -25,7 +25,7 @@ void ForEachTask(const std::vector<std::size_t>& begins, int rank, int ranks,
 
 }  // namespace
 
-// Before the samples of a rank, and of all ranks.
+// Precedes the samples of a rank, and of all ranks.
 struct RankPasses::Head {
   std::uint64_t rays_closest = 0, rays_shadow = 0, stopped = 0;
 

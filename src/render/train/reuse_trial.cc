@@ -1,6 +1,6 @@
-// Decides whether paths that serve their block (reuse=block) would pay, from a few
-// samples of whole tiles with and without, with the same random numbers: paths are the
-// same up to their second vertices, so that a rare bright one is in both.
+// Decides whether path reuse (reuse=block) is more efficient, from a few samples of whole
+// tiles with and without it, with the same random numbers: paths are the same up to their
+// second vertices, so a rare bright one is in both.
 #include <cmath>
 #include <map>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kBlockSpp = 8;
 constexpr int kSquare = 8;      // pixels per side
 constexpr double kClearBy = 1;  // standard errors
-// After a filter, where it has gained by pixels.
+// Least gain after a filter, if reuse gains by pixels.
 constexpr double kMayLose = 0.95;
 
 // Places of pixels in the work, by the square of the image that they are in.
@@ -48,11 +48,11 @@ std::vector<bool> Counted(const TriedStrategy& usual, const TrainingWork& work) 
   return counted;
 }
 
-// Of pixels that count, in squares of this side.
+// Returns the pixels that count, by squares of this side.
 Squares SquaresOf(const PreparedScene& scene, const TrainingWork& work,
                   const std::vector<bool>& counted, int side) {
-  const auto width = static_cast<std::uint32_t>(scene.view->film.width);
-  const auto each = static_cast<std::uint32_t>(side);
+  const auto width = std::uint32_t(scene.view->film.width);
+  const auto each = std::uint32_t(side);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> squares;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     if (!counted[i]) continue;
@@ -117,14 +117,17 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& usual,
 }
 
 std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
-                                                  std::uint64_t samples,
-                                                  double must_gain) {
+                                                  const TriedStrategy& chosen,
+                                                  double gain, std::uint64_t samples) {
   std::vector<TriedBlocks> tried;
+  const TriedStrategy& beside = chosen.splits ? usual : chosen;
+  if (beside.splits) return tried;
+  const double must_gain = chosen.splits ? gain : kMustGain;
   for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
-    const PlanOptions blocks = WithChanges(usual.scene, usual.options, changes);
-    if (!Takes(usual.scene, blocks)) break;
+    const PlanOptions blocks = WithChanges(beside.scene, beside.options, changes);
+    if (!Takes(beside.scene, blocks)) break;
     const TrainingWork work = MakeTileWork(scene_, samples, kBlockSpp);
-    const TriedBlocks found = CompareBlocks(usual, blocks, work, must_gain);
+    const TriedBlocks found = CompareBlocks(beside, blocks, work, must_gain);
     if (watcher_.Stopped()) break;
     tried.push_back(found);
     tried.back().changes = changes;

@@ -6,7 +6,6 @@
 
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/train/single_path_variances.h"
 #include "src/render/wave/wavefront.h"
 
 namespace lanelight {
@@ -22,8 +21,8 @@ constexpr double kMissing = 3;  // standard errors
 constexpr double kLeastPixels = 16;
 
 // A mean over pixels whose standard error is below this part of it needs no second
-// estimate. Where all is that even, what stratified points gain also hangs on the numbers
-// that decisions themselves use (a closed room), which copies know nothing of.
+// estimate. Where all is that even, what stratified points gain also depends on the
+// numbers that decisions themselves use (a closed room), which copies know nothing of.
 constexpr double kSure = 0.1;
 
 bool IsSure(const std::vector<double>& variances) {
@@ -32,8 +31,8 @@ bool IsSure(const std::vector<double>& variances) {
   return squares - sum * sum / double(variances.size()) <= kSure * kSure * sum * sum;
 }
 
-// Both estimate the same; but what has seen less bright samples than the other tells
-// nothing new, and where it is all noise it may be negative.
+// Averages two estimates of the same; but one that has seen fewer bright samples adds
+// nothing, and may be negative where it is all noise.
 TrialMeasure Both(const TrialMeasure& own, TrialMeasure single) {
   if (single.Variance() < own.Variance()) return own;
   for (std::size_t i = 0; i < own.variances.size(); ++i) {
@@ -42,7 +41,8 @@ TrialMeasure Both(const TrialMeasure& own, TrialMeasure single) {
   return single;
 }
 
-// Nothing but the roulette differs, and paths survive it with a higher probability.
+// Returns whether only the roulette differs, and paths survive it with a higher
+// probability.
 bool LivesLonger(Strategy changed, const Strategy& usual) {
   const bool longer =
       changed.roulette == Roulette::kNone ||
@@ -60,7 +60,7 @@ bool LivesLonger(Strategy changed, const Strategy& usual) {
   return changed == usual;
 }
 
-// It splits what otherwise plays the roulette that the records tell of.
+// Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& usual) {
   const Strategy given = PlannedStrategy(usual.scene, usual.options);
   return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
@@ -68,7 +68,7 @@ bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& usual) 
          tried.changes == "roulette=adjoint";
 }
 
-// Without any error at all it is exact.
+// Returns whether few pixels carry the error; without any error it is exact.
 bool IsFew(const std::vector<double>& variances) {
   const double pixels = EffectivePixels(variances);
   return pixels > 0 && pixels < kLeastPixels;
@@ -105,7 +105,7 @@ double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
     return 0;
   }
   if (IsCarriedByFew() && !IsToldByTheRest()) return 0;
-  // What has not seen the usual strategy's bright samples may owe its gain to one.
+  // A pass without the usual strategy's bright samples may owe its gain to one of them.
   if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
     return 0;
   }
@@ -120,6 +120,7 @@ TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
   tried.scene = scene;
   tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
   tried.tables = MakeStrategyTables(scene);
+  tried.splits = PlannedStrategy(scene, tried.options).Splits();
   return tried;
 }
 
@@ -178,7 +179,7 @@ TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
 
 bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
   if (!tried.has_learned) {
-    // It may have found that it had better be something else.
+    // Training may have changed the strategy.
     const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
     tried.options = WithChanges(tried.scene, tried.options, learned.changes);
     tried.has_learned = true;

@@ -1,23 +1,67 @@
-// A trial of strategies on the same pixels: what each learns, costs and scatters. Of
-// decide=pilot, and of `lanelight advise`. It hangs on scene, settings and seed alone:
+// A trial of strategies on the same pixels: what each learns, costs and scatters, for
+// decide=pilot and `lanelight advise`. It depends on scene, settings and seed alone:
 // costs are counted in rays.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "src/render/train/decision_candidates.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
 #include "src/render/train/trial_comparison.h"
-#include "src/render/wave/stop_watcher.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 
-/// What a pass found of the image's light, pixels weighed as relative errors weigh them.
+/// A change of the strategy that may be more efficient.
+struct DecisionCandidate {
+  const char* changes;  // as in --strategy
+  const char* reason;   // when it is more efficient
+  /// Processor time of a counted ray (TrainingSamples::Cost) over that without the
+  /// change, and how far the logarithm of that scatters from scene to scene.
+  double price, price_spread;
+};
+
+/// Least gain for which a change is chosen: a wrong change costs more than a missed one.
+inline constexpr double kMustGain = 1.05;
+
+/// Processor time of a counted ray with reuse=block relative to that without, and its
+/// scatter.
+inline constexpr double kReusePrice = 1.2, kReusePriceSpread = 0.27;
+
+// Costs are counted in rays, so that a choice depends on the scene only; prices make
+// up for what rays do not say. They are means over 32 scenes, 96 pixels wide, 64 spp, one
+// thread, AVX-512, and so are their spreads. What a sample costs beside its rays and what
+// a shadow ray costs have no part in them: with a constant per sample, or other weights
+// of shadow rays, they scatter as much.
+//
+// Left out: directions=bsdf and light, which differ from combining both most in rare
+// bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
+// combining is never much worse than either, one alone can be); roulette=efficiency
+// (where it gains adjoint does too, and it needs two more passes to learn its factors),
+// and what has never won: roulette=luminance (0.66 to 1.03 on five scenes), control
+// variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98), uniform directions, antithetic
+// pairs, which undo what strata gain, a constant roulette.
+inline constexpr DecisionCandidate kDecisionCandidates[] = {
+    {"roulette=adjoint", "gains where little of the scene carries the light", 1.17, 0.19},
+    {"roulette=throughput:0:2:4", "gains where later events of paths carry much light",
+     1.0, 0.13},
+    // Only those above may be chosen without being asked for. With the next but one paths
+    // may not end.
+    {"roulette=throughput:0:5", "gains where bright light arrives after a few events",
+     1.02, 0.15},
+    {"roulette=none", "gains where paths are short or end late on bright lights", 1.02,
+     0.19},
+    {"light-selection=tree", "gains with many lights, each near a part of the scene", 1.1,
+     0.4},
+};
+inline constexpr std::size_t kDecidedUnasked = 2;  // the first ones
+
+/// The image's light by one pass, pixels weighted as in relative errors.
 struct TrialLight {
   double sum = 0, standard_error = 0;
 };
@@ -29,8 +73,10 @@ struct TriedStrategy {
   PreparedScene scene;  // for all of the strategy that is not a change of the plan
   PlanOptions options;
   StrategyTables tables;
+  /// The strategy as asked for splits paths, which path reuse cannot do.
+  bool splits = false;
   bool has_learned = false;
-  /// Its paths live longer than those of the usual strategy, and nothing else differs: a
+  /// Its paths live longer than those of the usual strategy, and nothing else differs. A
   /// path that survives with a higher probability is divided by a larger number, so no
   /// sample varies more.
   bool lives_longer = false;
@@ -39,74 +85,79 @@ struct TriedStrategy {
   TrialMeasure usual;    // of the usual strategy: what `measure` is compared with
   TrialLight light, usual_light;
 
-  /// Clearly less than the usual strategy has found: what is missing comes in bright
-  /// samples too rare to be seen, and so the variance is not seen either.
+  /// Returns whether it finds clearly less light than the usual strategy: the rest comes
+  /// in bright samples too rare to be seen, so its variance is underestimated.
   bool MissesLight() const;
-  /// Few pixels carry its own error: with more samples others would come, brighter ones
-  /// too, and of how much they add a pass has seen nothing. A pair is no help: a bright
-  /// sample that copies tell of twice is in both measures, and makes them look alike.
+  /// Returns whether few pixels carry its error: more samples would find others, brighter
+  /// ones too, whose share is unknown. A pair does not help: a bright sample that copies
+  /// repeat is in both measures.
   bool IsCarriedByFew() const;
-  /// The same, or of the usual strategy, where it varies no more (`lives_longer`): what
-  /// few pixels say against it is chance, and all others tell.
+  /// Returns whether few pixels carry its error or the usual one's, although it varies no
+  /// more (`lives_longer`): then all other pixels decide.
   bool IsToldByTheRest() const;
 
-  /// How many times as efficient as the usual one it is, by all pixels; by all but the
-  /// worst thousandth if it is told by the rest.
+  /// Returns its efficiency relative to the usual strategy by all pixels, or by all but
+  /// the worst thousandth if it is told by the rest.
   TrialGain Told() const;
-  /// The same without any one pixel, and if it is not paired without the worst
-  /// thousandth, whichever is least.
+  /// Returns the least gain without any one pixel and, unless it is paired, without the
+  /// worst thousandth.
   TrialGain Gain() const;
-  /// The logarithm of its gain over `must_gain`, if that is clear by so many standard
-  /// errors, and it neither misses light nor is carried by few; else 0.
+  /// Returns the logarithm of its gain over `must_gain` if that is clear by so many
+  /// standard errors, and it neither misses light nor is carried by few pixels; else 0.
   double Beyond(double must_gain, double standard_errors) const;
 };
 
-/// A change of the strategy that plans of `options` have, nothing known of it yet. What
-/// is tried together has the same scene and view.
+/// Prepares a change of the strategy of `options` for a trial. Strategies that are tried
+/// together have the same scene and view.
 TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
                     const std::string& changes, double price);
 
-/// Paths that serve their block (reuse=block) beside a strategy, and what whole tiles say
-/// of them.
+/// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
 struct TriedBlocks {
   const char* changes = "";  // as in --strategy
   bool pays_per_pixel = false, pays = false;
-  /// How many times as efficient it is, by pixels and by squares of 8 x 8 of them: errors
-  /// of the pixels of a block have much in common, so that a filter takes less away.
+  /// Relative efficiency by pixels, and by squares of 8 x 8 pixels: errors of the pixels
+  /// of a block have much in common, so a filter removes less of them.
   TrialGain gain;
   double per_pixel = 1, filtered = 1;
 };
 
 class StrategyTrial {
  public:
-  /// Strategies learn as for a render of `planned` samples. Refers to scene and training.
+  /// Strategies learn as for a render of `planned` samples. Keeps references to scene and
+  /// training.
   StrategyTrial(const PreparedScene& scene, const TrainingOptions& training,
                 std::uint32_t seed, std::uint64_t planned);
 
-  /// From here on about so many samples are rendered of each strategy, so many in each
-  /// pixel; those of each `turn` are of other pixels.
+  /// Renders about so many samples of each strategy from here on, `spp` in each pixel;
+  /// each `turn` has other pixels.
   void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t turn = 0);
-  /// Has it learn, if it has not yet, renders the pixels and fills its measures. The
-  /// first that is tried is the usual strategy. False: the user has stopped it.
+  /// Trains the strategy if needed, renders the pixels and fills its measures. The first
+  /// one tried is the usual strategy. Returns false if the user has stopped it.
   bool Try(TriedStrategy& tried, const TriedStrategy& usual);
 
-  /// Blocks of 64 paths beside a strategy that was tried, with about so many samples of
-  /// whole tiles, and of 32 if those pay by pixels and not after a filter: smaller ones
-  /// gain less by pixels, and more after a filter. The last is the one to take, if it
-  /// pays: clearly by pixels (also without any one tile, tiles being independent), by
-  /// more than `must_gain`, and without a loss by squares. None where the scene or the
-  /// strategy does not take them, or after an interrupt.
-  std::vector<TriedBlocks> TryBlocks(const TriedStrategy& usual, std::uint64_t samples,
-                                     double must_gain);
+  /// Tries path reuse beside the chosen strategy, whose efficiency relative to the usual
+  /// one is `gain`. Where the chosen one splits paths, reuse takes its place beside the
+  /// usual one if it gains more; where both split, nothing is tried.
+  ///
+  /// Renders about so many samples of whole tiles with blocks of 64 paths, and with
+  /// blocks of 32 if those pay by pixels and not after a filter: smaller blocks gain less
+  /// by pixels, and more after a filter. The last result is the one to take, if it pays:
+  /// clearly by pixels (also without any one tile, tiles being independent), and without
+  /// a loss by squares. Empty where the scene or the strategy refuses reuse, or after an
+  /// interrupt.
+  std::vector<TriedBlocks> TryBlocks(const TriedStrategy& usual,
+                                     const TriedStrategy& chosen, double gain,
+                                     std::uint64_t samples);
 
-  /// What the strategy learns for so many planned samples.
+  /// Trains the strategy for so many planned samples.
   TrainingOutcome Learn(const TriedStrategy& tried, std::uint64_t planned,
                         StrategyTables& tables);
 
   bool Stopped() const { return watcher_.Stopped(); }
-  /// Of one pass.
+  /// Returns the samples of one pass.
   std::uint64_t samples() const { return work_.samples(); }
-  /// Samples and rays of all passes so far.
+  /// Returns samples and rays of all passes so far.
   const TrainingOutcome& spent() const { return spent_; }
 
  private:

@@ -30,8 +30,6 @@
 
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
-#include "src/render/plan/plan_key.h"
-#include "src/render/train/decision_candidates.h"
 #include "src/render/train/strategy_trial.h"
 #include "src/render/wave/run_options.h"
 
@@ -66,7 +64,7 @@ class Decider {
     }
     TriedStrategy* chosen = &entries_.front();
     if (entries_.size() == 1) {
-      note_ = "no candidate does anything else here";
+      note_ = "no candidate changes this render";
     } else if (planned_ / kCompared < kLeastToCompare) {
       note_ = "the image has too few samples to compare";
     } else {
@@ -86,7 +84,7 @@ class Decider {
     TriedStrategy entry = ToTry(scene_, options_, changes, price);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
-      if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) return;
+      if (std::ranges::find(keys_, key) != keys_.end()) return;
       keys_.push_back(key);
     } catch (const InputError&) {
       if (entries_.empty()) throw;
@@ -103,26 +101,18 @@ class Decider {
     return Choose();
   }
 
-  // Returns whether the strategy as given splits paths with these changes, before its
-  // training.
-  bool Splits(const std::string& changes) const {
-    return PlannedStrategy(scene_, WithChanges(scene_, options_, changes)).Splits();
-  }
-
-  // Tries path reuse beside what has been chosen. Where that splits paths, it is one or
-  // the other; where the strategy as given does, reuse is not tried.
+  // Tries path reuse beside what has been chosen, or in its place where that splits
+  // paths.
   void TryBlocksBeside(TriedStrategy& chosen) {
-    const bool splits = Splits(chosen.changes);
-    if (splits && Splits("")) return;
-    const double must_gain = splits ? std::exp(chosen.Gain().log) : kMustGain;
-    TriedStrategy usual = splits ? entries_.front() : chosen;
+    const double gain = chosen.changes.empty() ? 1 : std::exp(chosen.Gain().log);
+    TriedStrategy reused = chosen.splits ? entries_.front() : chosen;
     for (const TriedBlocks& blocks :
-         trial_.TryBlocks(usual, planned_ / kTiled, must_gain)) {
+         trial_.TryBlocks(entries_.front(), chosen, gain, planned_ / kTiled)) {
       note_ += fmt::format("; {} is {:.2f} times as efficient, {:.2f} after a filter",
                            blocks.changes, blocks.per_pixel, blocks.filtered);
       if (!blocks.pays) continue;
-      usual.changes = JoinedChanges(usual.changes, blocks.changes);
-      chosen = std::move(usual);
+      reused.changes = JoinedChanges(reused.changes, blocks.changes);
+      chosen = std::move(reused);
     }
   }
 

@@ -17,7 +17,7 @@
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
 #include "src/render/train/trial_comparison.h"
-#include "src/render/wave/stop_watcher.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/geometry/geometry.h"
@@ -36,7 +36,7 @@ struct Candidate : TrialMeasure {
   Roulette roulette = Roulette::kThroughput;
   double scale = 1;
 
-  // Of the fixed point: what the next pass weighs variance and cost with.
+  // Returns the weight of variance against cost in the next pass of the fixed point.
   double Scale() const {
     const double variance = RobustMean(variances);
     return variance > 0 ? std::sqrt(cost / variance) : 1;
@@ -112,7 +112,7 @@ class Pilot {
     CellRecords records(values_.grid.cells());
     if (!image_->black()) Deposit(samples, records);
     SetCellValues(records, efficiency_, values_);
-    outcome_.note = fmt::format("{} pilot samples", outcome_.samples);
+    outcome_.note = fmt::format("{} training samples", outcome_.samples);
     return samples;
   }
 
@@ -149,11 +149,11 @@ class Pilot {
   Candidate MeasureSplitting(const Candidate& throughput) {
     Candidate best, last = throughput;
     for (int pass = 0; pass < 2; ++pass) {
-      values_.scale = static_cast<float>(last.Scale());
+      values_.scale = float(last.Scale());
       last = Measure(Roulette::kEfficiency, Pass(kMeasure, Roulette::kEfficiency, work_));
       if (pass == 0 || last.Score() < best.Score()) best = last;
     }
-    values_.scale = static_cast<float>(best.scale);
+    values_.scale = float(best.scale);
     return best;
   }
 
@@ -187,7 +187,7 @@ class Pilot {
                                 : plain.roulette;
     outcome_.changes = Change(chosen);
     outcome_.note = fmt::format(
-        "{} pilot samples: efficiency relative to throughput {:.2f} without roulette, "
+        "{} training samples: efficiency relative to throughput {:.2f} without roulette, "
         "{:.2f} with splitting; rendered with roulette={}",
         outcome_.samples, gain_of_none_, throughput.Score() / splitting.Score(),
         Name(chosen));

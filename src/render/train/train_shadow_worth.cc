@@ -11,7 +11,7 @@
 #include "src/render/train/path_records.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
-#include "src/render/wave/stop_watcher.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/prepared_scene.h"
@@ -42,7 +42,7 @@ TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& w
 double UsualVariance(const std::vector<double>& variances) {
   double sum = 0;
   for (double v : variances) sum += std::sqrt(v);
-  const double mean = sum / static_cast<double>(variances.size());
+  const double mean = sum / double(variances.size());
   return mean * mean;
 }
 
@@ -59,13 +59,13 @@ TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
   const double variance = UsualVariance(RelativeVariances(pass, work, image));
   const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
   const Film& film = context.scene.view->film;
-  worth.inverse = InverseShadowWorth(
-      image, static_cast<std::uint32_t>(film.width * film.height),
-      std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});
+  worth.inverse = InverseShadowWorth(image, std::uint32_t(film.width * film.height),
+                                     std::sqrt(kStratified * variance * share),
+                                     double{ExposureOf(context.scene)});
   TrainingOutcome outcome;
   outcome.samples = pass.colors.size();
   outcome.rays = pass.rays();
-  outcome.note = fmt::format("{} pilot samples for shadow rays", outcome.samples);
+  outcome.note = fmt::format("{} training samples for shadow rays", outcome.samples);
   return outcome;
 }
 

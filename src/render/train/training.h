@@ -1,14 +1,15 @@
-// Training: short renders before the image whose samples never enter it, from which a
-// strategy learns. A strategy asks for one with a feature that its choice turns on
-// (src/vocabulary/strategy/choices.h); its pass may turn on further features
-// (PlanOptions::training), and with them columns, stages and planes of its own; what it
-// learns goes into StrategyTables (kept: trained_tables.h). Results do not depend on the
-// number of threads.
+// Training: short renders before the image, whose samples never enter it. A strategy asks
+// for it with a feature that its choice turns on (src/vocabulary/strategy/choices.h). Its
+// pass may turn on further features (PlanOptions::training), with columns, stages and
+// planes of its own; results go into StrategyTables. They do not depend on the number of
+// threads.
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/render/plan/plan.h"
 #include "src/render/wave/run_state.h"
@@ -25,14 +26,15 @@ struct TrainingOptions {
   RankPasses* ranks = nullptr;  // that train together (src/render/train/rank_passes.h)
 };
 
-/// Planned samples beyond which the pilot of decide=pilot does not grow, and that it is
-/// planned for at least: fewer do not show what the rare bright samples do that matter.
+/// Least and most planned samples of the trial run of decide=pilot: fewer do not show the
+/// rare bright samples that matter.
 inline constexpr std::uint64_t kMostDecidedBy = std::uint64_t{1} << 25;
 inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 23;
-/// What that is for an image of so many pixels, unless a time budget says it.
+/// Returns the planned samples of the trial run for an image of so many pixels, without a
+/// time budget.
 std::uint64_t DecidedBy(std::uint64_t pixels);
 
-/// What a training knows: `plan` and `seed` are those of the image.
+/// Inputs of a training: `plan` and `seed` are those of the image.
 struct TrainingContext {
   const PreparedScene& scene;
   const Plan& plan;
@@ -53,10 +55,26 @@ LANELIGHT_TRAININGS(X)
 #undef X
 TrainingOutcome TrainDecision(const TrainingContext& context);
 
-/// A strategy of the plan asks for training.
+/// Returns whether the plan's strategy needs training.
 bool NeedsTraining(const Plan& plan);
 
-/// Runs what the plan's strategy asks for.
+/// Runs the trainings that the plan's strategy needs.
 TrainingOutcome Train(const TrainingContext& context);
+
+/// Returns the values of a table. Throws InputError for an unknown name.
+const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
+                                   const std::string& name);
+
+/// Returns what Train has stored in the tables.
+std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);
+
+/// Restores them bit by bit into tables of MakeStrategyTables, for an image of so many
+/// pixels (the full one). Kernels do not check what they look up: throws InputError for
+/// tables that are missing, have a wrong size, or do not match each other.
+void PutTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
+                 StrategyTables& tables);
+
+/// Throws InputError if kernels of the plan read tables that are still empty.
+void CheckTrained(const Plan& plan, const StrategyTables& tables);
 
 }  // namespace lanelight

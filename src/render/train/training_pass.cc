@@ -10,7 +10,6 @@
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/rank_passes.h"
 #include "src/render/wave/block_reuse.h"
-#include "src/render/wave/copies.h"
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
@@ -43,12 +42,12 @@ class Pass {
         ranks_(pass.ranks),
         watcher_(ranks_ != nullptr ? &ranks_->watcher() : pass.watcher),
         copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
-    wavefronts_.resize(static_cast<std::size_t>(ThreadSlots()));
+    wavefronts_.resize(std::size_t(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
     samples_.observations = own_points_ ? kReplicates : work.spp;
     LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
-    samples_.recorded.resize(work.samples() * static_cast<std::size_t>(samples_.planes));
+    samples_.recorded.resize(work.samples() * std::size_t(samples_.planes));
   }
 
   TrainingSamples Run() {
@@ -81,7 +80,6 @@ class Pass {
     return begins;
   }
 
-  // The same in samples.
   std::vector<std::size_t> SampleBegins(std::vector<std::size_t> begins) const {
     for (std::size_t& begin : begins) begin *= work_.spp;
     return begins;
@@ -91,20 +89,20 @@ class Pass {
     RunParameters run = MakeRunParameters(scene_, plan_);
     run.seed = pass.seed ^ 0x5bd1e995u;  // apart from the image's
     run.tables = pass.tables;
-    // Without points of its own every sample is randomised anew: independent.
+    // Without the strategy's points every sample is independent.
     if (!own_points_) run.points.group_shift = 0;
     return run;
   }
 
   void RunTask(std::size_t task, std::size_t first, std::size_t pixels) {
-    auto& wavefront = wavefronts_[static_cast<std::size_t>(ThreadIndex())];
+    auto& wavefront = wavefronts_[std::size_t(ThreadIndex())];
     if (!wavefront) wavefront = std::make_unique<Wavefront>(scene_, plan_, run_);
     TileWork work;
     work.pixels = work_.pixels.data() + first;
-    work.num_pixels = static_cast<std::uint32_t>(pixels);
+    work.num_pixels = std::uint32_t(pixels);
     work.samples = work_.spp;
     const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
-    const auto planes = static_cast<std::size_t>(run_.planes.count());
+    const auto planes = std::size_t(run_.planes.count());
     std::vector<float> values(rows * planes);
     std::optional<BlockReuse> reuse;
     if (plan_.features.Has(Feature::kReuse)) {
@@ -148,7 +146,7 @@ TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
   const std::uint64_t count = std::max<std::uint64_t>(samples / spp, 1);
   if (count >= all.size()) {
     const std::uint64_t more = std::max<std::uint64_t>(samples / all.size(), spp);
-    return {std::move(all), {}, static_cast<std::uint32_t>(more)};
+    return {std::move(all), {}, std::uint32_t(more)};
   }
   // Whole blocks, if there are enough: rays of neighbours are traced together.
   const std::uint64_t run = RunLength(count, spp), runs = count / run;
@@ -191,8 +189,7 @@ TrainingWork FewOf(const TrainingWork& work) {
   const std::size_t run = RunLength(work.pixels.size(), work.spp);
   const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
   TrainingWork few;
-  few.spp =
-      std::max(work.spp * static_cast<std::uint32_t>(step) / 16, TrainingWork::kLeastSpp);
+  few.spp = std::max(work.spp * std::uint32_t(step) / 16, TrainingWork::kLeastSpp);
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     if (i / run % step == 0) few.pixels.push_back(work.pixels[i]);
   }

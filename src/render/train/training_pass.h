@@ -1,5 +1,5 @@
-// One training pass: a few samples of some pixels, kept in memory as they are, with what
-// the strategy's own stages have recorded of them.
+// One training pass: a few samples of some pixels, kept in memory, with what the
+// strategy's stages have recorded of them.
 #pragma once
 
 #include <vector>
@@ -15,20 +15,20 @@ namespace lanelight {
 class RankPasses;   // src/render/train/rank_passes.h
 class TaskWatcher;  // src/render/wave/task_watcher.h
 
-/// Price of a ray that only asks for a hit, over that of one that finds the closest and
-/// leads to shading there.
+/// Cost of a shadow ray relative to a ray that finds the closest hit and leads to
+/// shading.
 inline constexpr double kShadowRayCost = 0.5;
 
 /// What a pass renders with.
 struct TrainingPass {
   const PreparedScene& scene;
-  /// `training` says what is recorded: by default nothing. No auxiliary planes are kept.
+  /// `training` says what is recorded (default: nothing). Auxiliary planes are omitted.
   PlanOptions options;
   const StrategyTables* tables = nullptr;
   std::uint32_t seed = 0;  // of a render: the pass has random numbers apart from it
-  /// The samples are of no use where it has cancelled some; null: nobody does.
+  /// May cancel tasks, whose samples are then invalid; may be null.
   const TaskWatcher* watcher = nullptr;
-  /// With whom the tasks are shared, whose watcher counts then; null: with nobody.
+  /// Ranks that share the tasks, whose watcher then counts; may be null.
   RankPasses* ranks = nullptr;
 };
 
@@ -37,7 +37,7 @@ struct TrainingPass {
 struct TrainingWork {
   static constexpr std::uint32_t kLeastSpp = 4;
   std::vector<std::uint32_t> pixels;  // y * width + x
-  /// Whose pixels these are, one tile after the other; empty: of none.
+  /// The tiles that these are the pixels of, one after the other; may be empty.
   std::vector<PixelRect> tiles;
   std::uint32_t spp = kLeastSpp;
 
@@ -48,30 +48,30 @@ struct TrainingSamples {
   std::vector<Vec3f> colors;    // of a pixel one after the other
   std::vector<float> recorded;  // the planes behind the colour, sample by sample
   int planes = 0;               // how many these are
-  // Of each pixel, as many samples in each: they are independent, samples of one are not
+  // Independent observations of each pixel, with equally many samples
   // (PlanOptions::own_points).
   std::uint32_t observations = 1;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 
   std::uint64_t rays() const { return rays_closest + rays_shadow; }
-  /// Of a sample, in rays that find the closest hit and lead to shading there.
+  /// Returns the cost of a sample, in rays that find the closest hit and lead to shading.
   double Cost() const {
     return (double(rays_closest) + kShadowRayCost * double(rays_shadow)) /
            double(colors.size());
   }
 };
 
-/// About `samples` samples (at least four): spread evenly over the rendered window, `spp`
-/// of a pixel or more. Each `turn` has pixels of its own, unless all of them are taken.
+/// Chooses about `samples` samples (at least four), spread evenly over the rendered
+/// window, `spp` or more per pixel. Each `turn` has other pixels, unless all are taken.
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
                               std::uint32_t spp = TrainingWork::kLeastSpp,
                               std::uint64_t turn = 0);
 
-/// The same of whole tiles, as reuse=block needs them.
+/// Chooses whole tiles, as reuse=block needs them.
 TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,
                           std::uint32_t spp);
 
-/// About a sixteenth of it.
+/// Returns about a sixteenth of the work.
 TrainingWork FewOf(const TrainingWork& work);
 
 /// Renders the samples. The result does not depend on the number of threads.

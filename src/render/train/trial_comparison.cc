@@ -9,17 +9,17 @@
 namespace lanelight {
 namespace {
 
-// What a pixel adds to the scores of both.
+// Scores of a pixel under both strategies.
 struct PixelScores {
   double other, usual;
-  // By the worse of both; what is equal is equal in all.
+  // Orders by the worse of both scores.
   bool operator<(const PixelScores& o) const {
     const double own = std::max(other, usual), its = std::max(o.other, o.usual);
     return own != its ? own < its : std::min(other, usual) < std::min(o.other, o.usual);
   }
 };
 
-// Those that count.
+// Returns the scores of the pixels that count.
 std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& usual) {
   LL_CHECK_EQ(other.variances.size(), usual.variances.size());
   std::vector<PixelScores> pixels;
@@ -36,10 +36,9 @@ std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& u
 std::size_t KeptOf(std::size_t n) { return n - std::min(n / 16, (n + 999) / 1000); }
 
 double RobustMean(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   values.resize(KeptOf(values.size()));
-  return std::accumulate(values.begin(), values.end(), 0.0) /
-         static_cast<double>(values.size());
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 double TrialMeasure::Variance() const {
@@ -96,7 +95,7 @@ bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& usual, doubl
     const double loss = pixel.other - margin * pixel.usual;
     sum += loss, squares += loss * loss;
   }
-  const double n = static_cast<double>(pixels.size());
+  const double n = double(pixels.size());
   const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
   return sum + standard_errors * error < 0 && other.Score() < margin * usual.Score();
 }

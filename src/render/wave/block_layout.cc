@@ -1,4 +1,4 @@
-#include "src/render/wave/block_layout.h"
+#include "src/render/wave/block_reuse.h"
 
 #include <algorithm>
 #include <bit>
@@ -13,18 +13,17 @@ struct Random {
 
   std::uint32_t Next() {
     state = state * 6364136223846793005ull + 1442695040888963407ull;
-    const auto shifted = static_cast<std::uint32_t>(((state >> 18) ^ state) >> 27);
-    return std::rotr(shifted, static_cast<int>(state >> 59));
+    const auto shifted = std::uint32_t(((state >> 18) ^ state) >> 27);
+    return std::rotr(shifted, int(state >> 59));
   }
   /// In [0, n).
   std::uint32_t Below(std::uint32_t n) {
-    return static_cast<std::uint32_t>((std::uint64_t{Next()} * n) >> 32);
+    return std::uint32_t((std::uint64_t{Next()} * n) >> 32);
   }
 };
 
 Random RandomOf(const BlockKey& key) {
-  const auto tile = static_cast<std::uint64_t>(key.tile.y0) << 32 |
-                    static_cast<std::uint32_t>(key.tile.x0);
+  const auto tile = std::uint64_t(key.tile.y0) << 32 | std::uint32_t(key.tile.x0);
   Random random{tile * 0x9e3779b97f4a7c15ull ^
                 (std::uint64_t{key.seed} << 32 | key.sample)};
   random.Next();
@@ -33,24 +32,24 @@ Random RandomOf(const BlockKey& key) {
 }
 
 void EndEvery(std::uint32_t paths, BlockOrder& order) {
-  const auto pixels = static_cast<std::uint32_t>(order.places.size());
+  const auto pixels = std::uint32_t(order.places.size());
   for (std::uint32_t end = paths; end < pixels; end += paths) order.ends.push_back(end);
   order.ends.push_back(pixels);
 }
 
 void Shuffle(Random& random, std::vector<std::uint32_t>& places) {
-  for (auto i = static_cast<std::uint32_t>(places.size()); i > 1; --i) {
+  for (auto i = std::uint32_t(places.size()); i > 1; --i) {
     std::swap(places[i - 1], places[random.Below(i)]);
   }
 }
 
-// Where TilePixels puts a pixel of the tile (4x4 blocks, those at the right and lower
-// edge cut off).
+// Returns the place of a pixel in TilePixels (4x4 blocks, cut off at the right and lower
+// edge).
 std::uint32_t PlaceOf(int x, int y, int width, int height) {
   constexpr int kSide = 4;
   const int bx = x / kSide * kSide, by = y / kSide * kSide;
   const int rows = std::min(kSide, height - by), columns = std::min(kSide, width - bx);
-  return static_cast<std::uint32_t>(by * width + bx * rows + (y - by) * columns + x - bx);
+  return std::uint32_t(by * width + bx * rows + (y - by) * columns + x - bx);
 }
 
 // Rectangles of 2^n pixels, nearly square, of every `stride`th pixel, on a grid that is
@@ -60,27 +59,27 @@ void Rectangles(Random& random, const PixelRect& tile, int stride, BlockOrder& o
   const int log = std::countr_zero(paths);
   const int block_width = 1 << ((log + 1) / 2), block_height = 1 << (log / 2);
   const int width = tile.width(), height = tile.height();
-  const auto shift_x = static_cast<int>(random.Below(static_cast<std::uint32_t>(width)));
-  const auto shift_y = static_cast<int>(random.Below(static_cast<std::uint32_t>(height)));
+  const auto shift_x = int(random.Below(std::uint32_t(width)));
+  const auto shift_y = int(random.Below(std::uint32_t(height)));
   order.keys.clear();
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int u = (x + shift_x) % width, v = (y + shift_y) % height;
       const int bx = u / (block_width * stride) * stride + u % stride;
       const int by = v / (block_height * stride) * stride + v % stride;
-      const auto block = static_cast<std::uint64_t>(by * (width + stride) + bx);
+      const auto block = std::uint64_t(by * (width + stride) + bx);
       order.keys.push_back(block << 32 | PlaceOf(x, y, width, height));
     }
   }
-  std::sort(order.keys.begin(), order.keys.end());
+  std::ranges::sort(order.keys);
   order.places.clear();
   for (std::size_t i = 0; i < order.keys.size(); ++i) {
     if (i > 0 && order.keys[i] >> 32 != order.keys[i - 1] >> 32) {
-      order.ends.push_back(static_cast<std::uint32_t>(i));
+      order.ends.push_back(std::uint32_t(i));
     }
-    order.places.push_back(static_cast<std::uint32_t>(order.keys[i]));
+    order.places.push_back(std::uint32_t(order.keys[i]));
   }
-  order.ends.push_back(static_cast<std::uint32_t>(order.keys.size()));
+  order.ends.push_back(std::uint32_t(order.keys.size()));
 }
 
 }  // namespace
@@ -90,7 +89,7 @@ void LayOutBlocks(const BlockKey& key, BlockLayout layout, std::uint32_t paths,
   Random random = RandomOf(key);
   order.ends.clear();
   if (layout == BlockLayout::kRandom) {
-    order.places.resize(static_cast<std::size_t>(key.tile.pixels()));
+    order.places.resize(std::size_t(key.tile.pixels()));
     std::iota(order.places.begin(), order.places.end(), 0u);
     Shuffle(random, order.places);
     EndEvery(paths, order);
@@ -98,7 +97,7 @@ void LayOutBlocks(const BlockKey& key, BlockLayout layout, std::uint32_t paths,
     Rectangles(random, key.tile, layout == BlockLayout::kApart ? 2 : 1, order, paths);
   }
   order.numbers.resize(order.ends.size());
-  for (float& u : order.numbers) u = static_cast<float>(random.Next() >> 8) * 0x1p-24f;
+  for (float& u : order.numbers) u = float(random.Next() >> 8) * 0x1p-24f;
 }
 
 }  // namespace lanelight

@@ -10,9 +10,9 @@
 namespace lanelight {
 namespace {
 
-// Of every kind of material that receives, a vector may be padded.
+// The vectors of every kind of receiving material may be padded.
 constexpr std::uint32_t kMostReceivers =
-    kMostReusedPaths + kMostLanes * static_cast<std::uint32_t>(kNumShadeKinds);
+    kMostReusedPaths + kMostLanes * std::uint32_t(kNumShadeKinds);
 
 std::uint32_t KindsOf(const FeatureSet& features) {
   std::uint32_t kinds = 0;
@@ -41,7 +41,7 @@ class Placer {
   std::size_t stride_;
 };
 
-// Of the columns of paths those that are live and in `fields`, to columns of `to`.
+// Copies live columns of `paths` that are in `fields` to columns of `to`.
 KeptColumns Keep(FieldSet fields, const PathColumns& paths, PathColumns& to,
                  Placer& placer) {
   KeptColumns kept;
@@ -60,7 +60,7 @@ template <class Columns>
 constexpr std::size_t kColumnsOf = sizeof(Columns) / sizeof(void*);
 constexpr std::size_t kRayColumns = 14;  // PlacePairs
 
-// Of second vertices that send light those that roulette leaves.
+// Part of the second vertices with light that roulette keeps.
 constexpr double kKeptSuffixes = 0.5;
 
 }  // namespace
@@ -108,7 +108,7 @@ void BlockReuse::PlacePairs() {
   Placer rest(rays.end(), receivers);
   rest.Place(block_.receivers);
   for (float*& sums : block_.sums) rest.Place(sums);
-  wave_.capacity = static_cast<std::uint32_t>(most);
+  wave_.capacity = std::uint32_t(most);
 }
 
 void BlockReuse::MakeRoom(std::uint32_t samples, const PathColumns& paths) {
@@ -141,8 +141,7 @@ void BlockReuse::Begin(const TileWork& work, Wave& paths) {
   const std::uint32_t samples = work.num_pixels * work.samples;
   LL_CHECK_LT(samples, 1u << 21);  // kernels/reuse/block-inl.h
   MakeRoom(samples, paths.path);
-  std::fill_n(block_.second.state, samples,
-              static_cast<std::uint32_t>(ReuseState::kNoVertex));
+  std::fill_n(block_.second.state, samples, std::uint32_t(ReuseState::kNoVertex));
   for (Wave* wave : {&first_, &glossy_, &wave_}) {
     static_cast<SceneParts&>(*wave) = paths;
     wave->run = paths.run;
@@ -185,9 +184,9 @@ float BlockReuse::SurelyKept(std::uint32_t sample) {
         ++bright;
       }
     }
-    if (!(dim > 0 && bright < kept)) return static_cast<float>(c);
+    if (!(dim > 0 && bright < kept)) return float(c);
     const double next = dim / (kept - bright);
-    if (!(next < c)) return static_cast<float>(c);
+    if (!(next < c)) return float(c);
     c = next;
   }
 }

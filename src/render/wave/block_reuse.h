@@ -6,23 +6,44 @@
 #include <vector>
 
 #include "src/base/core/untouched.h"
+#include "src/base/image/pixel_rect.h"
 #include "src/render/plan/plan.h"
-#include "src/render/wave/block_layout.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/vocabulary/path/block.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/path/wave.h"
+#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
 
+/// All that a layout depends on: not the sample range of a task.
+struct BlockKey {
+  PixelRect tile;
+  std::uint32_t seed = 0, sample = 0;
+};
+
+/// The pixels of a tile, block by block.
+struct BlockOrder {
+  std::vector<std::uint32_t> places;  // in TilePixels' order of the tile
+  std::vector<std::uint32_t> ends;    // of blocks, in `places`
+  std::vector<float> numbers;         // uniform, one for each block
+  std::vector<std::uint64_t> keys;    // room
+};
+
+/// Divides the tile into blocks of at most `paths` pixels: another layout for each
+/// sample, since fixed blocks would show as a mosaic.
+void LayOutBlocks(const BlockKey& key, BlockLayout layout, std::uint32_t paths,
+                  BlockOrder& order);
+
 class BlockReuse {
  public:
-  /// Of a plan with kReuse. `strategy` says how many paths are connected, and which.
+  /// Requires a plan with kReuse. `strategy` says how many paths are connected, and
+  /// which.
   BlockReuse(const Plan& plan, const Strategy& strategy);
 
-  /// Before the paths of a task begin: makes room for them, and has `paths` keep them.
+  /// Makes room for the paths of a task, before they begin, and lets `paths` record them.
   void Begin(const TileWork& work, Wave& paths);
-  /// When they have ended: shares their light out. Counts rays and health in `paths`.
+  /// Connects the paths when they have ended. Adds rays and health to `paths`.
   void Connect(const PixelRect& tile, Wave& paths, StageClock* clock);
 
   std::size_t bytes() const;

@@ -33,10 +33,10 @@ void Films::Add(const TileSamples& tile) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const float* planes[kMostPlanes];
     for (int p = 0; p < std::min(planes_.count(), kMostPlanes); ++p) {
-      planes[p] = tile.values + static_cast<std::size_t>(p) * stride + i * tile.count;
+      planes[p] = tile.values + std::size_t(p) * stride + i * tile.count;
     }
-    film_.AddSamples(static_cast<int>(pixels[i]) % tile.width,
-                     static_cast<int>(pixels[i]) / tile.width, planes, tile.count);
+    film_.AddSamples(int(pixels[i]) % tile.width, int(pixels[i]) / tile.width, planes,
+                     tile.count);
   }
 }
 

@@ -1,5 +1,5 @@
-// What finished samples go to: the film, and that of a control variate that is fitted to
-// them. Knows which plane of a sample is whose.
+// Adds finished samples to the film, and knows which plane of a sample belongs to which
+// part of it.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,18 @@ struct TileSamples {
 
 class Films {
  public:
-  /// Samples have `planes`; `coefficient`: of control=regression. Before any sample.
+  /// `planes`: those of the samples; `coefficient`: that of control=regression. The film
+  /// has no samples yet.
   Films(const SamplePlanes& planes, double coefficient, FilmAccumulator& film);
 
   /// Adds samples, each pixel's in order. Safe for different tiles from different
-  /// threads. Values are changed where a control variate corrects them, or the film
-  /// responds otherwise than in linear sRGB.
+  /// threads. Changes the values where the film does not respond in linear sRGB.
   void Add(const TileSamples& tile);
 
-  /// From here on (before any sample) the film responds to light like this.
+  /// Sets how the film responds to light; before any sample.
   void UseResponse(const FilmResponse& response);
 
-  /// All that Add has brought, by pixel of the film, row by row: films of the same
-  /// pixels, planes and groups that are given these go on from there.
+  /// Returns all sums by pixel (FilmAccumulator::Columns).
   std::vector<MutableStateColumn> Columns() { return film_.Columns(); }
   const FilmAccumulator& film() const { return film_; }
   FilmAccumulator& film() { return film_; }

@@ -1,7 +1,7 @@
 // Runs the stages of a phase of a plan.
 #pragma once
 
-#include "src/render/plan/phase.h"
+#include "src/render/plan/plan.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/vocabulary/path/wave.h"

@@ -9,7 +9,7 @@ void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
          StageProfile& row) {
   row.calls += counters.calls;
   row.items += counters.items;
-  row.lane_slots += counters.lane_slots * static_cast<std::uint64_t>(lanes);
+  row.lane_slots += counters.lane_slots * std::uint64_t(lanes);
   row.seconds += totals.seconds;
   row.counted_items += totals.counted_items;
   for (std::size_t i = 0; i < row.counted.size(); ++i) {
@@ -22,7 +22,7 @@ void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
 const char* Name(TaskPart part) {
   static constexpr const char* kNames[] = {"task set-up", "sum of copies", "seen lights",
                                            "film"};
-  return kNames[static_cast<int>(part)];
+  return kNames[int(part)];
 }
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
@@ -30,7 +30,7 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   for (const Phase& phase : plan.phases) {
     for (const PlannedStage& planned : phase.stages) {
       StageProfile& profile = profiles.emplace_back();
-      profile.name = std::string(Prefix(phase.id)) + planned.stage.name;
+      profile.name = std::string(InfoOf(phase.id).prefix) + planned.stage.name;
       profile.role = planned.stage.role;
       for (Field f : plan.live_fields) {
         profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
@@ -51,7 +51,7 @@ std::vector<StageProfile> EmptyParts() {
 void AddStages(const std::vector<StageProfile>& more, std::vector<StageProfile>& sum) {
   for (const StageProfile& m : more) {
     const auto same = [&](const StageProfile& s) { return s.name == m.name; };
-    const auto found = std::find_if(sum.begin(), sum.end(), same);
+    const auto found = std::ranges::find_if(sum, same);
     if (found == sum.end()) {
       sum.push_back(m);
       continue;

@@ -1,11 +1,9 @@
-// What a run counted: stages, rays, invalid samples, memory.
+// Profiles of a run: stages, rays, invalid samples, memory.
 #pragma once
 
 #include <vector>
 
 #include "src/render/wave/run_options.h"
-#include "src/render/wave/run_options.h"
-#include "src/render/wave/run_result.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/wavefront.h"
@@ -15,7 +13,7 @@ namespace lanelight {
 /// One profile per stage of the plan, in its order, without counts.
 std::vector<StageProfile> EmptyProfiles(const Plan& plan);
 
-/// The same for the parts of a task that are no stages.
+/// Returns one profile per TaskPart, without counts.
 std::vector<StageProfile> EmptyParts();
 
 /// Adds profiles of another run to those of the same names.

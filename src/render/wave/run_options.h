@@ -21,8 +21,8 @@ struct Progress {
 
 /// Most samples per pixel.
 inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
-/// Sample indices in kernels have 32 bits: so many later they begin again, under another
-/// seed. Whole turns of the longest randomisations (src/scene/prepare/groups.h).
+/// Samples after which kernels, whose indices have 32 bits, begin again with another
+/// seed. A multiple of the longest randomisations (src/scene/prepare/groups.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
 /// What a profile gathers beside the times of stages.
@@ -31,38 +31,38 @@ struct ProfileOptions {
   std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
 };
 
-/// How many samples the image will have must not change what is learned before it.
+/// Samples per pixel, and least samples of an image, that training is sized for: what is
+/// learned must not depend on the number of samples of the image.
 inline constexpr std::uint64_t kTrainingSpp = 32;
-inline constexpr std::uint64_t kMinTrainingSamples = 1u
-                                                     << 16;  // samples, of small images
+inline constexpr std::uint64_t kMinTrainingSamples = 1u << 16;
 
 struct RunOptions {
   std::uint64_t spp = 0;  // samples per pixel; 0: until something else ends the render
-  /// Time budget of all of Run, 0 = none. Every pixel gets a sample, unless paths do not
-  /// end (src/render/wave/time_limit.h).
+  /// Time budget of all of Run in seconds, 0 = none. Every pixel gets a sample, unless
+  /// paths do not end (TimeLimit).
   double seconds = 0;
-  /// If set, the render looks at itself at certain numbers of samples per pixel
-  /// (src/render/schedule/schedule.h), and ends once this returns `done` or less: how
-  /// many the image is estimated to need, of which `done` are in its film; below 0: no
-  /// number will do.
+  /// If set, it is called at certain numbers of samples per pixel
+  /// (src/render/schedule/schedule.h) and returns how many the image is estimated to
+  /// need, of which `done` are in its film. The render ends at `done` or less; below 0:
+  /// no number is enough.
   std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores
   std::function<void(const Progress&)> on_progress;  // about 10 times a second
   std::function<void()> on_training;  // before a trial run or another training begins
-  /// Is shown the film so far, all of it at rest, as often as costs next to nothing
-  /// (src/render/run/run_watch.h). Alone, not in a group.
+  /// Receives the film between tasks, as often as that costs next to nothing
+  /// (src/render/run/run_watch.h). Not called in a group.
   std::function<void(const FilmAccumulator& film)> on_film;
-  /// Is told of pixels of the film that have new samples, by the thread that has added
-  /// them, and may read them and no others.
+  /// Receives the pixels that have new samples, on the thread that has added them; it may
+  /// read these pixels only.
   std::function<void(const FilmAccumulator& film, const PixelRect& place)> on_tile;
-  /// What the samples of a tile have cost, of each task that is done; one call at a time.
+  /// Receives the counts of each finished task; one call at a time.
   std::function<void(const PixelRect& tile, const RunCounts&)> on_task;
-  /// Finish the samples in flight; those that take longer are cancelled.
+  /// Set to end the render: samples in flight are finished, unless they take too long.
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call
   ProfileOptions profiling;  // if `profile`
-  /// roulette=efficiency keeps its rule even where the training passes prefer another.
+  /// Keeps roulette=efficiency even where the training passes prefer another.
   bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
@@ -70,13 +70,13 @@ struct RunOptions {
   std::vector<PixelRect> windows;
   /// Renders these tiles of the image only, disjoint; empty: all of it.
   std::vector<PixelRect> tiles;
-  /// What training passes are sized for; 0: kTrainingSpp samples of every pixel of the
-  /// image, and kMinTrainingSamples at least. With decide=pilot DecidedBy
-  /// (src/render/train/training.h), or what the time budget is enough for.
+  /// Samples that training passes are sized for; 0: kTrainingSpp samples of every pixel,
+  /// at least kMinTrainingSamples; with decide=pilot DecidedBy
+  /// (src/render/train/training.h), or what the time budget allows.
   std::uint64_t planned_samples = 0;
-  /// Keeps the state while the run goes on; null: nobody does.
+  /// Keeps the state during the run; may be null.
   RunKeeper* keeper = nullptr;
-  /// Who renders, without `windows`; null: this process alone.
+  /// The ranks that render, without `windows`; null: this process alone.
   RankGroup* group = nullptr;
 };
 

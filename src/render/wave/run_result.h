@@ -1,4 +1,4 @@
-// What a run came to, and where its time went.
+// The result of a run, and the profile of its stages.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct StageProfile {
   std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
   double seconds = 0;                                  // processor time of all threads
   double bytes_per_item = 0;                           // columns read + written
-  // Of these; the columns that the plan has and the stage declares.
+  // Parts of bytes_per_item: live columns that the stage declares.
   double bytes_read = 0, bytes_written = 0;
   // The processor's counters, over the calls in which they were read.
   std::uint64_t counted_items = 0;
@@ -38,7 +38,7 @@ enum class TaskPart : int {
   kFilm,    // adds the samples to the film
   kCount
 };
-inline constexpr int kNumTaskParts = static_cast<int>(TaskPart::kCount);
+inline constexpr int kNumTaskParts = int(TaskPart::kCount);
 /// "task set-up", "sum of copies", "seen lights", "film".
 const char* Name(TaskPart part);
 

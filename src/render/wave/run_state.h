@@ -1,23 +1,40 @@
-// A run at rest: what it needs to go on, here or elsewhere, as if it had never stopped.
+// The state of a run between tasks: all that is needed to resume it, here or elsewhere.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/column.h"
 #include "src/render/wave/films.h"
 #include "src/vocabulary/path/wave.h"
 
 namespace lanelight {
 
-/// What has been counted. All but the seconds are the same however the work was cut.
+/// Counts of a run. All but the seconds are the same for any split of the work.
 struct RunCounts {
   std::uint64_t samples = 0, rays_closest = 0, rays_shadow = 0;
   Health health;
   double seconds = 0, cpu_seconds = 0;  // training included
 
-  void Add(const RunCounts& more);
+  void Add(const RunCounts& more) {
+    samples += more.samples;
+    rays_closest += more.rays_closest;
+    rays_shadow += more.rays_shadow;
+    health.nan += more.health.nan;
+    health.infinite += more.health.infinite;
+    health.negative += more.health.negative;
+    seconds += more.seconds;
+    cpu_seconds += more.cpu_seconds;
+  }
+};
+
+/// Samples of one finished task, until they are merged in order.
+struct TaskSamples {
+  AlignedVector<float> values;
+  std::uint32_t count = 0;  // samples per pixel; 0 = not run
+  RunCounts counts;
 };
 
 /// Numbers that a training has learned, by name.
@@ -28,18 +45,18 @@ struct TrainedTable {
 
 /// What a strategy has learned before the image (src/render/train/training.h).
 struct TrainingOutcome {
-  /// To the strategy, as in --strategy, with which the image is to be rendered; empty:
-  /// none.
+  /// Changes of the strategy, as in --strategy, that the image is rendered with; may be
+  /// empty.
   std::string changes;
   std::string note;  // what was found, one line
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0, cpu_seconds = 0;
 
-  /// Another training's, after this one: all of its changes, notes and counts count.
+  /// Appends the changes, notes and counts of a later training.
   void Add(const TrainingOutcome& next);
 };
 
-/// What a run has done, beside its films.
+/// Results of a run so far, besides its films.
 struct RunRecord {
   RunCounts counts;
   bool trained = false;  // what follows is of a training
@@ -52,17 +69,17 @@ struct RunState : RunRecord {
   bool finished = false;  // to the run's own end, not to a signal
 };
 
-/// Keeps the state of a run while it goes on.
+/// Stores the state of a running run.
 class RunKeeper {
  public:
   virtual ~RunKeeper() = default;
-  /// Called before the run begins. True: the state is that of a run to be gone on with;
+  /// Called before the run begins. Returns true if it has loaded a state to resume from;
   /// the films' columns then hold its samples.
   virtual bool Restore(RunState& state) = 0;
-  /// Called often, from any thread: whether Keep is due, true until it is called. Tasks
-  /// that have begun are finished then, and others wait.
+  /// Returns whether Keep is due; called often, from any thread. Tasks in flight are then
+  /// finished, and others wait.
   virtual bool Due() const = 0;
-  /// Nothing is in flight; every pixel has a whole number of samples, not all the same.
+  /// Keeps the state. No task is in flight; pixels may have different numbers of samples.
   virtual void Keep(RunState& state) = 0;
 };
 

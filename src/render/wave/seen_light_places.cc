@@ -1,4 +1,4 @@
-#include "src/render/wave/seen_light_places.h"
+#include "src/render/wave/seen_lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ struct Picture {
   double x = 0, y = 0, radius = 0;
 };
 
-// From the scene to the film, the inverse of kernels/generate/camera-inl.h.
+// Projects from the scene to the film: the inverse of kernels/generate/camera-inl.h.
 class Projector {
  public:
   explicit Projector(const CompiledCamera& camera)
@@ -68,7 +68,7 @@ class Projector {
     if (!HasPlane()) return std::nullopt;
     const bool perspective = camera_.kind == CameraKind::kPerspective;
     Vec3d p = Local(ball.center - ToVec(camera_.origin));
-    // Of what lies at the camera there is no picture of a certain size.
+    // Shapes at the camera have no picture of finite size.
     if (perspective && !(p.z > 2 * ball.radius)) return std::nullopt;
     const double depth = p.z, shrink = perspective ? 1 / depth : 1;
     const double lens = camera_.lens_radius;
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene) {
     const double reach_x = at->radius + double(scene.compiled->filter.x_radius) - 0.5;
     const double reach_y = at->radius + double(scene.compiled->filter.y_radius) - 0.5;
     const auto clamp = [](double v, int most) {
-      return static_cast<int>(std::clamp(std::floor(v), -1.0, double(most)));
+      return int(std::clamp(std::floor(v), -1.0, double(most)));
     };
     const int x0 = std::max(0, clamp(at->x - reach_x, width));
     const int x1 = std::min(width - 1, clamp(at->x + reach_x, width));
@@ -122,13 +122,11 @@ std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene) {
     const int y1 = std::min(height - 1, clamp(at->y + reach_y, height));
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
-        places.push_back(static_cast<std::uint32_t>(y) *
-                             static_cast<std::uint32_t>(width) +
-                         static_cast<std::uint32_t>(x));
+        places.push_back(std::uint32_t(y) * std::uint32_t(width) + std::uint32_t(x));
       }
     }
   }
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }

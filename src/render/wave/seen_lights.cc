@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "src/render/wave/phase_driver.h"
-#include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
 #include "src/scene/compiled/scene.h"
@@ -26,7 +25,7 @@ constexpr std::uint64_t kMostRays = 1u << 15;
 /// Samples of the image under one seed of the further rays: their indices have 31 bits.
 constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kSeenLightRays;
 
-/// Light at the end of what floats can say, and a light's edge on top of it.
+/// Largest finite values: a light's edge is added to the largest light.
 constexpr double kLargest = std::numeric_limits<float>::max();
 /// Where small lights lie, which may be hidden or be part of a larger one.
 constexpr std::uint32_t kSmallLightRays = 256;
@@ -35,7 +34,7 @@ constexpr std::uint32_t kFindSeed = 0x2545f491u;
 
 // Apart from the image's.
 std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
-  return (seed ^ 0x6a09e667u) + static_cast<std::uint32_t>(turn) * 0x9e3779b9u;
+  return (seed ^ 0x6a09e667u) + std::uint32_t(turn) * 0x9e3779b9u;
 }
 
 struct Range {
@@ -57,11 +56,11 @@ PixelRect WithBorder(const PixelRect& tile, int border, int width, int height) {
           std::min(width, tile.x1 + border), std::min(height, tile.y1 + border)};
 }
 
-// How far pixels lie apart whose samples may see the same: neighbours, or what the filter
-// reaches.
+// Returns the distance of pixels whose samples may see the same: neighbours, or the
+// radius of the filter.
 int Reach(const CompiledFilter& filter) {
   const double radius = std::max(filter.x_radius, filter.y_radius);
-  return static_cast<int>(std::clamp(std::ceil(radius + 0.5), 1.0, 8.0));
+  return int(std::clamp(std::ceil(radius + 0.5), 1.0, 8.0));
 }
 
 // Ranges of what pixels of a window see.
@@ -73,16 +72,14 @@ class SeenRanges {
   // Camera rays of a pixel: `count` of each plane.
   void Add(std::uint32_t pixel, const float* values, std::size_t stride,
            std::size_t count) {
-    auto& range = At(static_cast<int>(pixel % image_width_),
-                     static_cast<int>(pixel / image_width_));
+    auto& range = At(int(pixel % image_width_), int(pixel / image_width_));
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t i = 0; i < count; ++i) range[c].Add(values[c * stride + i]);
     }
   }
   // Returns whether what pixels up to `reach` away see differs much.
   bool IsEdge(std::uint32_t pixel, int reach) {
-    const int x = static_cast<int>(pixel % image_width_),
-              y = static_cast<int>(pixel / image_width_);
+    const int x = int(pixel % image_width_), y = int(pixel / image_width_);
     std::array<Range, kColorPlanes> around;
     for (int b = std::max(window_.y0, y - reach); b < std::min(window_.y1, y + reach + 1);
          ++b) {
@@ -91,15 +88,13 @@ class SeenRanges {
         for (std::size_t c = 0; c < kColorPlanes; ++c) around[c].Add(At(a, b)[c]);
       }
     }
-    return std::any_of(around.begin(), around.end(),
-                       [](const Range& r) { return r.IsEdge(); });
+    return std::ranges::any_of(around, [](const Range& r) { return r.IsEdge(); });
   }
 
  private:
   std::array<Range, kColorPlanes>& At(int x, int y) {
-    return ranges_[static_cast<std::size_t>(y - window_.y0) *
-                       static_cast<std::size_t>(window_.width()) +
-                   static_cast<std::size_t>(x - window_.x0)];
+    return ranges_[std::size_t(y - window_.y0) * std::size_t(window_.width()) +
+                   std::size_t(x - window_.x0)];
   }
 
   PixelRect window_;
@@ -124,8 +119,8 @@ SeenLightRays::SeenLightRays(const PreparedScene& scene, const Plan& plan,
 void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float>& out) {
   TileWork work;
   work.pixels = rays.pixels;
-  work.num_pixels = static_cast<std::uint32_t>(rays.num_pixels);
-  work.first_sample = static_cast<std::uint32_t>(rays.first);
+  work.num_pixels = std::uint32_t(rays.num_pixels);
+  work.first_sample = std::uint32_t(rays.first);
   work.samples = rays.count;
   work.together = SamplesTogether(scene_, plan_);
   const std::size_t rows = rays.num_pixels * rays.count;
@@ -138,7 +133,7 @@ void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float
   Wave& wave = rays.finds_edges ? edges_wave_ : visible_wave_;
   run_.features = phase.features;
   run_.planes = SamplePlanes(phase.features);
-  wave.Begin(work, {out.data(), static_cast<std::uint32_t>(rows)});
+  wave.Begin(work, {out.data(), std::uint32_t(rows)});
   if (clock) clock->FinishPart(TaskPart::kSetUp, rows);
   RunPhase(wave, phase, clock);
 }
@@ -158,7 +153,7 @@ void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays
 
 void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
                             std::vector<std::uint32_t>& edges) const {
-  const auto width = static_cast<std::uint32_t>(scene_.view->film.width);
+  const auto width = std::uint32_t(scene_.view->film.width);
   const PixelRect all =
       WithBorder(rect, reach_, scene_.view->film.width, scene_.view->film.height);
   SeenRanges ranges(all, width);
@@ -171,14 +166,14 @@ void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClo
     ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
   }
   for (const std::uint32_t pixel : pixels) {
-    if (!std::binary_search(small_lights_.begin(), small_lights_.end(), pixel)) continue;
+    if (!std::ranges::binary_search(small_lights_, pixel)) continue;
     rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, true}, clock, rays.own);
     ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
   TilePixels(rect, scene_.view->film.width, &pixels);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     if (!ranges.IsEdge(pixels[p], reach_)) continue;
-    edges.push_back(static_cast<std::uint32_t>(p));
+    edges.push_back(std::uint32_t(p));
   }
 }
 
@@ -193,7 +188,7 @@ bool SeenLightEdges::Correct(const SeenLightTask& task, SeenLightRays& rays,
     CorrectPixels({edges.data() + first, std::min(most, edges.size() - first)}, task,
                   rays, clock);
   }
-  // As many for any cut; those that others of a turn need are traced again.
+  // Counts the same rays for any split; rays that others of a turn need are traced again.
   counts.rays_closest += edges.size() * task.count * (1 + kSeenLightRays);
   return true;
 }
@@ -214,7 +209,7 @@ void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& ta
     next = std::min(end, (turn + 1) * kSamplesPerRaySeed);
     const std::uint64_t base = turn * kSamplesPerRaySeed;
     const std::uint64_t first = samples_.Begin(begin - base);
-    const auto count = static_cast<std::uint32_t>(samples_.End(next - base) - first);
+    const auto count = std::uint32_t(samples_.End(next - base) - first);
     rays.Trace({pixels.data(), places.count, RaySeed(seed, turn), first, count}, clock,
                rays.others);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
@@ -227,10 +222,10 @@ void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& ta
           double sum = 0;
           samples_.ForEach(i - base,
                            [&](std::uint64_t s) { sum += double(others[s - first]); });
-          const auto at = static_cast<std::size_t>(i - task.begin);
+          const auto at = std::size_t(i - task.begin);
           const double corrected =
               double(values[at]) - double(own[at]) + sum / samples_.Count();
-          values[at] = static_cast<float>(std::clamp(corrected, -kLargest, kLargest));
+          values[at] = float(std::clamp(corrected, -kLargest, kLargest));
         }
       }
     }

@@ -6,10 +6,10 @@
 // Which pixels these are is a property of the scene: a few camera rays of each pixel and
 // its neighbours tell, and more where a light lies that is smaller than pixels (with a
 // seed of their own, so nothing is biased). What a path
-// brings there is corrected when its task is done: less the emission that its own camera
-// ray sees (traced again: the same numbers), plus the mean of what kSeenLightRays others
-// see. These rays go through PhaseId::kVisibleLights, in the wavefront of the task's
-// thread.
+// adds there is corrected at the end of its task: minus the emission that its own camera
+// ray sees (traced again with the same numbers), plus the mean emission that
+// kSeenLightRays others see. These rays run PhaseId::kVisibleLights in the wavefront of
+// the task's thread.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "src/render/wave/run_state.h"
-#include "src/render/wave/seen_light_samples.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/wavefront.h"
+#include "src/vocabulary/path/replicates.h"
 
 namespace lanelight {
 
@@ -34,10 +34,9 @@ struct SeenLightTask {
   std::size_t stride = 0;
 };
 
-/// What a thread has to follow camera rays to the light that they see.
+/// Traces camera rays to the light that they see; one object per thread.
 class SeenLightRays {
  public:
-  /// Samples of some pixels.
   struct Work {
     const std::uint32_t* pixels = nullptr;
     std::size_t num_pixels = 0;
@@ -51,12 +50,12 @@ class SeenLightRays {
   SeenLightRays(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
                 const Wavefront& wavefront);
 
-  /// Overwrites `out`: plane by plane, of each the samples of one pixel after the other.
+  /// Overwrites `out`: plane by plane, in each the samples of one pixel after the other.
   void Trace(const Work& work, StageClock* clock, std::vector<float>& out);
 
   const RunParameters& image_run() const { return image_run_; }
 
-  // Room for who calls.
+  // Scratch memory of the caller.
   std::vector<std::uint32_t> pixels;
   std::vector<float> own, others;
 
@@ -69,21 +68,56 @@ class SeenLightRays {
   Wave visible_wave_, edges_wave_;  // on the same columns
 };
 
+/// Sample i of a path's pixel takes the mean of `rays` samples of another stream that has
+/// `rays` times as many. Both count as observations in the same way (SampleGroups), and
+/// what a path takes belongs to the replicate of the path, so that observations stay
+/// independent. Within an observation the stream's points are taken in their order: n
+/// paths have its first n * rays.
+struct SeenLightSamples {
+  SampleGroups groups;
+  std::uint32_t rays = 1;
+
+  /// Samples that take turns.
+  std::uint32_t Turn() const {
+    return groups.unit * (groups.replicates ? kReplicates : 1);
+  }
+  /// Of the stream, for the paths [begin, end) and those that take turns with them.
+  std::uint64_t Begin(std::uint64_t begin) const {
+    return begin / Turn() * Turn() * rays;
+  }
+  std::uint64_t End(std::uint64_t end) const {
+    return (end + Turn() - 1) / Turn() * Turn() * rays;
+  }
+  /// Calls body(sample) for the rays * unit samples of the stream that path i takes the
+  /// mean of; paths of one unit share theirs.
+  template <class Body>
+  void ForEach(std::uint64_t i, const Body& body) const {
+    const std::uint64_t others = groups.replicates ? kReplicates : 1;
+    const std::uint64_t unit = i / groups.unit;
+    const std::uint64_t replicate = unit % others, place = unit / others;
+    for (std::uint32_t k = 0; k < rays; ++k) {
+      const std::uint64_t own = (place * rays + k) * others + replicate;
+      for (std::uint32_t j = 0; j < groups.unit; ++j) body(own * groups.unit + j);
+    }
+  }
+  double Count() const { return double(rays) * groups.unit; }
+};
+
 class SeenLightEdges {
  public:
   /// Of this many tiles. Refers to the scene.
   SeenLightEdges(const PreparedScene& scene, std::size_t tiles);
 
-  /// Finds the edges in a tile of the image, once: whoever comes later waits. Safe from
-  /// several threads, each with its rays. Before Correct() of this tile.
+  /// Finds the edges in a tile of the image, once; other threads that call it wait. Safe
+  /// from several threads, each with its own rays. Before Correct() of this tile.
   void Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
             StageClock* clock);
-  /// Corrects the samples of a task of a tile, if it has edges, and counts the rays. Safe
-  /// from several threads. Whether anything was done.
+  /// Corrects the samples of a task if its tile has edges, and counts the rays. Safe from
+  /// several threads. Returns whether anything was done.
   bool Correct(const SeenLightTask& task, SeenLightRays& rays, StageClock* clock,
                RunCounts& counts) const;
 
-  /// Pixels of a tile with edges, as places in its TilePixels.
+  /// Returns the pixels of a tile with edges, as places in its TilePixels.
   const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }
 
  private:
@@ -104,5 +138,11 @@ class SeenLightEdges {
   std::vector<std::vector<std::uint32_t>> edges_;  // by tile: places in its TilePixels
   std::vector<std::once_flag> found_;              // by tile
 };
+
+/// Returns pixels (y * image width + x, ascending, each once) that may see an emitting
+/// shape whose picture has a radius below kSmallLight pixels, hidden or not, in focus or
+/// not. Shapes at or behind the camera have no picture.
+std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene);
+inline constexpr double kSmallLight = 2;
 
 }  // namespace lanelight

@@ -17,7 +17,7 @@ StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
 
 UntouchedVector<TraceEvent> StageClock::TakeEvents() {
   if (!events_.empty()) {
-    events_.resize(static_cast<std::size_t>(next_event_ - events_.data()));
+    events_.resize(std::size_t(next_event_ - events_.data()));
   }
   next_event_ = end_event_ = nullptr;
   return std::move(events_);
@@ -39,8 +39,7 @@ void StageClock::EndTask() {
   const std::uint64_t ticks = std::max<std::uint64_t>(Ticks() - task_start_, 1);
   const double cpu = ThreadCpuSeconds() - task_cpu_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    totals_[i].seconds +=
-        cpu * static_cast<double>(rows_[i].ticks) / static_cast<double>(ticks);
+    totals_[i].seconds += cpu * double(rows_[i].ticks) / double(ticks);
     rows_[i].ticks = 0;
   }
   ticks_ += ticks;

@@ -1,5 +1,5 @@
-// What a profile notes down while it runs: times of stage calls, counters of the
-// processor, a trace. All of it belongs to one thread; memory is reserved beforehand.
+// Records the profile of one thread: times of stage calls, processor counters, a trace.
+// All memory is reserved beforehand.
 #pragma once
 
 #include <cstdint>
@@ -24,10 +24,10 @@ struct StageCounters {
 };
 static_assert(sizeof(StageCounters) == 32);
 
-/// The same, seldom touched.
+/// Counts that are updated once per task.
 struct StageTotals {
   double seconds = 0;  // processor time, of the tasks that have ended
-  // Of the waves in which the processor's counters are read.
+  // Over the waves in which the processor's counters are read.
   std::uint64_t counted_items = 0;
   CounterValues counted{};
 };
@@ -38,9 +38,9 @@ class StageClock {
  public:
   StageClock(std::size_t stages, const ProfileOptions& options);
 
-  /// Begins a task: what was before it belongs to nobody.
+  /// Begins a task; the time before it is not counted.
   void StartTask();
-  /// Ends it: its processor time goes to its pieces.
+  /// Ends the task and shares its processor time among its pieces.
   void EndTask();
   /// Begins a wave. One of 32, chosen without a pattern, reads the processor's counters;
   /// they take about 0.5 us per stage call, which no stage is charged with.
@@ -54,8 +54,7 @@ class StageClock {
     c.items += items;
     c.lane_slots += vectors;
     if (next_event_ != end_event_) {
-      *next_event_++ = {last_, now, static_cast<std::uint32_t>(row),
-                        static_cast<std::uint32_t>(items)};
+      *next_event_++ = {last_, now, std::uint32_t(row), std::uint32_t(items)};
     } else {
       ++without_event_;
     }
@@ -63,7 +62,7 @@ class StageClock {
     if (counting_) Count(row, items);
   }
   void FinishPart(TaskPart part, std::uint64_t items) {
-    Finish(stages_ + static_cast<std::size_t>(part), items, 0);
+    Finish(stages_ + std::size_t(part), items, 0);
   }
 
   /// By stage, then by TaskPart; both of the same size.

@@ -5,10 +5,10 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/render/wave/copies.h"
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/tiles.h"
+#include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
@@ -39,7 +39,7 @@ void TaskRunner::FindSeenLights(std::size_t tile, const PixelRect& rect) {
 }
 
 Workspace& TaskRunner::ThreadWorkspace() {
-  const std::size_t thread = static_cast<std::size_t>(ThreadIndex());
+  const std::size_t thread = std::size_t(ThreadIndex());
   LL_CHECK_LT(thread, workspaces_.size());
   if (!workspaces_[thread]) {
     workspaces_[thread] = std::make_unique<Workspace>(scene_, plan_, run_, options_);
@@ -52,8 +52,8 @@ TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
   TilePixels(rect, scene_.view->film.width, &space.pixels);
   TileWork work;
   work.pixels = space.pixels.data();
-  work.num_pixels = static_cast<std::uint32_t>(space.pixels.size());
-  work.first_sample = static_cast<std::uint32_t>(range.first % kSamplesPerSeed);
+  work.num_pixels = std::uint32_t(space.pixels.size());
+  work.first_sample = std::uint32_t(range.first % kSamplesPerSeed);
   work.samples = range.count;
   work.together = SamplesTogether(scene_, plan_);
   Wave& wave = space.wavefront.wave();
@@ -65,8 +65,7 @@ TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
 SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
   const bool splits = plan_.features.Has(Feature::kSplitting);
   const std::uint32_t rows = work.num_pixels * work.samples * (splits ? kMostCopies : 1);
-  const std::size_t size =
-      std::size_t{rows} * static_cast<std::size_t>(run_.planes.count());
+  const std::size_t size = std::size_t{rows} * std::size_t(run_.planes.count());
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
   if (splits) std::fill_n(out.values.begin(), size, 0.0f);
@@ -119,7 +118,7 @@ void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& film
   // Row length behind the indices of the film's pixels.
   const int width = options_.windows.empty()
                         ? scene_.view->film.width
-                        : place.width() * static_cast<int>(options_.windows.size());
+                        : place.width() * int(options_.windows.size());
   Workspace& space = ThreadWorkspace();
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();

@@ -7,19 +7,48 @@
 #include <optional>
 #include <vector>
 
+#include "src/render/plan/plan_features.h"
+#include "src/render/wave/block_reuse.h"
 #include "src/render/wave/films.h"
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
-#include "src/render/wave/sample_range.h"
+#include "src/render/wave/run_state.h"
 #include "src/render/wave/seen_lights.h"
+#include "src/render/wave/stage_clock.h"
 #include "src/render/wave/task_watcher.h"
-#include "src/render/wave/workspace.h"
+#include "src/render/wave/tiles.h"
+#include "src/render/wave/wavefront.h"
 
 namespace lanelight {
 
-/// Samples of a pixel in adjacent slots of a plan's wavefront: their rays share more of
-/// the scene than those of neighbouring pixels. Never more than it has slots; even where
-/// samples come in pairs.
+/// What a thread keeps between tasks.
+struct Workspace {
+  Workspace(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
+            const RunOptions& options)
+      : wavefront(scene, plan, run) {
+    if (options.profile) {
+      clock.emplace(plan.rows(), options.profiling);
+    }
+    if (plan.features.Has(Feature::kReuse)) {
+      reuse.emplace(plan, PlannedStrategy(scene, plan.options));
+    }
+    if (plan.Find(PhaseId::kVisibleLights))
+      seen_lights.emplace(scene, plan, run, wavefront);
+  }
+  /// Null if nothing is timed.
+  StageClock* Clock() { return clock ? &*clock : nullptr; }
+
+  Wavefront wavefront;
+  std::optional<BlockReuse> reuse;
+  std::optional<SeenLightRays> seen_lights;
+  std::optional<StageClock> clock;
+  std::vector<std::uint32_t> pixels;
+  TaskSamples samples;
+};
+
+/// Returns how many samples of a pixel are in adjacent slots of the wavefront: their rays
+/// share more of the scene than those of neighbouring pixels. Never more than it has
+/// slots; even where samples come in pairs.
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan);
 
 class TaskRunner {
@@ -29,13 +58,14 @@ class TaskRunner {
   TaskRunner(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
              const RunOptions& options);
 
-  /// Tasks are of so many tiles from here on.
+  /// Sets the number of tiles, before the first task.
   void Begin(std::size_t tiles);
-  /// Where the camera sees edges of lights; null: they are not integrated apart.
+  /// Returns the edges of directly visible lights; null if these are not integrated
+  /// apart.
   const SeenLightEdges* seen_lights() const { return seen_lights_.get(); }
 
   // Safe from different threads:
-  /// Looks for edges of lights in a tile, if nobody has, and they are integrated apart.
+  /// Finds the edges of directly visible lights in a tile, once.
   void FindSeenLights(std::size_t tile, const PixelRect& rect);
   /// Renders a range of samples of a tile, whose pixels are `rect` of the full image.
   /// Returns false, and no samples, if the watcher has cancelled it.
@@ -43,10 +73,10 @@ class TaskRunner {
            TaskSamples& out);
   /// Adds samples to the films, whose pixels lie at `place`, and counts their time.
   void Merge(const PixelRect& place, TaskSamples& samples, Films& films);
-  /// Room for samples, of this thread.
+  /// Returns the sample memory of this thread.
   TaskSamples& Samples() { return ThreadWorkspace().samples; }
 
-  /// What all threads have counted, and their memory. Takes the trace along.
+  /// Adds the counts and memory of all threads to the result, and moves the trace there.
   void AddCounts(RunResult& result);
 
  private:

@@ -1,9 +1,16 @@
 #include "src/render/wave/tiles.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "src/base/core/check.h"
+#include "src/render/films/accumulator.h"
+#include "src/render/wave/run_options.h"
+#include "src/scene/compiled/view.h"
+#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
-
 namespace {
 
 constexpr std::uint64_t kSamplesOfTask = 8192;
@@ -25,7 +32,7 @@ std::uint64_t AlongZ(const PixelRect& tile) {
 
 TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int most_side) {
   TilePartition partition;
-  partition.samples = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(spp, 1, 32));
+  partition.samples = std::uint32_t(std::clamp<std::uint64_t>(spp, 1, 32));
   partition.side = 16;
   while (partition.side < most_side &&
          std::uint64_t(partition.side) * partition.side * 4 * partition.samples <=
@@ -53,9 +60,50 @@ std::vector<PixelRect> CutTiles(const std::vector<PixelRect>& tiles, std::size_t
       all.insert(all.end(), parts.begin(), parts.end());
     }
   }
-  std::sort(all.begin(), all.end(),
-            [](const PixelRect& a, const PixelRect& b) { return AlongZ(a) < AlongZ(b); });
+  std::ranges::sort(
+      all, [](const PixelRect& a, const PixelRect& b) { return AlongZ(a) < AlongZ(b); });
   return all;
+}
+
+TilePartition PartitionOfWindows(const std::vector<PixelRect>& windows,
+                                 std::uint64_t planned_spp) {
+  const PixelRect& first = windows.front();
+  // Small enough for one tile each, wherever they are.
+  TilePartition partition =
+      MakePartition({0, 0, first.width(), first.height()}, planned_spp);
+  LL_CHECK_EQ(partition.tiles.size(), 1u);
+  partition.tiles = windows;
+  for (const PixelRect& w : windows) {
+    LL_CHECK(w.width() == first.width() && w.height() == first.height());
+  }
+  return partition;
+}
+
+TilePartition PartitionOfTiles(const std::vector<PixelRect>& tiles,
+                               std::uint64_t planned_spp) {
+  TilePartition partition;
+  partition.tiles = tiles;
+  std::uint64_t most = 1;
+  for (const PixelRect& tile : tiles) most = std::max(most, tile.pixels());
+  partition.samples = SamplesPerTask(most, planned_spp);
+  return partition;
+}
+
+TilePartition AnyPartition(const PreparedScene& scene, const RunOptions& options,
+                           std::uint64_t planned_spp) {
+  if (!options.windows.empty()) return PartitionOfWindows(options.windows, planned_spp);
+  if (!options.tiles.empty()) return PartitionOfTiles(options.tiles, planned_spp);
+  return MakePartition(RenderedPixels(scene.view->film), planned_spp, scene.strategy);
+}
+
+bool IsEven(const FilmAccumulator& film, const PixelRect& tile) {
+  const std::uint64_t samples = film.Samples(tile.x0, tile.y0);
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      if (film.Samples(x, y) != samples) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -70,8 +118,8 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
 }
 
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {
-  return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
-      kSamplesOfTask / pixels, 1, std::max<std::uint64_t>(spp, 1)));
+  return std::uint32_t(std::clamp<std::uint64_t>(kSamplesOfTask / pixels, 1,
+                                                 std::max<std::uint64_t>(spp, 1)));
 }
 
 std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
@@ -88,9 +136,9 @@ std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
 std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
                                               const std::vector<int>& threads,
                                               int least_side) {
-  // Whose turn it is: each rank as often as it has threads.
+  // Each rank has as many turns as threads.
   std::vector<std::size_t> turns;
-  const int most = *std::max_element(threads.begin(), threads.end());
+  const int most = *std::ranges::max_element(threads);
   for (int t = 0; t < most; ++t) {
     for (std::size_t r = 0; r < threads.size(); ++r) {
       if (t < threads[r]) turns.push_back(r);
@@ -112,11 +160,40 @@ void TilePixels(const PixelRect& tile, int image_width,
     for (int bx = tile.x0; bx < tile.x1; bx += kBlock) {
       for (int y = by; y < std::min(by + kBlock, tile.y1); ++y) {
         for (int x = bx; x < std::min(bx + kBlock, tile.x1); ++x) {
-          pixels->push_back(static_cast<std::uint32_t>(y) *
-                                static_cast<std::uint32_t>(image_width) +
-                            static_cast<std::uint32_t>(x));
+          pixels->push_back(std::uint32_t(y) * std::uint32_t(image_width) +
+                            std::uint32_t(x));
         }
       }
+    }
+  }
+}
+
+TilePartition PartitionOf(const PreparedScene& scene, const RunOptions& options,
+                          std::uint64_t planned_spp) {
+  TilePartition partition = AnyPartition(scene, options, planned_spp);
+  // A pair must not straddle two tasks.
+  if (scene.strategy.pairs == Pairs::kAntithetic) {
+    partition.samples += partition.samples & 1;
+  }
+  return partition;
+}
+
+PixelRect PlaceInFilm(const RunOptions& options, const std::vector<PixelRect>& tiles,
+                      std::size_t tile) {
+  const PixelRect& t = tiles[tile];
+  if (options.windows.empty()) return t;
+  const int x = int(tile) * t.width();
+  return {x, 0, x + t.width(), t.height()};
+}
+
+void DivideUnevenTiles(const FilmAccumulator& film, std::vector<PixelRect>& tiles) {
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    while (!IsEven(film, tiles[i])) {
+      const int longer = std::max(tiles[i].width(), tiles[i].height());
+      const auto side = std::bit_floor(static_cast<unsigned>(longer - 1));
+      const std::vector<PixelRect> parts = TilesOf(tiles[i], int(side));
+      tiles[i] = parts.front();
+      tiles.insert(tiles.end(), parts.begin() + 1, parts.end());
     }
   }
 }

@@ -2,6 +2,7 @@
 // threads, so that the sums of a pixel always run in the same order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+class FilmAccumulator;  // src/render/films/accumulator.h
+struct PreparedScene;   // src/scene/prepare/prepared_scene.h
+struct RunOptions;      // src/render/wave/run_options.h
 
 struct TilePartition {
   int side = 16;               // pixels
@@ -20,28 +25,57 @@ struct TilePartition {
 /// few enough that the sample buffer stays in the cache and threads stay busy. Tiles are
 /// at least 16 pixels wide, and larger where there are few samples.
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp);
-/// The same for a strategy: paths of reuse=block serve their tile, which must be the same
-/// for any number of samples.
+/// Tiles for a strategy: with path reuse their size is the same for any number of
+/// samples, since the paths of a tile are connected.
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
                             const Strategy& strategy);
 
-/// Samples of a task of a tile of so many pixels.
+/// Returns the samples per pixel of a task whose tile has so many pixels.
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp);
 
-/// The window in tiles whose sides are `side`, from the image's origin on.
+/// Cuts the window into tiles whose sides are `side`, aligned to the image's origin.
 std::vector<PixelRect> TilesOf(const PixelRect& window, int side);
 
-/// Tiles in parts, one for each of so many threads, whose cost is expected to be in
-/// proportion to these: dealt out in turn along a Z-order curve, which passes neighbours,
-/// whose cost is alike, one after the other. Where there are few tiles for the parts they
-/// are halved, down to `least_side`. Parts may be empty.
+/// Pixels of all tiles together.
+inline std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
+  std::uint64_t pixels = 0;
+  for (const PixelRect& tile : tiles) pixels += tile.pixels();
+  return pixels;
+}
+
+/// Deals tiles to ranks in proportion to their threads, in turn along a Z-order curve,
+/// whose neighbours cost about the same. Where there are few tiles they are halved, down
+/// to `least_side`. Parts may be empty.
 std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
                                               const std::vector<int>& threads,
                                               int least_side);
 
-/// Pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a vector of lanes
-/// starts with neighbouring rays.
+/// Lists the pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a
+/// vector of lanes starts with neighbouring rays.
 void TilePixels(const PixelRect& tile, int image_width,
                 std::vector<std::uint32_t>* pixels);
+
+/// Samples [first, end()) of every pixel of one tile.
+struct SampleRange {
+  std::size_t tile = 0;     // index into the tiles of the run
+  std::uint64_t first = 0;  // sample of a pixel, counted over the whole render
+  std::uint32_t count = 0;  // samples per pixel
+
+  std::uint64_t end() const { return first + count; }
+};
+
+/// Returns the windows or tiles that the options name, or else the image in tiles. Tasks
+/// have a whole number of antithetic pairs.
+TilePartition PartitionOf(const PreparedScene& scene, const RunOptions& options,
+                          std::uint64_t planned_spp);
+
+/// Returns where the pixels of a tile lie in the film: windows side by side, tiles at
+/// their place in the image.
+PixelRect PlaceInFilm(const RunOptions& options, const std::vector<PixelRect>& tiles,
+                      std::size_t tile);
+
+/// Divides tiles whose pixels have different numbers of samples (a run that was cut into
+/// smaller tiles) until they have equally many; new tiles go to the end.
+void DivideUnevenTiles(const FilmAccumulator& film, std::vector<PixelRect>& tiles);
 
 }  // namespace lanelight

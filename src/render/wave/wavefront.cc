@@ -1,15 +1,17 @@
 #include "src/render/wave/wavefront.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "src/base/core/check.h"
 #include "src/render/plan/plan_features.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
-
 namespace {
 
 constexpr std::size_t kLanesPerLine = kCacheLine / sizeof(std::uint32_t);
@@ -23,8 +25,8 @@ std::size_t ColumnStride(std::uint32_t capacity) {
 }
 
 #ifndef NDEBUG
-// A pattern that is a NaN as a float and an absurd index as an integer: a stage that
-// reads what nobody wrote shows up at once.
+// A NaN as a float and an absurd index as an integer, so that reads of unwritten columns
+// show up at once.
 constexpr std::uint32_t kPoison = 0x7fdeadffu;
 #endif
 
@@ -32,7 +34,7 @@ template <typename T>
 void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
            std::size_t stride) {
   const auto& live = plan.live_fields;
-  if (std::find(live.begin(), live.end(), field) == live.end()) {
+  if (std::ranges::find(live, field) == live.end()) {
     column = nullptr;
     return;
   }
@@ -43,13 +45,13 @@ void Place(T*& column, Field field, const Plan& plan, std::uint32_t*& next,
 }  // namespace
 
 float ExposureOf(const PreparedScene& scene) {
-  return static_cast<float>(scene.view->film.imaging_ratio);
+  return float(scene.view->film.imaging_ratio);
 }
 
 RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   RunParameters run;
-  run.width = static_cast<std::uint32_t>(scene.view->film.width);
-  run.height = static_cast<std::uint32_t>(scene.view->film.height);
+  run.width = std::uint32_t(scene.view->film.width);
+  run.height = std::uint32_t(scene.view->film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.points = MakePointsParameters(strategy.points);
   run.points.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
@@ -99,6 +101,29 @@ Wave Wavefront::Narrowed(const FeatureSet& features) const {
 #undef X
   wave.lists = ColumnLists(wave.path, features);
   return wave;
+}
+
+void FoldCopies(float* values, std::uint32_t rows, const SamplePlanes& planes) {
+  const std::size_t samples = rows / kMostCopies;
+  LL_CHECK_EQ(samples * kMostCopies, rows);
+  const auto fold = [&](int plane, bool sums) {
+    const float* from = values + std::size_t(plane) * rows;
+    float* to = values + std::size_t(plane) * samples;
+    for (std::size_t i = 0; i < samples; ++i) {
+      float sum = from[i * kMostCopies];
+      for (std::uint32_t c = 1; c < kMostCopies && sums; ++c) {
+        sum += from[i * kMostCopies + c];
+      }
+      to[i] = sum;
+    }
+  };
+  for (int g = 0; g < kNumPlaneGroups; ++g) {
+    const auto group = static_cast<PlaneGroup>(g);
+    if (!planes.Has(group)) continue;
+    for (int p = 0; p < NumPlanes(group); ++p) {
+      fold(planes.First(group) + p, SamplePlanes::Sums(group));
+    }
+  }
 }
 
 }  // namespace lanelight

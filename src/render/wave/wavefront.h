@@ -3,15 +3,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "src/base/core/untouched.h"
 #include "src/render/plan/plan.h"
+#include "src/vocabulary/path/sample_planes.h"
 #include "src/vocabulary/path/wave.h"
 
 namespace lanelight {
 
-/// The constants of a render that scene and plan decide; without seed and tables.
+/// Returns the constants that scene and plan decide; without seed and tables.
 RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan);
 /// RunParameters::exposure.
 float ExposureOf(const PreparedScene& scene);
@@ -23,7 +25,8 @@ class Wavefront {
   Wave& wave() { return wave_; }
   /// Bytes of columns and queues.
   std::size_t bytes() const { return memory_.size() * sizeof(std::uint32_t); }
-  /// The same memory, with columns for these features alone: a part of the plan's.
+  /// Returns the same memory with the columns of these features only, a subset of the
+  /// plan's.
   Wave Narrowed(const FeatureSet& features) const;
 
  private:
@@ -31,5 +34,11 @@ class Wavefront {
   UntouchedVector<std::uint32_t> memory_;
   Wave wave_;
 };
+
+/// Adds up the rows of split paths, in place and in a fixed order, so that the sum does
+/// not depend on which path ended first: rows sample * kMostCopies + copy of a plane of
+/// `rows` become rows `sample` of a plane of rows / kMostCopies. Planes that are not sums
+/// (SamplePlanes::Sums) keep the first row.
+void FoldCopies(float* values, std::uint32_t rows, const SamplePlanes& planes);
 
 }  // namespace lanelight

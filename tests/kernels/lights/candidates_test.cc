@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "kernels/stages.h"
-#include "src/render/plan/check_strategy.h"
+#include "src/render/plan/plan_features.h"
 #include "tests/kernels/control/control_scenes.h"
 #include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"

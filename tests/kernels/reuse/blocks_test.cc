@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "src/render/wave/block_layout.h"
+#include "src/render/wave/block_reuse.h"
 #include "src/render/wave/tiles.h"
 
 namespace lanelight {

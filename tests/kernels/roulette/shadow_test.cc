@@ -5,7 +5,7 @@
 #include <random>
 
 #include "kernels/stages.h"
-#include "src/render/train/trained_tables.h"
+#include "src/render/train/training.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/kernels/control/control_scenes.h"

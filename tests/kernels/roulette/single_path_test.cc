@@ -6,7 +6,6 @@
 #include "src/base/stat/hypothesis.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
-#include "src/render/train/single_path_variances.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
 #include "src/scene/compiled/scene.h"

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/parallel.h"
-#include "src/render/train/decision_candidates.h"
 #include "src/render/train/strategy_trial.h"
 
 namespace lanelight {

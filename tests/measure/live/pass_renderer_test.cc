@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/core/error.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 #include "src/scene/parse/parse.h"
 #include "tests/measure/live/live_scene.h"
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "src/base/core/error.h"
-#include "src/cli/stress_exit.h"
+#include "src/cli/texts.h"
 #include "tests/measure/stress/planted.h"
 #include "tests/support/test_target.h"
 

@@ -81,7 +81,7 @@ TEST_CASE("sweep: Ctrl-C gives up a cell and says so to schedulers", "[sweep][cl
     };
     const ProcessResult r = Sweep(file, out, {}, options);
     CHECK(r.exit_code == kExitInterrupted);
-    CHECK_THAT(r.err, Contains("given up"));
+    CHECK_THAT(r.err, Contains("discarded"));
     CHECK(DoneCells(out).size() < kSweepCells);
     CHECK(Rubbish(out).empty());
     CHECK(fs::exists(out + "/sweep.csv"));

@@ -1,5 +1,5 @@
 // When an error estimate meets a target, and how many samples that is expected to take.
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Packets byte by byte, as the source of tev (Thomas Müller, 2025) reads them: lengths
 // count themselves, truths are 0 or 1, and data is as long as the furthest value that
 // offsets and strides name.
-#include "src/render/job/display_packets.h"
+#include "src/render/job/display.h"
 
 #include <catch2/catch.hpp>
 #include <vector>

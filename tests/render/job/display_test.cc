@@ -273,7 +273,7 @@ TEST_CASE("where nobody listens, that is said once and the image is made", "[ren
   REQUIRE(render.problems.size() == 1);
   CHECK_THAT(render.problems[0], Contains("no display server at 127.0.0.1:") &&
                                      Contains("Connection refused") &&
-                                     Contains("the render goes on"));
+                                     Contains("the render continues"));
 }
 
 TEST_CASE("a viewer that goes away, or does not read, is said once", "[render]") {

@@ -7,7 +7,7 @@
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/source_location.h"
-#include "src/render/films/for_each_pixel.h"
+#include "src/render/films/accumulator.h"
 #include "src/render/job/job.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/scene.h"

@@ -1,4 +1,4 @@
-#include "src/render/job/peaks.h"
+#include "src/render/job/profile_report.h"
 
 #include <catch2/catch.hpp>
 

@@ -6,8 +6,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/render/job/roofline.h"
-#include "src/render/job/trace_json.h"
 #include "src/render/wave/profile.h"
 
 namespace lanelight {

@@ -1,5 +1,5 @@
 // One keeps a state; what killed ones have left goes away, and nothing else does.
-#include "src/render/job/state_lock.h"
+#include "src/render/job/checkpoint.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Strategies with equal keys render the same bits; what differs has another key.
 #include "src/base/core/source_location.h"
-#include "src/render/plan/plan_key.h"
+#include "src/render/plan/plan_features.h"
 
 #include <catch2/catch.hpp>
 

@@ -156,8 +156,8 @@ def test_signals(p):
     for rank in 0, 2:
         code, text = interrupted(p, rank, signal.SIGTERM)
         check(code == INTERRUPTED, f"SIGTERM to rank {rank}: exit code {code}")
-        check("interrupted: go on with --resume 'k.state'" in text, text)
-        check(text.count("go on with --resume") == 1, "several ranks have printed")
+        check("interrupted: continue with --resume 'k.state'" in text, text)
+        check(text.count("continue with --resume") == 1, "several ranks have printed")
 
 
 def test_signal_to_mpirun(p):
@@ -176,7 +176,7 @@ def test_failing_rank(p):
     check(result.returncode == 1, f"exit code {result.returncode}: {result.stderr}")
     check("error: rank 1 on " in result.stderr, result.stderr)
     check("planted failure" in result.stderr, result.stderr)
-    check("go on with --resume 'f.state'" in result.stderr, result.stderr)
+    check("continue with --resume 'f.state'" in result.stderr, result.stderr)
     p.single(*render, "--resume", "-o", "resumed.exr")
     check(pixels("resumed.exr") == pixels("alone.exr"), "resumed: other pixels")
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 #include "src/render/schedule/schedule.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/render/run/lamp_scene.h"

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "src/render/schedule/thread_work.h"
-#include "src/render/wave/time_limit.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/render/run/render_fixture.h"

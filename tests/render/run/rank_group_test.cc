@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/render/ranks/run_messages.h"
+#include "src/render/ranks/rank_messages.h"
 #include "tests/render/ranks/thread_group.h"
 #include "tests/render/run/resume_fixture.h"
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "src/render/estimate/target.h"
+#include "src/render/estimate/estimate.h"
 #include "tests/render/run/lamp_scene.h"
 
 namespace lanelight::resume {

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "src/base/core/error.h"
-#include "src/render/train/trained_tables.h"
+#include "src/render/train/training.h"
 
 namespace lanelight {
 namespace {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "src/render/plan/plan_features.h"
-#include "src/render/wave/seen_light_places.h"
 #include "src/render/wave/seen_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/render/run/render_fixture.h"
@@ -149,7 +148,7 @@ TEST_CASE("a profile says what the edges of lights cost, stage by stage",
     const Rendered rendered = RenderDescription(Lamp(0.3), t);
     std::uint64_t generated = 0, rows = 0;
     for (const StageProfile& row : rendered.result.stages) {
-      if (!row.name.starts_with(Prefix(PhaseId::kVisibleLights))) continue;
+      if (!row.name.starts_with(InfoOf(PhaseId::kVisibleLights).prefix)) continue;
       ++rows;
       CHECK(row.seconds >= 0);
       if (row.name == "seen: generate") generated = row.items;

@@ -5,9 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/image/exr.h"
-#include "src/render/plan/check_strategy.h"
 #include "src/render/plan/plan_features.h"
-#include "src/render/plan/plan_key.h"
 #include "tests/agreement/agreement.h"
 #include "tests/base/image/temporary_folder.h"
 

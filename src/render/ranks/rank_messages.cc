@@ -1,11 +1,25 @@
-#include "src/render/ranks/packed_tiles.h"
+#include "src/render/ranks/rank_messages.h"
 
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "src/base/core/check.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PixelRect, x0, y0, x1, y1)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TrainedTable, name, values)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunStart, tiles, have_samples, planned_training)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunTraining, trained, changes, tables)
+
 namespace {
+
+// CBOR keeps every bit of a double, of infinities too.
+std::string Cbor(const nlohmann::json& json) {
+  std::string bytes;
+  nlohmann::json::to_cbor(json, bytes);
+  return bytes;
+}
 
 // 3 to 25 MB of films, in memory that all pieces use.
 constexpr std::uint64_t kPixelsOfPiece = 1 << 15;
@@ -19,11 +33,10 @@ void ForEachRow(std::span<const TileProgress> packed, const std::vector<PixelRec
     for (const TileProgress& one : packed) {
       const PixelRect& tile = tiles[one.tile];
       for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto row = static_cast<std::size_t>(y - film.y0()) *
-                             static_cast<std::size_t>(film.width()) +
-                         static_cast<std::size_t>(tile.x0 - film.x0());
+        const auto row = std::size_t(y - film.y0()) * std::size_t(film.width()) +
+                         std::size_t(tile.x0 - film.x0());
         copy(static_cast<char*>(column.data) + row * column.RowBytes(),
-             static_cast<std::size_t>(tile.width()) * column.RowBytes());
+             std::size_t(tile.width()) * column.RowBytes());
       }
     }
   }
@@ -72,6 +85,18 @@ std::vector<TileProgress> UnpackTiles(std::string_view bytes,
   ForEachRow(packed, tiles, films, take);
   LL_CHECK(bytes.empty());
   return packed;
+}
+
+std::string ToBytes(const RunStart& start) { return Cbor(start); }
+
+std::string ToBytes(const RunTraining& training) { return Cbor(training); }
+
+RunStart RunStartFromBytes(const std::string& bytes) {
+  return nlohmann::json::from_cbor(bytes);
+}
+
+RunTraining RunTrainingFromBytes(const std::string& bytes) {
+  return nlohmann::json::from_cbor(bytes);
 }
 
 }  // namespace lanelight

@@ -1,7 +1,8 @@
-// Tiles as bytes, with all that the films have of their pixels: how they move between
-// ranks.
+// What ranks send each other: tiles with all that the films have of their pixels, and
+// what workers are told before a run and after the training.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "src/base/image/pixel_rect.h"
 #include "src/render/schedule/scheduler.h"
 #include "src/render/wave/films.h"
+#include "src/render/wave/run_state.h"
 
 namespace lanelight {
 
@@ -24,5 +26,23 @@ std::vector<std::span<const TileProgress>> InPieces(
 /// else.
 std::vector<TileProgress> UnpackTiles(std::string_view bytes,
                                       const std::vector<PixelRect>& tiles, Films& films);
+
+struct RunStart {
+  std::vector<PixelRect> tiles;
+  bool have_samples = false;           // the run goes on
+  std::uint64_t planned_training = 0;  // TrainingOptions::planned_samples; 0: no training
+};
+
+struct RunTraining {
+  bool trained = false;  // with what follows
+  std::string changes;
+  std::vector<TrainedTable> tables;
+};
+
+/// Convert messages to bytes, and back with the same bits.
+std::string ToBytes(const RunStart& start);
+std::string ToBytes(const RunTraining& training);
+RunStart RunStartFromBytes(const std::string& bytes);
+RunTraining RunTrainingFromBytes(const std::string& bytes);
 
 }  // namespace lanelight
