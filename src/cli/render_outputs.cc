@@ -9,7 +9,7 @@
 #include "src/cli/note_lines.h"
 #include "src/cli/summary.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 namespace {

@@ -12,7 +12,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/terminal.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 #include "src/vocabulary/strategy/choices_text.h"
 
 namespace lanelight {

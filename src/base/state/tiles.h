@@ -1,4 +1,4 @@
-// Where the pixels of a state's tiles lie in the memory of a film.
+// Positions of the pixels of a state's tiles in the memory of a film.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace lanelight {
 /// "[x0, x1) x [y0, y1)".
 std::string ToString(const PixelRect& rect);
 
-/// What is wrong with these tiles of a film of the pixels `window`; empty if nothing:
-/// each has pixels, all of them in the window, none in another tile.
+/// Returns the problem of the tiles of a film with the pixels `window`, or "": each tile
+/// has pixels, all in the window, none in another tile.
 std::string TileProblem(const std::vector<PixelRect>& tiles, const PixelRect& window);
 
 /// The pixels of tiles in the order of the file, tile after tile and row by row, and the

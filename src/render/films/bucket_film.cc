@@ -1,7 +1,7 @@
 #include "src/render/films/bucket_film.h"
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/check.h"
-#include "src/base/core/huge_pages.h"
 
 namespace lanelight {
 

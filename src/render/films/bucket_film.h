@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "src/base/core/column.h"
-#include "src/base/image/bucket_shares.h"
 #include "src/base/image/spectral_buckets.h"
 
 namespace lanelight {

@@ -11,7 +11,7 @@
 #include "src/render/wave/profile.h"
 #include "src/render/wave/stop_watcher.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/prepared_scene.h"
 

@@ -5,7 +5,7 @@
 
 #include "src/base/core/check.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "src/base/core/untouched.h"
+#include "src/base/core/aligned.h"
 #include "src/render/plan/plan.h"
 #include "src/vocabulary/path/wave.h"
 
