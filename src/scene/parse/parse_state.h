@@ -3,7 +3,6 @@
 // parameters into the objects of a SceneDescription.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -14,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/core/suggest.h"
 #include "src/scene/parse/forward.h"
 #include "src/scene/parse/names.h"
 #include "src/scene/parse/params.h"
@@ -160,35 +158,6 @@ template <typename T>
 Index Append(std::vector<T>& values, T value) {
   values.push_back(std::move(value));
   return static_cast<Index>(values.size()) - 1;
-}
-
-/// Returns the names of a table of pairs, for ThrowUnknown.
-template <typename Table>
-std::vector<std::string> Names(const Table& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, meaning] : table) names.emplace_back(name);
-  return names;
-}
-
-/// Returns the value of `name` in a table of pairs or a map. InputError with all of its
-/// names if there is none: unknown <kind> "<name>".
-template <typename Table>
-const auto& Lookup(const Table& table, const std::string& name,
-                   const SourceLocation& where, std::string_view kind) {
-  const auto find = [&] {
-    if constexpr (requires { table.find(name); }) {
-      return table.find(name);
-    } else {
-      return std::find_if(std::begin(table), std::end(table),
-                          [&](const auto& entry) { return entry.first == name; });
-    }
-  };
-  const auto found = find();
-  if (found == std::end(table)) {
-    CheckVersion3(where, kind, name);
-    ThrowUnknown(where, kind, name, Names(table));
-  }
-  return found->second;
 }
 
 /// Returns the path of a file named in the scene: relative to the main file's directory
