@@ -11,7 +11,6 @@
 #include "kernels/simd/target.h"
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/base/core/error_text.h"
 #include "src/base/core/suggest.h"
 #include "src/base/core/version.h"
 #include "src/cli/commands.h"

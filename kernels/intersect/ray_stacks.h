@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/base/core/untouched.h"
+#include "src/base/core/aligned.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {

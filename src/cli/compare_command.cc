@@ -5,8 +5,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
-#include "src/base/image/color_channels.h"
-#include "src/base/image/png.h"
+#include "src/base/image/image.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "src/base/core/json_text.h"
-#include "src/base/image/exr_header.h"
+#include "src/base/image/exr.h"
 #include "src/base/image/image.h"
 #include "src/base/stat/values.h"
 #include "src/cli/console.h"

@@ -15,7 +15,7 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/memory.h"
 #include "src/render/job/report.h"
-#include "src/scene/parse/format.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {

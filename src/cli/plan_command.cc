@@ -13,7 +13,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 #include "src/scene/prepare/groups.h"
 
 namespace lanelight {

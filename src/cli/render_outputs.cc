@@ -7,7 +7,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/texts.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 namespace {

@@ -11,7 +11,7 @@
 #include "src/cli/console.h"
 #include "src/cli/progress.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 #include "src/vocabulary/strategy/choices_text.h"
 
 namespace lanelight {

@@ -9,7 +9,6 @@
 #include "src/base/image/atomic_file.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "src/base/image/png.h"
 #include "src/cli/exit_codes.h"
 #include "src/render/job/saving.h"
 #include "tests/cli/process.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "src/base/core/sparse_grid.h"
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "tests/reference/frame.h"
 #include "tests/reference/pattern.h"
 

@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-// Weights scaled to mean 1. Scaled first by their maximum: sums must not overflow.
+// Scales weights to mean 1; by their maximum first, so that the sum does not overflow.
 std::vector<double> MeanOne(std::span<const double> weights) {
   double largest = 0;
   for (double w : weights) {
@@ -27,7 +27,7 @@ std::vector<double> MeanOne(std::span<const double> weights) {
   return scaled;
 }
 
-// Probability that the rounded table really gives each entry.
+// Probability with which the rounded table yields each entry.
 AlignedVector<float> ImpliedProbability(const AliasTable& table) {
   std::vector<double> p(table.size(), 0.0);
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -73,7 +73,7 @@ AliasTable BuildAliasTable(std::span<const double> weights) {
       small.push_back(l);
     }
   }
-  // What is left differs from 1 by rounding alone, unless it never had any weight.
+  // Remaining entries differ from 1 by rounding alone, unless their weight is 0.
   for (std::uint32_t s : small) {
     if (weights[s] > 0) continue;
     table.q[s] = 0;

@@ -1,6 +1,6 @@
-// Checks of our own mistakes (never of input: that is src/base/core/error.h). A failed
-// check throws CheckFailure with the expression, the operands and the place, so that the
-// library itself neither prints nor exits.
+// Checks of programming mistakes; mistakes in the input are errors
+// (src/base/core/error.h). A failed check throws CheckFailure with the expression, the
+// operands and the place.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,7 +38,6 @@ class CheckFailure : public std::logic_error {
     }                                                               \
   } while (false)
 #define LL_CHECK_EQ(a, b) LL_CHECK_OP(a, ==, b)
-#define LL_CHECK_NE(a, b) LL_CHECK_OP(a, !=, b)
 #define LL_CHECK_LT(a, b) LL_CHECK_OP(a, <, b)
 #define LL_CHECK_LE(a, b) LL_CHECK_OP(a, <=, b)
 #define LL_CHECK_GT(a, b) LL_CHECK_OP(a, >, b)

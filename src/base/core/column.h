@@ -1,4 +1,4 @@
-// Columns of a state: views of live memory, with the names that they have in the file.
+// Columns of a state: views of memory, with their names in the file.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,22 @@ namespace lanelight {
 
 enum class StateType { kFloat32, kFloat64, kUint32, kUint64, kInt32 };
 
-/// Bytes of one value: 4 or 8.
-std::size_t SizeOf(StateType type);
-/// As numpy says it: "float32", "float64", "uint32", "uint64", "int32".
-const char* Name(StateType type);
+/// Returns the bytes of one value: 4 or 8.
+constexpr std::size_t SizeOf(StateType type) {
+  return type == StateType::kFloat64 || type == StateType::kUint64 ? 8 : 4;
+}
+/// Returns the name that numpy has for the type.
+constexpr const char* Name(StateType type) {
+  constexpr const char* kNames[] = {"float32", "float64", "uint32", "uint64", "int32"};
+  return kNames[static_cast<int>(type)];
+}
 
-/// `rows` rows of memory, one after the other, each of as many values as `shape` says.
-/// Void is `const void` where they are read, `void` where they are filled.
+/// `rows` rows of memory, one after the other, each with the values of `shape`. Void is
+/// `const void` for columns to be saved and `void` for columns to be filled.
 template <class Void>
 struct BasicStateColumn {
   std::string name;     // in the file: letters, digits, '_', '-'
-  std::string meaning;  // one line, with units, for who opens the file
+  std::string meaning;  // one line, with units, for readers of the file
   StateType type = StateType::kFloat32;
   std::vector<std::size_t> shape;  // of one row, e.g. {4, 3}; empty: one value
   std::size_t rows = 0;

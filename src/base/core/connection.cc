@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 
+#include "src/base/core/stopwatch.h"
 #include "src/base/core/value_types.h"
 
 namespace lanelight {
@@ -18,21 +19,16 @@ namespace {
 
 constexpr int kPollMilliseconds = 50;
 
-double Now() {
-  return std::chrono::duration<double>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
+double Now() { return SecondsSince({}); }
 
-// Returns whether the socket can be written to within so many milliseconds; false with 0
-// in errno if not.
+// True if the socket can be written to in time; false with errno 0 if not.
 bool WaitToWrite(int socket, int milliseconds) {
   pollfd file = {socket, POLLOUT, 0};
   errno = 0;
   return poll(&file, 1, milliseconds) > 0;
 }
 
-// 0, or the error for which the address cannot be connected to.
+// Returns 0, or the error number.
 int Connect(int socket, const addrinfo& address, double seconds) {
   if (connect(socket, address.ai_addr, address.ai_addrlen) == 0) return 0;
   if (errno != EINPROGRESS) return errno;

@@ -1,4 +1,4 @@
-// A connection to a server, over TCP, that sends and never waits longer than it is told.
+// A TCP connection to a server that only sends, with a limit on how long it waits.
 #pragma once
 
 #include <atomic>
@@ -9,11 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "src/base/core/file_descriptor.h"
+#include "src/base/core/input_file.h"
 
 namespace lanelight {
 
-/// The address of a server.
 struct Endpoint {
   std::string host;
   std::uint16_t port = 0;
@@ -34,17 +33,16 @@ struct EndpointType {
 
 class Connection {
  public:
-  /// Connects within `seconds`, trying each address of the host. Returns null, with the
+  /// Connects, waiting up to `seconds` for each address of the host. Null, with the
   /// reason in `why`, if none answers.
   static std::unique_ptr<Connection> Open(const Endpoint& endpoint, double seconds,
                                           std::string& why);
 
   enum class Sent { kAll, kFailed, kGaveUp };
-  /// Sends all, however long the server takes to read it: until Hurry() has been called,
-  /// and from then on for its seconds at most. kFailed: it has gone away; Reason() then
-  /// says why.
+  /// Sends all, without a time limit until Hurry() is called. kFailed: the connection is
+  /// lost; Reason() then says why.
   Sent Send(std::string_view bytes);
-  /// From any thread, once.
+  /// Limits sending to `seconds` from now on. Called once, from any thread.
   void Hurry(double seconds);
   std::string Reason() const;
 

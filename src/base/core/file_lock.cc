@@ -23,7 +23,7 @@ using LockSeconds = std::chrono::duration<double>;
 constexpr LockSeconds kFirstPause(1e-3), kLongestPause(50e-3);
 
 [[noreturn]] void Fail(const std::string& path, const char* what) {
-  throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
+  throw InputError("{}: {}: {}", path, what, std::strerror(errno));
 }
 
 // Bytes beyond the end of a file can be locked too.
@@ -31,8 +31,8 @@ std::uint64_t ByteOf(const std::string& name) {
   return Hash64(name) & ((std::uint64_t{1} << 62) - 1);
 }
 
-// Zero if done. Locks of the open file, not of the process: those would be lost with the
-// first descriptor of the file that any thread closes.
+// Returns 0 if done. Locks of the process would be lost with the first descriptor of the
+// file that any thread closes, so the open file holds them.
 int SetLock(int fd, int type, std::uint64_t byte) {
   struct flock range = {};  // l_pid must be 0
   range.l_type = static_cast<short>(type);
@@ -61,7 +61,7 @@ HeldLock& HeldLock::operator=(HeldLock&& other) noexcept {
   return *this;
 }
 
-// That closing the file frees it too is why this need not succeed.
+// Need not succeed: closing the file frees the lock too.
 HeldLock::~HeldLock() {
   if (file_ != nullptr) SetLock(file_->fd_.get(), F_UNLCK, byte_);
 }
@@ -81,7 +81,7 @@ std::optional<HeldLock> LockFile::Take(const std::string& name) const {
   Fail(path_, "cannot lock");
 }
 
-// Not F_OFD_SETLKW, which signals do not end where they restart system calls.
+// F_OFD_SETLKW would not end at signals that restart system calls.
 std::optional<HeldLock> LockFile::Wait(const std::string& name,
                                        const std::function<bool(double)>& go_on) const {
   const auto start = std::chrono::steady_clock::now();
@@ -99,7 +99,7 @@ bool LockFile::IsNamed() const {
 }
 
 void LockFile::SetNote(const std::string& text) {
-  // On a full disk the file stays as empty as it is.
+  // On a full disk the file stays empty.
   if (ftruncate(fd_.get(), 0) != 0) return;
   [[maybe_unused]] const ssize_t n = pwrite(fd_.get(), text.data(), text.size(), 0);
 }

@@ -6,15 +6,11 @@
 #include <cstring>
 #include <fstream>
 
-#if defined(__linux__)
 #include <linux/perf_event.h>
 #include <sys/syscall.h>
 #include <unistd.h>
-#endif
 
 namespace lanelight {
-
-#if defined(__linux__)
 namespace {
 
 int Open(const CounterEvent& event, int leader) {
@@ -25,7 +21,7 @@ int Open(const CounterEvent& event, int leader) {
   attributes.config = event.config;
   attributes.exclude_kernel = 1;  // allowed up to perf_event_paranoid = 2
   attributes.exclude_hv = 1;
-  // Always counted while the thread runs, or not at all: nothing is extrapolated.
+  // Counts all the time that the thread runs, or not at all.
   attributes.pinned = leader < 0;
   attributes.read_format = PERF_FORMAT_GROUP;
   return static_cast<int>(
@@ -65,8 +61,8 @@ CounterGroup::~CounterGroup() {
 }
 
 bool CounterGroup::Read(CounterValues* values) const {
-  // The layout of PERF_FORMAT_GROUP: how many, then the values. A pinned group that the
-  // processor has no room for reads as the end of the file.
+  // PERF_FORMAT_GROUP: the count, then the values. A pinned group that does not fit into
+  // the processor reads as the end of the file.
   std::uint64_t data[1 + kNumCounters] = {};
   if (!available() || read(files_[0], data, sizeof(data)) <= 0) return false;
   const std::uint64_t* next = data + 1;
@@ -88,8 +84,8 @@ std::string WhyNoCounters(int error) {
     case ENODEV:
     case EOPNOTSUPP:
       return reason +
-             "; this machine shows no counters to the kernel: on a virtual "
-             "machine the host must pass them through (a virtual PMU)";
+             "; this machine shows no counters to the kernel: on a virtual machine the "
+             "host must pass them through (a virtual PMU)";
     case EBUSY:
       return reason +
              "; other programs, or the kernel's watchdog "
@@ -100,15 +96,5 @@ std::string WhyNoCounters(int error) {
       return reason;
   }
 }
-
-#else
-
-CounterEvents HardwareEvents() { return {}; }
-CounterGroup::CounterGroup(const CounterEvents&) : error_(ENOSYS) { files_.fill(-1); }
-CounterGroup::~CounterGroup() = default;
-bool CounterGroup::Read(CounterValues*) const { return false; }
-std::string WhyNoCounters(int) { return "only read on Linux (perf_event_open)"; }
-
-#endif
 
 }  // namespace lanelight

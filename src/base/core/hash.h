@@ -1,4 +1,4 @@
-// Hashes of bytes, all of them XXH3: as fast as memory, and no secret.
+// XXH3 hashes of bytes; not cryptographic.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ class StreamHash {
   StreamHash(const StreamHash&) = delete;
   StreamHash& operator=(const StreamHash&) = delete;
   void Add(const void* bytes, std::size_t size);
-  /// How many values there are, then their bytes.
+  /// Adds the number of values, then their bytes.
   template <class Values>
   void AddArray(const Values& values) {
     static_assert(std::is_trivially_copyable_v<typename Values::value_type>);

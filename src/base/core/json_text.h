@@ -1,5 +1,5 @@
-// JSON as text: the one way out, for names of any bytes, and the one way in, for files
-// that may be damaged or malicious.
+// Writes JSON with strings of any bytes, and reads JSON of files that may be damaged or
+// malicious.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,28 +12,27 @@
 
 namespace lanelight {
 
-/// Arrays and objects in each other: our files have about six.
+/// Largest nesting of arrays and objects; files of this program have about six levels.
 inline constexpr int kDeepestJson = 64;
 
-/// In one line, or indented. Names of files and of things in scenes are bytes: what of
-/// them is not UTF-8 becomes U+FFFD.
+/// Writes one line, or indented lines. Bytes that are not UTF-8 become U+FFFD.
 std::string DumpJson(const nlohmann::json& json, int indent = -1);
 
 /// Throws nlohmann::json::exception where the text is not JSON, or is deeper than
-/// kDeepestJson: copies and comparisons of values take a call in a call for each level.
+/// kDeepestJson: copies and comparisons of values recurse once per level.
 nlohmann::json ParseJson(std::string_view text);
 
-/// What is wrong with JSON that was read, in our words: its text, or what it lacks.
+/// Returns the cause of the exception in plain words.
 std::string JsonProblem(const nlohmann::json::exception& error);
 
-/// read(), which takes values out of the JSON of a file. Throws InputError, which names
-/// `path`, where it is not the JSON that is expected.
+/// Returns read(), which converts the JSON of a file. Throws InputError that names `path`
+/// for unexpected JSON.
 template <class Read>
 auto FromJsonOf(const std::string& path, const Read& read) {
   try {
     return read();
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("'{}' is damaged: {}", path, JsonProblem(error)));
+    throw InputError("'{}' is damaged: {}", path, JsonProblem(error));
   }
 }
 

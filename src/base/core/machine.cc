@@ -18,7 +18,7 @@ bool HasInvariantTimeStamps() {
 #endif
 }
 
-// The register that says what becomes of subnormal numbers, and its bits for that.
+// The control register of subnormal numbers, and its bits.
 #if defined(__x86_64__)
 constexpr std::uint64_t kFlushBits = _MM_FLUSH_ZERO_ON | 0x40;  // and their use, "DAZ"
 std::uint64_t ControlRegister() { return _mm_getcsr(); }

@@ -8,9 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#if defined(__linux__)
 #include <sched.h>
-#endif
 
 namespace lanelight {
 namespace {
@@ -20,7 +18,7 @@ std::optional<double> LoadNow() {
   return getloadavg(&load, 1) == 1 ? std::optional(load) : std::nullopt;
 }
 
-// Before main(), since a program adds to it as soon as it works.
+// Read before main(), since the program itself adds load.
 const std::optional<double> load_at_start = LoadNow();
 
 std::string FileText(const std::filesystem::path& path) {
@@ -30,7 +28,7 @@ std::string FileText(const std::filesystem::path& path) {
   return text.str();
 }
 
-// With single spaces, and none at the ends.
+// Reduces white space to single spaces between words.
 std::string Tidy(std::string_view text) {
   std::istringstream words{std::string(text)};
   std::string out;
@@ -39,13 +37,11 @@ std::string Tidy(std::string_view text) {
 }
 
 std::optional<std::uint64_t> CoresAllowed() {
-#if defined(__linux__)
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof(set), &set) == 0) {
     return static_cast<std::uint64_t>(CPU_COUNT(&set));
   }
-#endif
-  // Of a machine with more of them than the set holds, or another system.
+  // The machine has more cores than the set holds.
   const long cores = sysconf(_SC_NPROCESSORS_ONLN);
   return cores > 0 ? std::optional(static_cast<std::uint64_t>(cores)) : std::nullopt;
 }
@@ -56,13 +52,12 @@ std::optional<std::uint64_t> MemoryOfMachine() {
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page);
 }
 
-// Either may be unknown, or no limit.
 template <class T>
 void TakeLess(std::optional<T>& least, const std::optional<T>& other) {
   if (other) least = least ? std::min(*least, *other) : *other;
 }
 
-// "0::/system.slice/x": the second version has the number 0. Empty without it.
+// Returns the group of version 2, whose line is "0::/system.slice/x"; "" without one.
 std::string OwnGroup() {
   std::istringstream lines(FileText("/proc/self/cgroup"));
   for (std::string line; std::getline(lines, line);) {
@@ -71,7 +66,7 @@ std::string OwnGroup() {
   return "";
 }
 
-// Files say "max" where there is no limit: then no number is read.
+// Without a limit, files contain "max", which is not read as a number.
 GroupLimits LimitsIn(const std::filesystem::path& folder) {
   GroupLimits limits;
   std::istringstream memory(FileText(folder / "memory.max"));

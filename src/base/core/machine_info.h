@@ -1,5 +1,4 @@
-// The machine that a program runs on, as far as the system tells: what a throughput means
-// nothing without. Whatever is not known is left open; nothing is guessed.
+// The machine that the program runs on. Unknown values stay empty.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +24,7 @@ struct MachineInfo {
 #undef X
 };
 
-/// This one; looked at once. The load is of before the program began: later it is its
-/// own.
+/// Returns this machine. The load is that before the program began.
 const MachineInfo& ThisMachine();
 
 /// "AMD EPYC 9B14, 2 cores, 7.8 GiB, load 0.42".
@@ -38,21 +36,21 @@ std::optional<double> CoresAtATime(const MachineInfo& machine);
 /// programs take part of the time that it measures. False where either is unknown.
 bool IsOverloaded(const MachineInfo& machine);
 
-/// Adds it, unless there is one of which MachineText() says the same but for the load: of
-/// these two the higher load stays.
+/// Adds the machine, unless the list has one that differs in its load alone: that one
+/// then gets the higher load.
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines);
 
-/// The model in the text of /proc/cpuinfo; ARM has none there, but numbers of who makes
-/// it and of what. Where cores are of several models, all of them.
+/// Returns the models of the cores in the text of /proc/cpuinfo; on ARM, numbers of the
+/// implementer and part.
 std::optional<std::string> ProcessorIn(std::string_view cpuinfo);
 
-/// The limits that control groups set for a process.
+/// Limits that control groups set for a process.
 struct GroupLimits {
   std::optional<double> quota;
   std::optional<std::uint64_t> memory_bytes;
 };
-/// The least that `group` or one of those around it leaves ("/a/b": /a/b, /a, /), as the
-/// second version of control groups says in the files below `top`.
+/// Returns the lowest limits of `group` and its parents ("/a/b": /a/b, /a, /) in the
+/// files of control groups (version 2) below `top`.
 GroupLimits LimitsOfGroup(const std::filesystem::path& top, const std::string& group);
 
 }  // namespace lanelight

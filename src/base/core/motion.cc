@@ -4,13 +4,15 @@
 #include <cmath>
 
 #include "src/base/core/check.h"
+#include "src/base/core/motion_record.h"
+#include "src/base/core/pi.h"
 
 namespace lanelight {
 namespace {
 
 using Matrix3 = Motion::Matrix3;
 
-// Negligible rotations, in radians; rounding of matrix elements.
+// Negligible rotations, in radians; matrix entries below this are rounding.
 constexpr double kNoAngle = 1e-12, kRounding = 1e-13;
 
 Matrix3 LinearOf(const Transform& t) {
@@ -32,7 +34,6 @@ Matrix3 Times(const Matrix3& a, const Matrix3& b) {
   return {Times(columns, a[0]), Times(columns, a[1]), Times(columns, a[2])};
 }
 
-// a + s b
 Matrix3 Sum(const Matrix3& a, double s, const Matrix3& b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
@@ -48,7 +49,7 @@ Matrix3 Cofactors(const Matrix3& m) {
   return {c[0] / determinant, c[1] / determinant, c[2] / determinant};
 }
 
-// The rotation of m, or minus that if m mirrors: Newton's iteration of the polar
+// The rotation of m, negated if m mirrors, by Newton's iteration of the polar
 // decomposition (Higham 1986).
 Matrix3 RotationOf(Matrix3 m) {
   const double size = NormOf(m);
@@ -64,7 +65,7 @@ Matrix3 RotationOf(Matrix3 m) {
   return m;
 }
 
-// Returns the rotation by `angle` about the unit vector k (Rodrigues).
+// Rotation by `angle` about the unit vector k (Rodrigues).
 Matrix3 Turn(Vec3d k, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const double half = std::sin(angle / 2), rest = 2 * half * half;  // 1 - c
@@ -101,6 +102,24 @@ void FindTurn(const Matrix3& r, Vec3d* axis, double* angle) {
   *axis = sine2 > kNoAngle && Dot(k, w) < 0 ? -k : k;
 }
 
+void Store(Vec3d v, float out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+Vec3d Load(const float v[3]) { return {v[0], v[1], v[2]}; }
+
+// The power of two that is nearest below the largest entry.
+double UnitOf(const Motion::Matrix3& linear) {
+  double largest = 0;
+  for (const Vec3d& row : linear) {
+    const Vec3d a = Max(row, -row);
+    largest = std::max({largest, a.x, a.y, a.z});
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return std::ldexp(0.5, exponent);
+}
+
 }  // namespace
 
 Motion::Motion(const Transform& start, const Transform& end) : linear(LinearOf(start)) {
@@ -134,6 +153,41 @@ double Motion::Deviation(double reach) const {
   const double bend = angle * angle * v + 2 * angle * NormOf(change) * radius;
   const double part = 1.0 / Parts();
   return bend * part * part / 8;
+}
+
+MotionRecord RecordOf(const Motion& motion) {
+  MotionRecord record;
+  const double unit = UnitOf(motion.linear);
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      record.linear[c][r] = static_cast<float>(motion.linear[r][c] / unit);
+      record.change[c][r] = static_cast<float>(motion.change[r][c] / unit);
+    }
+  }
+  Store(motion.from, record.from);
+  Store(motion.way, record.way);
+  Store(motion.pivot, record.pivot);
+  Store(motion.axis, record.axis);
+  record.turns = static_cast<float>(motion.angle / (2 * kPi));
+  record.unit = static_cast<float>(unit);
+  return record;
+}
+
+Motion MotionOf(const MotionRecord& record) {
+  Motion motion;
+  const double unit = record.unit;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      motion.linear[r][c] = record.linear[c][r] * unit;
+      motion.change[r][c] = record.change[c][r] * unit;
+    }
+  }
+  motion.from = Load(record.from);
+  motion.way = Load(record.way);
+  motion.pivot = Load(record.pivot);
+  motion.axis = Load(record.axis);
+  motion.angle = record.turns * (2 * kPi);
+  return motion;
 }
 
 }  // namespace lanelight

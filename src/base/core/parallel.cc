@@ -16,9 +16,8 @@
 namespace lanelight {
 namespace {
 
-// Orders what one thread did before Give() before what another does after Take(). oneTBB
-// guarantees that itself; the thread sanitizer cannot see into its library. Other builds
-// contain no code for it.
+// Tells the thread sanitizer, which cannot see into oneTBB, that actions before Give()
+// happen before those after Take(). Empty in other builds.
 class Handover {
  public:
 #ifdef LANELIGHT_THREAD_SANITIZER
@@ -30,13 +29,12 @@ class Handover {
 #endif
 };
 
-// A parallel call hands over the caller's data to the bodies, and theirs to the caller.
 struct ParallelCall {
   Handover start, end;
   ParallelCall() { start.Give(); }
   ~ParallelCall() { end.Take(); }
 
-  // Stands around a body, also one that throws.
+  // Encloses a body, also one that throws.
   struct Body {
     ParallelCall& call;
     explicit Body(ParallelCall& c) : call(c) { call.start.Take(); }

@@ -1,4 +1,4 @@
-// The only door to oneTBB: everything parallel goes through these few functions.
+// Parallel functions on oneTBB, which no other file uses.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads that a limit of `asked` stands for, if there is no other.
+/// Threads for a limit of `asked`; 0: all cores.
 int ThreadCount(int asked);
 /// Threads the functions below will use at most.
 int MaxThreads();

@@ -20,7 +20,7 @@ class RankFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a rank says of itself, 0 or 1 but for samples, and what all of them come to.
+/// Status of a rank (0 or 1, but for samples), or the sum over all ranks.
 struct RankStatus {
   std::uint64_t failed = 0;
   std::uint64_t interrupted = 0;  // by a signal

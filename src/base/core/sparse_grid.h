@@ -1,4 +1,4 @@
-// Grids of numbers that are stored only where there is something: NanoVDB's (Museth 2021,
+// Sparse grids of numbers in the format of NanoVDB (Museth 2021,
 // "NanoVDB: A GPU-Friendly and Portable VDB Data Structure").
 #pragma once
 
@@ -11,7 +11,7 @@ namespace lanelight {
 
 /// Voxels are looked up between minus this and this, along each axis.
 inline constexpr double kFarthestVoxel = 1e9;
-/// No value is above this, nor below minus this: what is computed of them stays finite.
+/// Limit of absolute values, so that results computed from them stay finite.
 inline constexpr double kLargestVoxel = 1e30;
 
 /// A grid of a file, in memory as the file stores it: quantised values stay quantised.
@@ -24,7 +24,7 @@ class SparseGrid {
   /// The value at points of index space, linear between voxels, into `out`. NaN: 0.
   virtual void Interpolate(const float* x, const float* y, const float* z,
                            std::size_t count, float* out) const = 0;
-  /// Returns the value of a voxel, or of the background if it is not stored.
+  /// The value of one voxel; the background's where none is stored.
   virtual float Value(int i, int j, int k) const = 0;
   /// The largest value of voxels low to high, both included.
   virtual float LargestIn(const int low[3], const int high[3]) const = 0;
@@ -34,7 +34,7 @@ class SparseGrid {
   /// In index space, no further away than kFarthestVoxel.
   Vec3d box_min() const { return box_min_; }
   Vec3d box_max() const { return box_max_; }
-  /// The range of all stored voxels and the background.
+  /// Smallest and largest value of all stored voxels and the background.
   float smallest() const { return smallest_; }
   float largest() const { return largest_; }
   /// Memory in bytes.

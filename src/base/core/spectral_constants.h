@@ -1,4 +1,4 @@
-// Numbers of spectra that kernels and the code that makes their tables share.
+// Constants of spectra shared by kernels and the code that makes their tables.
 #pragma once
 
 namespace lanelight {

@@ -1,4 +1,4 @@
-// Measures time.
+// Measures elapsed time.
 #pragma once
 
 #include <chrono>
@@ -15,11 +15,11 @@ inline double SecondsSince(std::chrono::steady_clock::time_point start) {
 /// Runs from its construction on.
 class Stopwatch {
  public:
-  /// Returns the wall time since the start, in seconds.
+  /// Seconds of the wall clock.
   double Seconds() const { return SecondsSince(start_); }
-  /// Of the processor, by all threads of this process.
+  /// Processor time of all threads of this process, in seconds.
   double CpuSeconds() const { return ProcessCpuSeconds() - start_cpu_; }
-  /// Returns the wall time in seconds and restarts.
+  /// Returns Seconds() and restarts.
   double Lap() {
     const double seconds = Seconds();
     *this = {};

@@ -9,10 +9,18 @@
 namespace lanelight {
 namespace {
 
-// Longer input is never a slip of a known name, and the distance costs length^2.
+// Longer input is never a misspelt name, and the distance costs length^2.
 constexpr std::size_t kLongestComparedName = 64;
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string Unknown(std::string_view kind, std::string_view found,
+                    const std::vector<std::string>& known) {
+  const std::string nearest = NearestName(found, known);
+  return fmt::format(
+      "unknown {} {}; {}", kind, Quoted(found),
+      nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest)));
+}
 
 }  // namespace
 
@@ -74,19 +82,6 @@ std::string QuotedList(const std::vector<std::string>& names) {
   return out;
 }
 
-namespace {
-
-// What was found, and the name that was probably meant.
-std::string Unknown(std::string_view kind, std::string_view found,
-                    const std::vector<std::string>& known) {
-  const std::string nearest = NearestName(found, known);
-  return fmt::format(
-      "unknown {} {}; {}", kind, Quoted(found),
-      nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest)));
-}
-
-}  // namespace
-
 void ThrowUnknown(const SourceLocation& where, std::string_view kind,
                   std::string_view found, const std::vector<std::string>& known) {
   throw InputError(where,
@@ -96,8 +91,7 @@ void ThrowUnknown(const SourceLocation& where, std::string_view kind,
 void ThrowNotDefined(const SourceLocation& where, std::string_view kind,
                      std::string_view found, const std::vector<std::string>& defined) {
   if (defined.empty()) {
-    throw InputError(
-        where, fmt::format("unknown {0} {1}: no {0} is defined", kind, Quoted(found)));
+    throw InputError(where, "unknown {0} {1}: no {0} is defined", kind, Quoted(found));
   }
   throw InputError(
       where, Unknown(kind, found, defined) + "the scene defines: " + QuotedList(defined));

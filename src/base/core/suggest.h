@@ -1,5 +1,4 @@
-// Wording of "this name is not known": what was found, the nearest known name, and the
-// list of names that would have been right.
+// Messages about unknown names: the name, the nearest known one, and all known ones.
 #pragma once
 
 #include <string>
@@ -14,7 +13,7 @@ namespace lanelight {
 /// into `b`: the restricted Damerau-Levenshtein distance.
 int EditDistance(std::string_view a, std::string_view b);
 
-/// The known name with the least edit distance, or "" if none is near enough to be meant.
+/// Returns the known name with the least edit distance, or "" if none is near enough.
 std::string NearestName(std::string_view found, const std::vector<std::string>& known);
 
 /// `text` in double quotes, fit for a message: at most 60 characters, controls replaced.

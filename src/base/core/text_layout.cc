@@ -11,8 +11,8 @@ using Cells = std::vector<std::string>;
 
 constexpr std::size_t kGap = 2;  // between columns
 
-// Returns the end of the word that begins at `begin`: before a space, or after a comma,
-// so that lists of choices can wrap.
+// End of the word at `begin`: before a space, or after a comma, so that lists of choices
+// can be broken.
 std::size_t WordEnd(std::string_view text, std::size_t begin) {
   for (std::size_t i = begin; i < text.size(); ++i) {
     if (text[i] == ' ') return i;
@@ -22,7 +22,7 @@ std::size_t WordEnd(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-// Two tables of fewer columns, unless all fit: first columns of each after the keys.
+// Splits the columns into tables that fit; returns the first column of each.
 std::vector<std::size_t> Blocks(const std::vector<std::size_t>& widths,
                                 const TableLayout& layout) {
   std::size_t keys = 0;
@@ -75,7 +75,7 @@ std::string Wrapped(std::string_view text, std::size_t width, std::size_t indent
 std::string LabelledRow(const std::string& label, const std::string& text,
                         std::size_t width, std::size_t label_columns) {
   if (label.size() > label_columns && label_columns > 0) {
-    // Its end counts as the first word.
+    // The end of the label counts as the first word.
     const std::size_t cut = label_columns - 1;
     return label.substr(0, cut) +
            Wrapped(label.substr(cut) + " " + text, width, label_columns + 1) + "\n";

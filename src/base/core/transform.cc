@@ -5,6 +5,42 @@
 #include "src/base/core/check.h"
 
 namespace lanelight {
+namespace {
+
+// Gauss-Jordan elimination with full row pivoting. Returns false if singular.
+bool Invert(Transform::Matrix a, Transform::Matrix& inverse) {
+  inverse = Transform().matrix();
+  for (int column = 0; column < 4; ++column) {
+    int pivot = column;
+    for (int row = column + 1; row < 4; ++row) {
+      if (std::abs(a[row][column]) > std::abs(a[pivot][column])) pivot = row;
+    }
+    const double p = a[pivot][column];
+    if (p == 0 || !std::isfinite(p) || !std::isfinite(1 / p)) return false;
+    std::swap(a[pivot], a[column]);
+    std::swap(inverse[pivot], inverse[column]);
+    for (int j = 0; j < 4; ++j) {
+      a[column][j] /= p;
+      inverse[column][j] /= p;
+    }
+    for (int row = 0; row < 4; ++row) {
+      if (row == column) continue;
+      const double f = a[row][column];
+      for (int j = 0; j < 4; ++j) {
+        a[row][j] -= f * a[column][j];
+        inverse[row][j] -= f * inverse[column][j];
+      }
+    }
+  }
+  for (const auto& row : inverse) {
+    for (double value : row) {
+      if (!std::isfinite(value)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 Transform::Transform() : m_{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}} {}
 
@@ -87,43 +123,6 @@ double Transform::Determinant3() const {
   const Vec3d r2 = {m_[2][0], m_[2][1], m_[2][2]};
   return Dot(r0, Cross(r1, r2));
 }
-
-namespace {
-
-// Gauss-Jordan elimination with full row pivoting. Returns false if singular.
-bool Invert(Transform::Matrix a, Transform::Matrix& inverse) {
-  inverse = Transform().matrix();
-  for (int column = 0; column < 4; ++column) {
-    int pivot = column;
-    for (int row = column + 1; row < 4; ++row) {
-      if (std::abs(a[row][column]) > std::abs(a[pivot][column])) pivot = row;
-    }
-    const double p = a[pivot][column];
-    if (p == 0 || !std::isfinite(p) || !std::isfinite(1 / p)) return false;
-    std::swap(a[pivot], a[column]);
-    std::swap(inverse[pivot], inverse[column]);
-    for (int j = 0; j < 4; ++j) {
-      a[column][j] /= p;
-      inverse[column][j] /= p;
-    }
-    for (int row = 0; row < 4; ++row) {
-      if (row == column) continue;
-      const double f = a[row][column];
-      for (int j = 0; j < 4; ++j) {
-        a[row][j] -= f * a[column][j];
-        inverse[row][j] -= f * inverse[column][j];
-      }
-    }
-  }
-  for (const auto& row : inverse) {
-    for (double value : row) {
-      if (!std::isfinite(value)) return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
 
 bool Transform::IsInvertible() const {
   Matrix inverse;

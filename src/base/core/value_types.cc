@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-// Digits with a point among them or without: no sign, no exponent.
+// Parses digits with an optional point, without sign and exponent.
 std::optional<double> ParseDecimal(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789.") != text.npos) return {};
   return ParseNumber<double>(text);
@@ -21,7 +21,7 @@ struct TimeUnit {
   std::string_view name;
   double seconds;
 };
-// From the largest down, as they follow each other in a text.
+// In the order in which a text has them.
 constexpr TimeUnit kTimeUnits[] = {
     {"d", 86400}, {"h", 3600}, {"m", 60}, {"s", 1}, {"ms", 1e-3}};
 

@@ -1,5 +1,5 @@
-// Types of values that flags and files write as text: one parser, one printer and one
-// wording of what would be right for each.
+// Types of values that flags and files state as text, each with a parser, a printer, and
+// a description of valid texts for messages.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@
 
 namespace lanelight {
 
-/// All of the text as a decimal number; a plus in front will do. Nothing if it is
-/// anything else, or too large.
+/// Parses the whole text as a decimal number, with an optional plus in front. Empty if it
+/// is none, or too large.
 template <class T>
 std::optional<T> ParseNumber(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -48,8 +48,8 @@ std::vector<T> ParseNumbers(std::string_view text, char separator) {
 /// `text` as messages show it: numbers as they are, all else in quotes.
 std::string ShownValue(std::string_view text);
 
-// Each type has Read, which returns the value of a text or nothing; Write, which returns
-// the text of a value; and Right, which describes valid texts after "is not".
+// In each type, Read parses a text, Write prints a value, and Right describes valid texts
+// for messages, after "is not".
 
 /// An integer, or another number, of [low, high]; never NaN.
 template <class T>
@@ -109,7 +109,7 @@ struct SecondsType {
 };
 
 /// A relative MSE, written as its root in percent: "1%" is 0.0001. The percent sign is
-/// required, so that the two cannot be confused.
+/// required, so that the two are not confused.
 struct PercentErrorType {
   double low{}, high{};  // percent
 
@@ -172,7 +172,7 @@ NamesType<E> NamesOf(int count) {
 template <class Type>
 auto ReadValue(const Type& type, const std::string& text) {
   if (auto value = type.Read(text)) return *std::move(value);
-  throw InputError(fmt::format("{} is not {}", ShownValue(text), type.Right(text)));
+  throw InputError("{} is not {}", ShownValue(text), type.Right(text));
 }
 
 }  // namespace lanelight

@@ -54,6 +54,11 @@ Vec3<T> Normalize(Vec3<T> a) {
   const T length = Length(a);
   return length > T(0) ? a / length : a;
 }
+/// Largest absolute value of a component.
+template <typename T>
+T LargestComponent(Vec3<T> a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
 template <typename T>
 constexpr Vec3<T> Min(Vec3<T> a, Vec3<T> b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};

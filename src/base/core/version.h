@@ -1,4 +1,4 @@
-// Which Lanelight this is.
+// Version of the program.
 #pragma once
 
 #include <string>

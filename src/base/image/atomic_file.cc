@@ -10,15 +10,16 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <regex>
 
 #include "src/base/core/error.h"
-#include "src/base/core/file_descriptor.h"
+#include "src/base/core/input_file.h"
 
 namespace lanelight {
 namespace {
 
 [[noreturn]] void Fail(const std::string& path, const char* what, int error) {
-  throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(error)));
+  throw InputError("{}: {}: {}", path, what, std::strerror(error));
 }
 
 // True once everything is written; errno says why not.
@@ -32,29 +33,15 @@ bool WriteAll(int fd, std::string_view content) {
   return true;
 }
 
-// Devices and pipes cannot be replaced (renaming over /dev/null would destroy it).
-bool IsSpecialFile(const std::string& path) {
-  struct stat info;
-  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) &&
-         !S_ISDIR(info.st_mode);
-}
-
-// A reader that never comes would block the program.
-bool IsPipe(const std::string& path) {
-  struct stat info;
-  return stat(path.c_str(), &info) == 0 &&
-         (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
-}
-
 void WriteInPlace(const std::string& path, std::string_view content) {
   FileDescriptor file(open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.get() < 0) Fail(path, "cannot open for writing", errno);
   if (!WriteAll(file.get(), content) || !file.Close()) Fail(path, "cannot write", errno);
 }
 
-// Puts the name of a file onto the disk. True if done, or if it cannot be done here: some
-// file systems do not know it, and a folder may be writable but not readable. The content
-// is safe even so, and the name is that of the old file or the new one.
+// Flushes the name of a file to the disk. Also true where that is impossible: some file
+// systems do not support it, and a folder can be writable but not readable. The content
+// is safe even then, under the name of the old or the new file.
 bool SyncFolder(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path();
   const FileDescriptor fd(
@@ -63,8 +50,8 @@ bool SyncFolder(const std::string& path) {
   return fsync(fd.get()) == 0 || errno == EINVAL || errno == EROFS;
 }
 
-// A new file beside `path`; -1 with errno. A name that is there already is another
-// machine's, or was left by a killed process of the same number: the next one is taken.
+// Creates a file beside `path`; -1 with errno. Passes over existing names, which belong
+// to another machine or to a killed process of the same number.
 int CreateTemporary(const std::string& path, std::string& name) {
   static std::atomic<unsigned> counter{0};
   const std::string start = TemporaryStart(path);
@@ -88,18 +75,10 @@ void WriteAndRename(const std::string& path, std::string_view content) {
   Fail(path, "cannot write", error);
 }
 
-// Returns whether `name` is one that a temporary file of `start` may have, which is of
-// TemporaryStart.
+// True if a temporary file can have this name; `start` is its TemporaryStart.
 bool IsTemporaryOf(const std::string& name, const std::string& start) {
-  constexpr std::string_view kEnd = ".tmp";
-  if (!name.starts_with(start + ".") || !name.ends_with(kEnd)) return false;
-  if (name.size() <= start.size() + 1 + kEnd.size()) return false;
-  const std::string middle =
-      name.substr(start.size() + 1, name.size() - start.size() - 1 - kEnd.size());
-  const std::size_t dot = middle.find('.');
-  return dot != middle.npos && dot > 0 && dot + 1 < middle.size() &&
-         middle.find_first_not_of("0123456789", dot + 1) == middle.npos &&
-         middle.find_first_not_of("0123456789") == dot;
+  static const std::regex digits(R"(\.\d+\.\d+\.tmp)");
+  return name.starts_with(start) && std::regex_match(name.substr(start.size()), digits);
 }
 
 }  // namespace
@@ -118,7 +97,7 @@ std::string LinkTarget(const std::string& path) {
 }
 
 std::string TemporaryStart(const std::string& path) {
-  // Most file systems have 255 bytes for a name, and some want whole characters.
+  // Most file systems limit names to 255 bytes; some require whole characters.
   constexpr std::size_t kMost = 220;
   const std::size_t slash = path.rfind('/');
   const std::size_t name = slash == path.npos ? 0 : slash + 1;
@@ -129,11 +108,17 @@ std::string TemporaryStart(const std::string& path) {
 }
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
-  if (IsPipe(path)) {
-    throw InputError(path +
-                     ": cannot write: it is a pipe or a socket, not a regular file");
+  struct stat info;
+  if (stat(path.c_str(), &info) == 0) {
+    // Without a reader, writing to a pipe would block.
+    if (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)) {
+      throw InputError(path +
+                       ": cannot write: it is a pipe or a socket, not a regular file");
+    }
+    // A device cannot be replaced: renaming over /dev/null would destroy it.
+    const bool replaceable = S_ISREG(info.st_mode) || S_ISDIR(info.st_mode);
+    if (!replaceable) return WriteInPlace(path, content);
   }
-  if (IsSpecialFile(path)) return WriteInPlace(path, content);
   const std::string file = LinkTarget(path);
   WriteAndRename(file, content);
   if (!SyncFolder(file)) Fail(file, "written, but its folder cannot be", errno);
@@ -154,7 +139,7 @@ void CheckCreatable(const std::string& path) {
   std::string temporary;
   FileDescriptor file(CreateTemporary(LinkTarget(path), temporary));
   if (file.get() < 0) {
-    throw InputError(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+    throw InputError("cannot write '{}': {}", path, std::strerror(errno));
   }
   unlink(temporary.c_str());
 }

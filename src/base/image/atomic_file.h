@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Writes files so that they are complete or absent.
 #pragma once
 
 #include <string>
@@ -13,19 +13,18 @@ namespace lanelight {
 /// target of a symbolic link is replaced, not the link. Pipes and sockets are refused.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
-/// The file that a symbolic link leads to, by whatever links, whether it exists or not;
-/// other paths as they are.
+/// Follows symbolic links and returns the final path, whether it exists or not.
 std::string LinkTarget(const std::string& path);
 
-/// What the names of its temporary files begin with, before ".<digits>.<digits>.tmp":
-/// `path`, or as much of it as leaves room for that.
+/// Returns the beginning of the names of temporary files of `path`, before
+/// ".<digits>.<digits>.tmp": the path, shortened if needed.
 std::string TemporaryStart(const std::string& path);
-/// Removes the temporary files of `path` that killed processes left. No process may be
-/// writing `path`.
+/// Removes temporary files of `path` left by killed processes. No process may be writing
+/// `path` at the same time.
 void RemoveTemporaries(const std::string& path);
 
-/// Throws InputError with the system's reason if WriteFileAtomically could not even
-/// begin: no temporary file can be created beside `path`. Leaves nothing behind.
+/// Throws InputError if no temporary file can be created beside `path`, so that
+/// WriteFileAtomically would fail.
 void CheckCreatable(const std::string& path);
 
 }  // namespace lanelight

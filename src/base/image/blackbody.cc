@@ -1,9 +1,9 @@
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 
 #include <cmath>
 
 #include "src/base/core/check.h"
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 #include "src/base/image/spectrum_integral.h"
 #include "src/base/image/wavelengths.h"
 

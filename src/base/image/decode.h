@@ -1,11 +1,13 @@
-// Decoders of images whose samples are bytes. Use ReadImage.
+// Decoders and encoders of single formats. Use ReadImage and WritePng.
 //
 // Each decoder's memory and time are bounded by the size of its file: a header that
 // states more pixels than so many bytes can hold is refused before anything is allocated.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "src/base/image/image.h"
 
@@ -15,6 +17,9 @@ namespace lanelight {
 /// so many pixels. `pixels_per_byte`: what the format packs into a byte at best.
 void CheckImageFits(const std::string& path, long long width, long long height,
                     double pixels_per_byte, std::size_t bytes);
+
+/// Names of 1 to 4 channels: Y, Y A, R G B, or R G B A.
+std::vector<std::string> ChannelNames(int count);
 
 /// The content decides which decoder is used. 16-bit samples become 8-bit ones.
 /// InputError: damaged, truncated, not an image.
@@ -30,5 +35,11 @@ Image DecodePng(const std::string& path, const std::string& content);
 
 /// QOI ("Quite OK Image" format). Samples that the file calls linear become floats.
 Image DecodeQoi(const std::string& path, const std::string& content);
+
+/// Radiance HDR as float R, G, B.
+Image ReadHdr(const std::string& path);
+
+/// A PNG file of 8-bit RGB, rows from the top.
+std::string EncodePng(int width, int height, const std::vector<std::uint8_t>& rgb);
 
 }  // namespace lanelight

@@ -11,54 +11,14 @@ namespace {
 
 constexpr const char* kExrMagic = "\x76\x2f\x31\x01";
 
-}  // namespace
-
-bool ExrMemoryInput::read(char c[], int n) {
-  if (n < 0 || static_cast<std::size_t>(n) > content_.size() - at_) {
-    throw DamagedExr("the image file is truncated");
-  }
-  std::memcpy(c, content_.data() + at_, static_cast<std::size_t>(n));
-  at_ += static_cast<std::size_t>(n);
-  return at_ < content_.size();
-}
-
-void ExrMemoryInput::seekg(std::uint64_t to) {
-  if (to > content_.size()) throw DamagedExr("the image file is truncated");
-  at_ = to;
-}
-
-std::map<std::string, ImageAttribute> ExrAttributes(const Imf::Header& header) {
-  std::map<std::string, ImageAttribute> attributes;
-  for (auto it = header.begin(); it != header.end(); ++it) {
-    const Imf::Attribute& attribute = it.attribute();
-    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
-      attributes[it.name()] = s->value();
-    } else if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
-      attributes[it.name()] = static_cast<double>(f->value());
-    } else if (const auto* i = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
-      attributes[it.name()] = i->value();
-    }
-  }
-  return attributes;
-}
-
-std::string WhyNotExr(const std::exception& error, const std::string& content) {
-  if (dynamic_cast<const DamagedExr*>(&error) != nullptr) return error.what();
-  return content.starts_with(kExrMagic)
-             ? "it is damaged, or of a kind that OpenEXR does not read"
-             : "it is not an EXR file";
-}
-
-namespace {
-
-// What takes memory before any pixel is read, of one header of the file.
+// Values of a header that decide how much memory OpenEXR takes before it reads pixels.
 struct HeaderSizes {
   std::int64_t width = 1, height = 1, tile_width = 1, tile_height = 1;
   bool deep = false;
 };
 
-// Reads the attributes of a header one by one, as they lie in the file: name, type, size,
-// value. OpenEXR makes room for whatever size they claim.
+// Reads the attributes of a header in file order: name, type, size, value. OpenEXR
+// allocates whatever size they claim.
 class HeaderWalk {
  public:
   HeaderWalk(const std::string& content, std::size_t at) : content_(content), at_(at) {}
@@ -112,10 +72,46 @@ class HeaderWalk {
 
 }  // namespace
 
+bool ExrMemoryInput::read(char c[], int n) {
+  if (n < 0 || static_cast<std::size_t>(n) > content_.size() - at_) {
+    throw DamagedExr("the image file is truncated");
+  }
+  std::memcpy(c, content_.data() + at_, static_cast<std::size_t>(n));
+  at_ += static_cast<std::size_t>(n);
+  return at_ < content_.size();
+}
+
+void ExrMemoryInput::seekg(std::uint64_t to) {
+  if (to > content_.size()) throw DamagedExr("the image file is truncated");
+  at_ = to;
+}
+
+std::map<std::string, ImageAttribute> ExrAttributes(const Imf::Header& header) {
+  std::map<std::string, ImageAttribute> attributes;
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    const Imf::Attribute& attribute = it.attribute();
+    if (const auto* s = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+      attributes[it.name()] = s->value();
+    } else if (const auto* f = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+      attributes[it.name()] = static_cast<double>(f->value());
+    } else if (const auto* i = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+      attributes[it.name()] = i->value();
+    }
+  }
+  return attributes;
+}
+
+std::string WhyNotExr(const std::exception& error, const std::string& content) {
+  if (dynamic_cast<const DamagedExr*>(&error) != nullptr) return error.what();
+  return content.starts_with(kExrMagic)
+             ? "it is damaged, or of a kind that OpenEXR does not read"
+             : "it is not an EXR file";
+}
+
 void CheckExrMemory(const std::string& content, bool reads_pixels) {
   constexpr std::size_t kStart = 8;  // magic number, version
   constexpr std::uint32_t kSeveralParts = 1 << 12;
-  // OpenEXR says what else it may be.
+  // OpenEXR reports other contents.
   if (content.size() < kStart || !content.starts_with(kExrMagic)) return;
   const auto flags = static_cast<unsigned char>(content[5]);
   const bool several = (static_cast<std::uint32_t>(flags) << 8 & kSeveralParts) != 0;
@@ -123,7 +119,7 @@ void CheckExrMemory(const std::string& content, bool reads_pixels) {
   do {
     const HeaderSizes sizes = walk.Next();
     if (!reads_pixels) continue;
-    // Each pixel claims a number of samples of its own.
+    // Each pixel has its own number of samples.
     if (sizes.deep) throw DamagedExr("deep images are not read");
     if (sizes.width < 1 || sizes.height < 1) {
       throw DamagedExr("the data window is empty or negative");

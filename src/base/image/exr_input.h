@@ -1,4 +1,4 @@
-// Shared by both readers of EXR files.
+// Shared parts of the readers of EXR files.
 #pragma once
 
 #include <ImfHeader.h>
@@ -17,7 +17,7 @@ struct DamagedExr : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An EXR file in memory, so that the system's errors are told from the format's.
+/// An EXR file in memory, which separates errors of the system from those of the format.
 class ExrMemoryInput : public Imf::IStream {
  public:
   ExrMemoryInput(const std::string& path, const std::string& content)
@@ -32,7 +32,7 @@ class ExrMemoryInput : public Imf::IStream {
   std::size_t at_ = 0;
 };
 
-/// Those of strings and numbers.
+/// Returns the attributes of strings and numbers.
 std::map<std::string, ImageAttribute> ExrAttributes(const Imf::Header& header);
 
 /// The best compression of OpenEXR stores fewer samples than this per byte of file.
@@ -43,7 +43,7 @@ inline constexpr std::size_t kMaxExrSamplesPerByte = 4096;
 /// memory for all of these before it reads them.
 void CheckExrMemory(const std::string& content, bool reads_pixels);
 
-/// Rewrites OpenEXR's error texts, which are meant for programmers, for users.
+/// Returns the cause of an error in plain words.
 std::string WhyNotExr(const std::exception& error, const std::string& content);
 
 }  // namespace lanelight

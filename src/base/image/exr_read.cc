@@ -4,8 +4,13 @@
 #include <ImfInputFile.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
@@ -37,9 +42,8 @@ void CheckChannels(const Imf::Header& header, const std::vector<std::string>& wa
     }
     if (channel->xSampling != 1 || channel->ySampling != 1) {
       throw DamagedExr(fmt::format(
-          "channel \"{}\" is subsampled, which is not supported; the file has "
-          "{}",
-          name, fmt::join(ChannelsOf(header), ", ")));
+          "channel \"{}\" is subsampled, which is not supported; the file has {}", name,
+          fmt::join(ChannelsOf(header), ", ")));
     }
   }
 }
@@ -74,26 +78,109 @@ Image Read(const std::string& path, const std::string& content,
   return image;
 }
 
-Image ReadWithPath(const std::string& path, const std::vector<std::string>* wanted) {
+// Calls read(content of the file). Turns its errors into InputErrors that name the file.
+template <class ReadContent>
+auto WithExr(const std::string& path, const ReadContent& read) {
   const std::string content = ReadWholeFile(path);
   try {
-    return Read(path, content, wanted);
+    return read(content);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(
-        fmt::format("{}: cannot read the EXR file: {}", path, WhyNotExr(error, content)));
+    throw InputError("{}: cannot read the EXR file: {}", path, WhyNotExr(error, content));
   }
+}
+
+// In the order of Imf::Compression.
+constexpr const char* kCompressions[] = {"none",  "RLE", "ZIPS", "ZIP",  "PIZ",
+                                         "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+// In the order of Imf::PixelType.
+constexpr const char* kPixelTypes[] = {"uint", "half", "float"};
+
+// Attributes of every header, or shown in other ways.
+const std::set<std::string> kUsual = {"channels",
+                                      "compression",
+                                      "dataWindow",
+                                      "displayWindow",
+                                      "lineOrder",
+                                      "pixelAspectRatio",
+                                      "screenWindowCenter",
+                                      "screenWindowWidth",
+                                      "name",
+                                      "type",
+                                      "version",
+                                      "chunkCount"};
+
+template <std::size_t N>
+std::string NameIn(const char* const (&names)[N], int index) {
+  return index >= 0 && index < static_cast<int>(N) ? names[index]
+                                                   : fmt::format("number {}", index);
+}
+
+std::array<int, 4> WindowOf(const Imath::Box2i& box) {
+  return {box.min.x, box.min.y, box.max.x, box.max.y};
+}
+
+std::size_t PlaceOf(const std::string& channel) {
+  const std::string_view colors = "RGBA";
+  return channel.size() == 1 ? std::min(colors.find(channel), colors.size())
+                             : colors.size();
+}
+
+ExrPart PartOf(const Imf::Header& header) {
+  ExrPart out;
+  if (header.hasName()) out.name = header.name();
+  out.kind = header.hasType()              ? header.type()
+             : header.hasTileDescription() ? Imf::TILEDIMAGE
+                                           : Imf::SCANLINEIMAGE;
+  out.compression = NameIn(kCompressions, header.compression());
+  out.data_window = WindowOf(header.dataWindow());
+  out.display_window = WindowOf(header.displayWindow());
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    const Imf::Channel& c = it.channel();
+    out.channels.push_back(
+        {it.name(), NameIn(kPixelTypes, c.type), c.xSampling, c.ySampling});
+  }
+  std::sort(out.channels.begin(), out.channels.end(),
+            [](const ExrChannel& a, const ExrChannel& b) {
+              return std::make_pair(PlaceOf(a.name), a.name) <
+                     std::make_pair(PlaceOf(b.name), b.name);
+            });
+  out.attributes = ExrAttributes(header);
+  std::erase_if(out.attributes, [](const auto& entry) {
+    return kUsual.count(entry.first) > 0 && entry.first != "version";
+  });
+  for (auto it = header.begin(); it != header.end(); ++it) {
+    if (kUsual.count(it.name()) > 0 || out.attributes.count(it.name()) > 0) continue;
+    out.other_attributes.push_back(
+        fmt::format("{} ({})", it.name(), it.attribute().typeName()));
+  }
+  return out;
 }
 
 }  // namespace
 
-Image ReadExr(const std::string& path) { return ReadWithPath(path, nullptr); }
+std::vector<ExrPart> ReadExrHeader(const std::string& path) {
+  return WithExr(path, [&](const std::string& content) {
+    CheckExrMemory(content, /*reads_pixels=*/false);
+    ExrMemoryInput stream(path, content);
+    Imf::MultiPartInputFile file(stream);
+    std::vector<ExrPart> parts;
+    for (int i = 0; i < file.parts(); ++i) parts.push_back(PartOf(file.header(i)));
+    return parts;
+  });
+}
+
+Image ReadExr(const std::string& path) {
+  return WithExr(
+      path, [&](const std::string& content) { return Read(path, content, nullptr); });
+}
 
 Image ReadExr(const std::string& path, const std::vector<std::string>& channels) {
-  return ReadWithPath(path, &channels);
+  return WithExr(
+      path, [&](const std::string& content) { return Read(path, content, &channels); });
 }
 
 }  // namespace lanelight

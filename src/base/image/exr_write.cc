@@ -94,8 +94,8 @@ Imf::Header MakeHeader(int width, int height, const std::vector<ExrPlane>& plane
   return header;
 }
 
-// Threads that compress, of OpenEXR's own pool: it has none unless it is told. None for
-// images that take no longer than starting them.
+// Number of compressing threads, from OpenEXR's own pool; 0 for images that take no
+// longer than starting threads.
 int Compressors(std::size_t values) {
   constexpr std::size_t kFew = std::size_t{1} << 20;
   const int threads = MaxThreads();

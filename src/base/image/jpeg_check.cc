@@ -8,7 +8,6 @@ namespace {
 
 constexpr int kJpegTables = 0xc4, kJpegEnd = 0xd9, kJpegScan = 0xda;
 
-// Goes from marker to marker, as stb does.
 class JpegWalk {
  public:
   JpegWalk(const std::string& path, const std::string& content)
@@ -22,8 +21,7 @@ class JpegWalk {
       if (marker == kJpegTables) CheckTables(at_ + 2, at_ + size);
       at_ += size;
       if (marker != kJpegScan || ++scans <= kMostScans) continue;
-      throw InputError(
-          fmt::format("{}: the image has more than {} scans", path_, kMostScans));
+      throw InputError("{}: the image has more than {} scans", path_, kMostScans);
     }
   }
 
@@ -31,7 +29,7 @@ class JpegWalk {
   int Byte(std::size_t at) const {
     return at < content_.size() ? static_cast<unsigned char>(content_[at]) : 0;
   }
-  // The marker that begins the next segment; passes over coded data before it.
+  // Returns the marker of the next segment, after coded data.
   int Next() {
     while ((at_ = content_.find('\xff', at_)) != content_.npos) {
       while (Byte(at_) == 0xff) ++at_;
@@ -47,9 +45,9 @@ class JpegWalk {
       int codes = 0;
       for (std::size_t i = 1; i <= 16; ++i) codes += Byte(at + i);
       if (codes > 256) {
-        throw InputError(path_ +
-                         ": the image file is damaged: a Huffman table of more "
-                         "than 256 codes");
+        throw InputError(
+            path_ +
+            ": the image file is damaged: a Huffman table of more than 256 codes");
       }
       at += 17 + static_cast<std::size_t>(codes);
     }

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "src/base/core/error.h"
-#include "src/base/core/error_text.h"
 #include "src/base/core/input_file.h"
 #include "src/base/image/spectrum_integral.h"
 #include "src/base/image/tensor_file.h"
@@ -19,115 +18,11 @@ namespace lanelight {
 namespace {
 
 constexpr double kAngleSlack = 1e-3;
-// Colours take time of the number of wavelengths squared; the database has 195.
+// Conversion takes time quadratic in the number of wavelengths; the database has 195.
 constexpr std::size_t kMostNodes = 4096;
 
-/// Reads the fields and checks that they fit together.
-class Reader {
- public:
-  explicit Reader(std::string bytes) : file_(std::move(bytes)) {}
-  MeasuredReflectance Read();
-  /// Reads the spectra of this many known directions.
-  MeasuredSpectra Spectra(std::size_t phis, std::size_t thetas) const;
-
- private:
-  void NeedShape(const std::string& name,
-                 const std::vector<std::uint64_t>& leading) const;
-  std::vector<double> Nodes(const std::string& name, double low, double high) const;
-  MeasuredTensor Tensor(const std::string& name,
-                        const std::vector<std::uint64_t>& leading) const;
-  void CheckPhi(const MeasuredReflectance& m) const;
-  void CheckMass(const std::string& name, const MeasuredTensor& t) const;
-
-  TensorFile file_;
-};
-
-// The dimensions before the last two, which are rows and columns: two of each at least.
-void Reader::NeedShape(const std::string& name,
-                       const std::vector<std::uint64_t>& leading) const {
-  const TensorField& field = file_.Find(name);
-  const std::size_t n = leading.size();
-  const auto& shape = field.shape;
-  const bool fits = shape.size() == n + 2 &&
-                    std::equal(leading.begin(), leading.end(), shape.begin()) &&
-                    shape[n] >= 2 && shape[n + 1] >= 2 && field.count < 1u << 31;
-  if (fits) return;
-  FailAtByte(field.place,
-             fmt::format("field \"{}\" has the shape [{}]; expected [{}{}height, "
-                         "width], 2 or more each",
-                         name, fmt::join(shape, ", "), fmt::join(leading, ", "),
-                         n > 0 ? ", " : ""));
-}
-
-std::vector<double> Reader::Nodes(const std::string& name, double low,
-                                  double high) const {
-  const TensorField& field = file_.Find(name);
-  const std::vector<float> floats =
-      file_.Floats(name, -static_cast<float>(kLargestInTensor), false);
-  std::vector<double> nodes(floats.begin(), floats.end());
-  if (field.shape.size() != 1 || nodes.empty() || nodes.size() > kMostNodes) {
-    FailAtByte(
-        field.place,
-        fmt::format("field \"{}\" has the shape [{}]; expected [count], at most {}", name,
-                    fmt::join(field.shape, ", "), kMostNodes));
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (i > 0 && !(nodes[i] > nodes[i - 1])) {
-      FailAtByte(field.offset + 4 * i,
-                 fmt::format("\"{}\" does not increase: {} after {}", name, nodes[i],
-                             nodes[i - 1]));
-    }
-    if (nodes[i] >= low - kAngleSlack && nodes[i] <= high + kAngleSlack) continue;
-    FailAtByte(field.offset + 4 * i,
-               fmt::format("\"{}\" {}: not within {:.4g} and {:.4g}", name, nodes[i], low,
-                           high));
-  }
-  return nodes;
-}
-
-MeasuredTensor Reader::Tensor(const std::string& name,
-                              const std::vector<std::uint64_t>& leading) const {
-  NeedShape(name, leading);
-  const auto& shape = file_.Find(name).shape;
-  MeasuredTensor t;
-  t.height = static_cast<int>(shape[leading.size()]);
-  t.width = static_cast<int>(shape[leading.size() + 1]);
-  t.values = file_.Floats(name, 0, true);
-  return t;
-}
-
-void Reader::CheckPhi(const MeasuredReflectance& m) const {
-  if (m.isotropic()) return;
-  constexpr double kPi = std::numbers::pi;
-  const double range = m.phi.back() - m.phi.front();
-  const int parts = m.parts();
-  const bool known = parts == 1 || parts == 2 || parts == 4;
-  if (known && std::abs(range * parts - 2 * kPi) < 0.1 &&
-      std::abs(m.phi.front() + kPi) < 0.1) {
-    return;
-  }
-  FailAtByte(
-      file_.Find("phi_i").place,
-      fmt::format("\"phi_i\" goes from {:.4g} to {:.4g}; expected from -pi to pi, or "
-                  "the first half or quarter of that",
-                  m.phi.front(), m.phi.back()));
-}
-
-// Checks that each slice of a density has mass.
-void Reader::CheckMass(const std::string& name, const MeasuredTensor& t) const {
-  const auto size =
-      static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);
-  for (std::size_t at = 0; at < t.values.size(); at += size) {
-    const auto begin = t.values.begin() + static_cast<std::ptrdiff_t>(at);
-    const auto end = begin + static_cast<std::ptrdiff_t>(size);
-    if (*std::max_element(begin, end) >= 1e-12f) continue;
-    FailAtByte(file_.Find(name).offset + 4 * at,
-               fmt::format("slice {} of \"{}\" is 0 everywhere", at / size, name));
-  }
-}
-
-// Linear sRGB under D65 of values at wavelengths, linear between these: for each of
-// `slices`, wavelengths of `numbers` to three of them.
+// Linear sRGB under D65 of values at wavelengths, linear between these: turns the
+// wavelengths of each slice into three channels.
 std::vector<float> ColorsOf(const MeasuredSpectra& spectra, std::size_t slices) {
   const std::vector<double>& nm = spectra.nm;
   const auto numbers = static_cast<std::size_t>(spectra.reflectance.width) *
@@ -157,48 +52,135 @@ std::vector<float> ColorsOf(const MeasuredSpectra& spectra, std::size_t slices) 
   return colors;
 }
 
-MeasuredReflectance Reader::Read() {
-  constexpr double kPi = std::numbers::pi;
-  MeasuredReflectance m;
-  const TensorField& jacobian = file_.Find("jacobian");
-  if (jacobian.type != kTensorUint8 || jacobian.count != 1 ||
-      file_.bytes()[jacobian.offset] == 0) {
-    FailAtByte(jacobian.place,
-               "\"jacobian\" is not one uint8 other than 0: spectra that are "
-               "not relative to the density of normals are not supported");
+class Reader {
+ public:
+  explicit Reader(std::string bytes) : file_(std::move(bytes)) {}
+
+  MeasuredReflectance Read() {
+    constexpr double kPi = std::numbers::pi;
+    MeasuredReflectance m;
+    const TensorField& jacobian = file_.Find("jacobian");
+    if (jacobian.type != kTensorUint8 || jacobian.count != 1 ||
+        file_.bytes()[jacobian.offset] == 0) {
+      FailAtByte(jacobian.place,
+                 "\"jacobian\" is not one uint8 other than 0: spectra that are not "
+                 "relative to the density of normals are not supported");
+    }
+    m.phi = Nodes("phi_i", -2 * kPi, 2 * kPi);
+    m.theta = Nodes("theta_i", 0, kPi / 2);
+    CheckPhi(m);
+    const std::vector<std::uint64_t> slices = {m.phi.size(), m.theta.size()};
+    m.ndf = Tensor("ndf", {});
+    m.sigma = Tensor("sigma", {});
+    m.vndf = Tensor("vndf", slices);
+    m.luminance = Tensor("luminance", slices);
+    CheckMass("vndf", m.vndf);
+    CheckMass("luminance", m.luminance);
+    const MeasuredSpectra spectra = Spectra(m.phi.size(), m.theta.size());
+    m.reflectance = {spectra.reflectance.width, spectra.reflectance.height,
+                     ColorsOf(spectra, m.phi.size() * m.theta.size())};
+    return m;
   }
-  m.phi = Nodes("phi_i", -2 * kPi, 2 * kPi);
-  m.theta = Nodes("theta_i", 0, kPi / 2);
-  CheckPhi(m);
-  const std::vector<std::uint64_t> slices = {m.phi.size(), m.theta.size()};
-  m.ndf = Tensor("ndf", {});
-  m.sigma = Tensor("sigma", {});
-  m.vndf = Tensor("vndf", slices);
-  m.luminance = Tensor("luminance", slices);
-  CheckMass("vndf", m.vndf);
-  CheckMass("luminance", m.luminance);
-  const MeasuredSpectra spectra = Spectra(m.phi.size(), m.theta.size());
-  m.reflectance = {spectra.reflectance.width, spectra.reflectance.height,
-                   ColorsOf(spectra, m.phi.size() * m.theta.size())};
-  return m;
-}
 
-MeasuredSpectra Reader::Spectra(std::size_t phis, std::size_t thetas) const {
-  const std::uint64_t wavelengths = file_.Find("wavelengths").count;
-  MeasuredSpectra spectra;
-  spectra.reflectance = Tensor("spectra", {phis, thetas, wavelengths});
-  spectra.nm = Nodes("wavelengths", 1, 1e5);
-  return spectra;
-}
+  /// Of so many known directions.
+  MeasuredSpectra Spectra(std::size_t phis, std::size_t thetas) const {
+    const std::uint64_t wavelengths = file_.Find("wavelengths").count;
+    MeasuredSpectra spectra;
+    spectra.reflectance = Tensor("spectra", {phis, thetas, wavelengths});
+    spectra.nm = Nodes("wavelengths", 1, 1e5);
+    return spectra;
+  }
 
-// What `read` makes of the bytes, with its errors about the file.
+ private:
+  // The dimensions before the last two, which are rows and columns: two of each at least.
+  void NeedShape(const std::string& name,
+                 const std::vector<std::uint64_t>& leading) const {
+    const TensorField& field = file_.Find(name);
+    const std::size_t n = leading.size();
+    const auto& shape = field.shape;
+    const bool fits = shape.size() == n + 2 &&
+                      std::equal(leading.begin(), leading.end(), shape.begin()) &&
+                      shape[n] >= 2 && shape[n + 1] >= 2 && field.count < 1u << 31;
+    if (fits) return;
+    FailAtByte(
+        field.place,
+        "field \"{}\" has the shape [{}]; expected [{}{}height, width], 2 or more each",
+        name, fmt::join(shape, ", "), fmt::join(leading, ", "), n > 0 ? ", " : "");
+  }
+
+  std::vector<double> Nodes(const std::string& name, double low, double high) const {
+    const TensorField& field = file_.Find(name);
+    const std::vector<float> floats =
+        file_.Floats(name, -static_cast<float>(kLargestInTensor), false);
+    std::vector<double> nodes(floats.begin(), floats.end());
+    if (field.shape.size() != 1 || nodes.empty() || nodes.size() > kMostNodes) {
+      FailAtByte(field.place,
+                 "field \"{}\" has the shape [{}]; expected [count], at most {}", name,
+                 fmt::join(field.shape, ", "), kMostNodes);
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (i > 0 && !(nodes[i] > nodes[i - 1])) {
+        FailAtByte(field.offset + 4 * i, "\"{}\" does not increase: {} after {}", name,
+                   nodes[i], nodes[i - 1]);
+      }
+      if (nodes[i] >= low - kAngleSlack && nodes[i] <= high + kAngleSlack) continue;
+      FailAtByte(field.offset + 4 * i, "\"{}\" {}: not within {:.4g} and {:.4g}", name,
+                 nodes[i], low, high);
+    }
+    return nodes;
+  }
+
+  MeasuredTensor Tensor(const std::string& name,
+                        const std::vector<std::uint64_t>& leading) const {
+    NeedShape(name, leading);
+    const auto& shape = file_.Find(name).shape;
+    MeasuredTensor t;
+    t.height = static_cast<int>(shape[leading.size()]);
+    t.width = static_cast<int>(shape[leading.size() + 1]);
+    t.values = file_.Floats(name, 0, true);
+    return t;
+  }
+
+  void CheckPhi(const MeasuredReflectance& m) const {
+    if (m.isotropic()) return;
+    constexpr double kPi = std::numbers::pi;
+    const double range = m.phi.back() - m.phi.front();
+    const int parts = m.parts();
+    const bool known = parts == 1 || parts == 2 || parts == 4;
+    if (known && std::abs(range * parts - 2 * kPi) < 0.1 &&
+        std::abs(m.phi.front() + kPi) < 0.1) {
+      return;
+    }
+    FailAtByte(file_.Find("phi_i").place,
+               "\"phi_i\" goes from {:.4g} to {:.4g}; expected from -pi to pi, or the "
+               "first half or quarter of that",
+               m.phi.front(), m.phi.back());
+  }
+
+  // Requires a density above 0 in each slice.
+  void CheckMass(const std::string& name, const MeasuredTensor& t) const {
+    const auto size =
+        static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);
+    for (std::size_t at = 0; at < t.values.size(); at += size) {
+      const auto begin = t.values.begin() + static_cast<std::ptrdiff_t>(at);
+      const auto end = begin + static_cast<std::ptrdiff_t>(size);
+      if (*std::max_element(begin, end) >= 1e-12f) continue;
+      FailAtByte(file_.Find(name).offset + 4 * at, "slice {} of \"{}\" is 0 everywhere",
+                 at / size, name);
+    }
+  }
+
+  TensorFile file_;
+};
+
+// Returns read(reader of the bytes); its errors name the file.
 template <class Read>
 auto FromBytes(std::string bytes, const std::string& path, const Read& read) {
   try {
     return read(Reader(std::move(bytes)));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot use the measured reflectance \"{}\": {}", path,
-                                 WithoutPrefix(error)));
+    throw InputError("cannot use the measured reflectance \"{}\": {}", path,
+                     WithoutPrefix(error));
   }
 }
 
@@ -215,8 +197,8 @@ std::string BytesOf(const std::string& path) {
   try {
     return ReadWholeFile(path);
   } catch (const Unreadable& problem) {
-    throw InputError(fmt::format("cannot read the measured reflectance \"{}\": {}", path,
-                                 problem.reason()));
+    throw InputError("cannot read the measured reflectance \"{}\": {}", path,
+                     problem.reason());
   }
 }
 

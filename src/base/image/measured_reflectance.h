@@ -39,22 +39,20 @@ struct MeasuredReflectance {
   int parts() const;
 };
 
-/// Reads a file. InputError, without a place in the scene, names it by `path` and says
-/// what of it is wrong: nothing that it says of itself is believed.
+/// Reads and checks a file. InputError names it by `path`.
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     std::istream& file, const std::string& path);
 /// The same; opens the file itself.
 std::shared_ptr<const MeasuredReflectance> ReadMeasuredReflectance(
     const std::string& path);
 
-/// The spectra behind the colours of `reflectance`: a slice per wavelength.
+/// Spectra of `reflectance`: a slice for each wavelength.
 struct MeasuredSpectra {
   std::vector<double> nm;  // increasing
   MeasuredTensor reflectance;
 };
-/// Opens the file once more: spectra are many times as large as colours, and only renders
-/// that carry wavelengths keep them. InputError where it cannot be read, or has other
-/// directions by now.
+/// Reads the file again: spectra are many times as large as colours, and only spectral
+/// renders need them. InputError if it cannot be read, or has other directions now.
 MeasuredSpectra ReadMeasuredSpectra(const MeasuredReflectance& measured);
 
 }  // namespace lanelight

@@ -1,6 +1,5 @@
-// A NanoVDB grid is data with offsets in it, which whoever uses the grid follows: here
-// all of them are checked first. For sparse_grid.cc alone: the headers of NanoVDB are
-// long.
+// Checks all offsets in a NanoVDB grid before lookups follow them. Only sparse_grid.cc
+// includes this file, because the headers of NanoVDB are long.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,8 +18,11 @@
 namespace lanelight {
 
 /// Says at which byte of the grid it is damaged, and how.
-[[noreturn]] inline void FailDamaged(std::uint64_t place, const std::string& text) {
-  throw InputError(fmt::format("is damaged at its byte {}: {}", place, text));
+template <class... Args>
+[[noreturn]] void FailDamaged(std::uint64_t place, fmt::format_string<Args...> format,
+                              Args&&... args) {
+  const std::string text = fmt::format(format, std::forward<Args>(args)...);
+  throw InputError("is damaged at its byte {}: {}", place, text);
 }
 
 /// Returns the offset of a part in its grid.
@@ -33,20 +35,18 @@ inline std::uint64_t PlaceIn(const void* grid, const void* part) {
 /// bytes.
 inline void CheckHead(const nanovdb::GridData& grid, std::uint64_t size) {
   if (size < sizeof grid) {
-    FailDamaged(0, fmt::format("{} bytes; its head alone has {}", size, sizeof grid));
+    FailDamaged(0, "{} bytes; its head alone has {}", size, sizeof grid);
   }
   if (grid.mMagic != NANOVDB_MAGIC_NUMBER) {
     FailDamaged(PlaceIn(&grid, &grid.mMagic), "not the number that grids begin with");
   }
   if (grid.mVersion.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER) {
-    FailDamaged(PlaceIn(&grid, &grid.mVersion),
-                fmt::format("version {}; supported: {}", grid.mVersion.getMajor(),
-                            NANOVDB_MAJOR_VERSION_NUMBER));
+    FailDamaged(PlaceIn(&grid, &grid.mVersion), "version {}; supported: {}",
+                grid.mVersion.getMajor(), NANOVDB_MAJOR_VERSION_NUMBER);
   }
   if (grid.mGridSize > size) {
-    FailDamaged(
-        PlaceIn(&grid, &grid.mGridSize),
-        fmt::format("a size of {} bytes, but there are {}", grid.mGridSize, size));
+    FailDamaged(PlaceIn(&grid, &grid.mGridSize), "a size of {} bytes, but there are {}",
+                grid.mGridSize, size);
   }
 }
 
@@ -83,13 +83,81 @@ class TreeCheck {
   const auto& Tree() const { return *grid_.tree().data(); }
   const RootNode& Root() const { return grid_.tree().root(); }
 
-  void CheckInside(std::uint64_t from, std::uint64_t place, std::uint64_t count) const;
-  void CheckRoot();
-  void CheckTiles() const;
+  // Something of `count` bytes, which what stands at byte `from` leads to.
+  void CheckInside(std::uint64_t from, std::uint64_t place, std::uint64_t count) const {
+    const bool fits = place <= size_ && count <= size_ - place;
+    if (fits && place >= first_ && place % NANOVDB_DATA_ALIGNMENT == 0) return;
+    FailDamaged(from,
+                "leads to {} bytes at byte {}, which must be a multiple of {}, and all "
+                "between {} and {}",
+                count, place, NANOVDB_DATA_ALIGNMENT, first_, size_);
+  }
+
+  void CheckRoot() {
+    first_ = sizeof(nanovdb::GridData) + sizeof(Tree());
+    if (size_ < first_) {
+      FailDamaged(Place(&grid_.data()->mGridSize),
+                  "a size of {} bytes; head and tree alone have {}", size_, first_);
+    }
+    const std::uint64_t& offset = Tree().mNodeOffset[RootNode::LEVEL];
+    root_ = sizeof(nanovdb::GridData) + offset;
+    CheckInside(Place(&offset), root_, sizeof(RootNode));
+    CheckInside(Place(&Root().tileCount()), root_, Root().memUsage());
+    CheckTiles();
+    first_ = root_ + Root().memUsage();
+  }
+
+  void CheckTiles() const {
+    std::vector<std::uint64_t> keys;
+    for (std::uint32_t i = 0; i < Root().tileCount(); ++i) {
+      const auto* tile = Root().data()->tile(i);
+      if (RootNode::DataType::CoordToKey(tile->origin()) != tile->key) {
+        FailDamaged(Place(&tile->key), "the key {} is no place", tile->key);
+      }
+      keys.push_back(tile->key);
+    }
+    std::sort(keys.begin(), keys.end());
+    if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) return;
+    FailDamaged(root_, "two tiles of the root have the same place");
+  }
+
   template <typename Node>
-  void VisitNode(std::uint64_t from, std::uint64_t place);
+  void VisitNode(std::uint64_t from, std::uint64_t place) {
+    CheckInside(from, place, sizeof(Node));
+    const auto& data =
+        *nanovdb::PtrAdd<Node>(&grid_, static_cast<std::int64_t>(place))->data();
+    std::uint64_t bytes = sizeof(Node);
+    if constexpr (!Node::FIXED_SIZE) {  // a leaf with as many bits for a value as it says
+      if (data.mFlags >> 5 > 4) {
+        FailDamaged(Place(&data.mFlags), "values of {} bits; at most 16",
+                    1 << (data.mFlags >> 5));
+      }
+      bytes = data.memUsage();
+      CheckInside(from, place, bytes);
+    }
+    // Nodes that many lead to would be visited without end, or nearly.
+    in_nodes_ += bytes;
+    if (in_nodes_ > size_ - first_) {
+      FailDamaged(from, "leads to a node that something else has led to already");
+    }
+    nodes_[Node::LEVEL].push_back(place);
+    if constexpr (Node::LEVEL > 0) {
+      for (auto child = data.mChildMask.beginOn(); child; ++child) {
+        const std::int64_t& offset = data.mTable[*child].child;
+        VisitNode<typename Node::ChildNodeType>(
+            Place(&offset), place + static_cast<std::uint64_t>(offset));
+      }
+    }
+  }
+
   template <typename Node>
-  void CheckCount() const;
+  void CheckCount() const {
+    const std::uint32_t& count = Tree().mNodeCount[Node::LEVEL];
+    const std::size_t found = nodes_[Node::LEVEL].size();
+    if (count == found) return;
+    FailDamaged(Place(&count), "{} nodes of level {}, but the tree has {}", count,
+                Node::LEVEL, found);
+  }
 
   const nanovdb::NanoGrid<BuildT>& grid_;
   std::uint64_t size_;
@@ -98,88 +166,5 @@ class TreeCheck {
   std::uint64_t in_nodes_ = 0;  // bytes
   std::vector<std::uint64_t> nodes_[3];
 };
-
-// Something of `count` bytes, which what stands at byte `from` leads to.
-template <typename BuildT>
-void TreeCheck<BuildT>::CheckInside(std::uint64_t from, std::uint64_t place,
-                                    std::uint64_t count) const {
-  const bool fits = place <= size_ && count <= size_ - place;
-  if (fits && place >= first_ && place % NANOVDB_DATA_ALIGNMENT == 0) return;
-  FailDamaged(from,
-              fmt::format("leads to {} bytes at byte {}, which must be a multiple of "
-                          "{}, and all between {} and {}",
-                          count, place, NANOVDB_DATA_ALIGNMENT, first_, size_));
-}
-
-template <typename BuildT>
-void TreeCheck<BuildT>::CheckRoot() {
-  first_ = sizeof(nanovdb::GridData) + sizeof(Tree());
-  if (size_ < first_) {
-    FailDamaged(
-        Place(&grid_.data()->mGridSize),
-        fmt::format("a size of {} bytes; head and tree alone have {}", size_, first_));
-  }
-  const std::uint64_t& offset = Tree().mNodeOffset[RootNode::LEVEL];
-  root_ = sizeof(nanovdb::GridData) + offset;
-  CheckInside(Place(&offset), root_, sizeof(RootNode));
-  CheckInside(Place(&Root().tileCount()), root_, Root().memUsage());
-  CheckTiles();
-  first_ = root_ + Root().memUsage();
-}
-
-template <typename BuildT>
-void TreeCheck<BuildT>::CheckTiles() const {
-  std::vector<std::uint64_t> keys;
-  for (std::uint32_t i = 0; i < Root().tileCount(); ++i) {
-    const auto* tile = Root().data()->tile(i);
-    if (RootNode::DataType::CoordToKey(tile->origin()) != tile->key) {
-      FailDamaged(Place(&tile->key), fmt::format("the key {} is no place", tile->key));
-    }
-    keys.push_back(tile->key);
-  }
-  std::sort(keys.begin(), keys.end());
-  if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) return;
-  FailDamaged(root_, "two tiles of the root have the same place");
-}
-
-template <typename BuildT>
-template <typename Node>
-void TreeCheck<BuildT>::VisitNode(std::uint64_t from, std::uint64_t place) {
-  CheckInside(from, place, sizeof(Node));
-  const auto& data =
-      *nanovdb::PtrAdd<Node>(&grid_, static_cast<std::int64_t>(place))->data();
-  std::uint64_t bytes = sizeof(Node);
-  if constexpr (!Node::FIXED_SIZE) {  // a leaf with as many bits for a value as it says
-    if (data.mFlags >> 5 > 4) {
-      FailDamaged(Place(&data.mFlags),
-                  fmt::format("values of {} bits; at most 16", 1 << (data.mFlags >> 5)));
-    }
-    bytes = data.memUsage();
-    CheckInside(from, place, bytes);
-  }
-  // Nodes that many lead to would be visited without end, or nearly.
-  in_nodes_ += bytes;
-  if (in_nodes_ > size_ - first_) {
-    FailDamaged(from, "leads to a node that something else has led to already");
-  }
-  nodes_[Node::LEVEL].push_back(place);
-  if constexpr (Node::LEVEL > 0) {
-    for (auto child = data.mChildMask.beginOn(); child; ++child) {
-      const std::int64_t& offset = data.mTable[*child].child;
-      VisitNode<typename Node::ChildNodeType>(Place(&offset),
-                                              place + static_cast<std::uint64_t>(offset));
-    }
-  }
-}
-
-template <typename BuildT>
-template <typename Node>
-void TreeCheck<BuildT>::CheckCount() const {
-  const std::uint32_t& count = Tree().mNodeCount[Node::LEVEL];
-  const std::size_t found = nodes_[Node::LEVEL].size();
-  if (count == found) return;
-  FailDamaged(Place(&count), fmt::format("{} nodes of level {}, but the tree has {}",
-                                         count, Node::LEVEL, found));
-}
 
 }  // namespace lanelight

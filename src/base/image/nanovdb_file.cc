@@ -13,7 +13,7 @@
 
 #include "src/base/core/error.h"
 
-// Of NanoVDB 32, how headers are laid out. Its own reader believes them.
+// Layout of headers (NanoVDB 32). Its own reader does not check them.
 #include <nanovdb/util/IO.h>
 
 namespace lanelight {
@@ -21,12 +21,12 @@ namespace {
 
 namespace io = nanovdb::io;
 
-// Bytes that one byte of a compressed grid may become: of zip 1032, of blosc's LZ4 255.
+// Most bytes from one compressed byte: 1032 for zip, 255 for blosc's LZ4.
 constexpr std::uint64_t kMostExpansion = 1032;
 // Bytes of a grid that blosc compresses at a time.
 constexpr std::uint64_t kBloscChunk = std::uint64_t{1} << 30;
 
-// Reads on through a file, never past its end.
+// Reads a file sequentially, never past its end.
 class Reader {
  public:
   explicit Reader(std::istream& file) : file_(file) {
@@ -37,18 +37,20 @@ class Reader {
   std::uint64_t place() const { return place_; }
   std::uint64_t left() const { return size_ - place_; }
 
-  [[noreturn]] static void Fail(std::uint64_t place, const std::string& text) {
-    throw InputError(fmt::format("byte {}: {}", place, text));
+  template <class... Args>
+  [[noreturn]] static void Fail(std::uint64_t place, fmt::format_string<Args...> format,
+                                Args&&... args) {
+    throw InputError("byte {}: {}", place,
+                     fmt::format(format, std::forward<Args>(args)...));
   }
   void Need(std::uint64_t count, const char* what) const {
     if (count <= left()) return;
-    Fail(place_,
-         fmt::format("{} of {} bytes, but the file ends at byte {}", what, count, size_));
+    Fail(place_, "{} of {} bytes, but the file ends at byte {}", what, count, size_);
   }
   void Read(std::uint64_t count, const char* what, void* to) {
     Need(count, what);
     if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count))) {
-      Fail(place_, fmt::format("{} of {} bytes cannot be read", what, count));
+      Fail(place_, "{} of {} bytes cannot be read", what, count);
     }
     place_ += count;
   }
@@ -73,19 +75,19 @@ io::Header ReadHeader(Reader& reader) {
   const std::uint64_t place = reader.place();
   const auto header = reader.Read<io::Header>("the header of a segment");
   if (header.magic != NANOVDB_MAGIC_NUMBER) {
-    reader.Fail(place, header.magic == io::reverseEndianness(NANOVDB_MAGIC_NUMBER)
-                           ? "written on a machine with the other byte order"
-                           : "not the number that NanoVDB files begin with");
+    reader.Fail(place, "{}",
+                header.magic == io::reverseEndianness(NANOVDB_MAGIC_NUMBER)
+                    ? "written on a machine with the other byte order"
+                    : "not the number that NanoVDB files begin with");
   }
   const auto version = header.version.getMajor();
   if (version != NANOVDB_MAJOR_VERSION_NUMBER) {
-    reader.Fail(place + 8, fmt::format("version {} of the format; supported: {}", version,
-                                       NANOVDB_MAJOR_VERSION_NUMBER));
+    reader.Fail(place + 8, "version {} of the format; supported: {}", version,
+                NANOVDB_MAJOR_VERSION_NUMBER);
   }
   if (header.codec >= io::Codec::END) {
-    reader.Fail(place + 14, fmt::format("compression {}; supported: 0 (none), 1 (zip), 2 "
-                                        "(blosc)",
-                                        static_cast<int>(header.codec)));
+    reader.Fail(place + 14, "compression {}; supported: 0 (none), 1 (zip), 2 (blosc)",
+                static_cast<int>(header.codec));
   }
   return header;
 }
@@ -115,7 +117,7 @@ void Unblosc(Reader& reader, GridBytes* bytes) {
     const auto packed = ReadPacked(reader);
     const std::size_t chunk = std::min<std::uint64_t>(kBloscChunk, bytes->size() - done);
     std::size_t size = 0;
-    // Decompression itself trusts the sizes that blosc has written.
+    // Decompression does not check the sizes in the file.
     if (blosc_cbuffer_validate(packed.data(), packed.size(), &size) != 0 ||
         size != chunk ||
         blosc_decompress_ctx(packed.data(), bytes->data() + done, chunk, 1) !=
@@ -126,19 +128,19 @@ void Unblosc(Reader& reader, GridBytes* bytes) {
   }
 }
 
-// Room for no more than the rest of the file can become.
+// Allocates no more than the rest of the file can unpack to.
 GridBytes MakeRoom(const Reader& reader, io::Codec codec, std::uint64_t size) {
   if (codec == io::Codec::NONE) {
     reader.Need(size, "a grid");
   } else if (size / kMostExpansion > reader.left()) {
     reader.Fail(reader.place(),
-                fmt::format("a grid of {} bytes, which the {} that follow cannot become",
-                            size, reader.left()));
+                "a grid of {} bytes, which the {} that follow cannot become", size,
+                reader.left());
   }
   try {
     return GridBytes(size);
   } catch (const std::bad_alloc&) {
-    reader.Fail(reader.place(), fmt::format("no memory for a grid of {} bytes", size));
+    reader.Fail(reader.place(), "no memory for a grid of {} bytes", size);
   }
 }
 
@@ -160,7 +162,7 @@ std::optional<StoredGrid> ReadStoredGrid(std::istream& file, const std::string& 
   Reader reader(file);
   do {
     const io::Header header = ReadHeader(reader);
-    // Descriptions of all its grids come first, then the grids.
+    // The descriptions of all grids precede the grids.
     std::optional<std::uint64_t> size;  // of the grid that is looked for
     std::uint64_t before = 0;           // it, or before the next segment
     for (int i = 0; i < header.gridCount; ++i) {

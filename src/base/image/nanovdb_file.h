@@ -1,5 +1,5 @@
-// NanoVDB files (.nvdb) as a row of segments: which grids they hold, and one of them,
-// unpacked. What a grid itself says is not looked at: nanovdb_check.h.
+// Reads one grid of a NanoVDB file (.nvdb), unpacked. Its content is checked later
+// (nanovdb_check.h).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace lanelight {
 
-/// Memory as NanoVDB needs it, of exactly so many bytes, none of which has a value yet.
+/// Aligned memory for NanoVDB, not initialised.
 class GridBytes {
  public:
   GridBytes() = default;
@@ -37,9 +37,9 @@ struct StoredGrid {
   std::uint64_t place = 0;  // byte of the file where it begins, packed or not
 };
 
-/// The first grid of that name, whole or compressed by zip or blosc; nothing if the file
-/// has none. A file that ends too early, or that claims more than it can hold:
-/// InputError, which says at which byte, but not of which file.
+/// Returns the first grid of that name, uncompressed or compressed by zip or blosc; empty
+/// if the file has none. InputError, with the byte but not the file, for a file that ends
+/// too early or claims more than it can hold.
 std::optional<StoredGrid> ReadStoredGrid(std::istream& file, const std::string& name);
 
 }  // namespace lanelight

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -10,8 +9,9 @@
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
+#include "src/base/core/value_types.h"
 #include "src/base/image/atomic_file.h"
-#include "src/base/image/image.h"
+#include "src/base/image/decode.h"
 
 namespace lanelight {
 namespace {
@@ -31,15 +31,13 @@ std::string_view NextWord(std::string_view text, std::size_t& at) {
 }
 
 template <class T>
-T ParseNumber(const std::string& path, std::string_view word, const char* what) {
-  T value{};
-  const auto [end, error] =
-      std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) {
-    throw InputError(fmt::format("{}: bad {} \"{}\" in the PFM header", path, what,
-                                 word.substr(0, 20)));
+T HeaderNumber(const std::string& path, std::string_view word, const char* what) {
+  const std::optional<T> value = ParseNumber<T>(word);
+  if (!value) {
+    throw InputError("{}: bad {} \"{}\" in the PFM header", path, what,
+                     word.substr(0, 20));
   }
-  return value;
+  return *value;
 }
 
 float FromBytes(const char* bytes, bool big_endian) {
@@ -57,10 +55,10 @@ Image ReadPfm(const std::string& path) {
   if (magic != "PF" && magic != "Pf") {
     throw InputError(path + ": not a PFM file (it begins with neither PF nor Pf)");
   }
-  const auto width = ParseNumber<long long>(path, NextWord(file, at), "width");
-  const auto height = ParseNumber<long long>(path, NextWord(file, at), "height");
+  const auto width = HeaderNumber<long long>(path, NextWord(file, at), "width");
+  const auto height = HeaderNumber<long long>(path, NextWord(file, at), "height");
   CheckImageSize(path, width, height);
-  const auto scale = ParseNumber<double>(path, NextWord(file, at), "scale");
+  const auto scale = HeaderNumber<double>(path, NextWord(file, at), "scale");
   if (!std::isfinite(scale) || scale == 0) {
     throw InputError(path + ": the scale of a PFM file must be finite and not zero");
   }
@@ -68,14 +66,11 @@ Image ReadPfm(const std::string& path) {
   const std::size_t row = static_cast<std::size_t>(width) * channels;
   const std::size_t need = row * static_cast<std::size_t>(height) * 4;
   if (file.size() - at < need) {
-    throw InputError(
-        fmt::format("{}: the image file is truncated: {} bytes of pixels, {} "
-                    "expected",
-                    path, file.size() - at, need));
+    throw InputError("{}: the image file is truncated: {} bytes of pixels, {} expected",
+                     path, file.size() - at, need);
   }
   Image image = MakeImage(static_cast<int>(width), static_cast<int>(height),
-                          channels == 3 ? std::vector<std::string>{"R", "G", "B"}
-                                        : std::vector<std::string>{"Y"});
+                          ChannelNames(channels));
   const float factor = static_cast<float>(std::abs(scale));
   for (int y = 0; y < image.height; ++y) {
     const char* from = file.data() + at + row * 4 * (image.height - 1 - y);

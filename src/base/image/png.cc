@@ -1,11 +1,11 @@
-#include "src/base/image/png.h"
+#include "src/base/image/image.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/core/error.h"
 #include "src/base/image/atomic_file.h"
-#include "src/base/image/stb.h"
+#include "src/base/image/decode.h"
 
 namespace lanelight {
 

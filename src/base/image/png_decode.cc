@@ -10,8 +10,8 @@
 namespace lanelight {
 namespace {
 
-// libpng reports errors by longjmp. What it may leave behind lives here, in the caller's
-// frame; functions that call setjmp have no objects with destructors.
+// libpng reports errors by longjmp. Objects live here, in the caller's frame; functions
+// that call setjmp have no objects with destructors.
 struct PngReader {
   explicit PngReader(const std::string& file) : content(file) {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &Fail, &Warn);
@@ -77,13 +77,6 @@ void Require(bool good, const std::string& path, const PngReader& r) {
                                        : ": the image file is damaged: " + r.reason));
 }
 
-std::vector<std::string> ChannelsOfPng(int count) {
-  std::vector<std::string> names =
-      count < 3 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
-  if (count % 2 == 0) names.emplace_back("A");
-  return names;
-}
-
 }  // namespace
 
 Image DecodePng(const std::string& path, const std::string& content) {
@@ -100,7 +93,7 @@ Image DecodePng(const std::string& path, const std::string& content) {
                  content.size());
   Require(SetOutput(reader), path, reader);
   image.channels = png_get_channels(reader.png, reader.info);
-  image.names = ChannelsOfPng(image.channels);
+  image.names = ChannelNames(image.channels);
   image.bytes.resize(image.Offset(0, image.height, 0));
   std::vector<png_bytep> rows;
   for (int y = 0; y < image.height; ++y) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kHeader = 14, kEnd = 8;  // bytes before and after the pixels
 
-// Bytes of the chunk that begins with this one.
+// Bytes of the chunk that begins with this byte.
 std::size_t ChunkSize(unsigned char first) {
   if (first == QOI_OP_RGB) return 4;
   if (first == QOI_OP_RGBA) return 5;
@@ -61,8 +61,7 @@ Image DecodeQoi(const std::string& path, const std::string& content) {
   Image image;
   image.width = static_cast<int>(width), image.height = static_cast<int>(height);
   image.channels = header.channels;
-  image.names = {"R", "G", "B"};
-  if (image.channels == 4) image.names.emplace_back("A");
+  image.names = ChannelNames(image.channels);
   const auto* bytes = static_cast<const std::uint8_t*>(pixels.get());
   const std::size_t samples = image.Offset(0, image.height, 0);
   if (header.colorspace == QOI_SRGB) {

@@ -1,4 +1,4 @@
-#include "src/base/image/rgb_spectrum.h"
+#include "src/base/image/upsampling.h"
 
 #include <algorithm>
 #include <array>
@@ -71,8 +71,8 @@ Spectrum ReflectanceOfRgb(Rgb rgb) {
   if (rgb.x == rgb.y && rgb.y == rgb.z) {
     return [value = rgb.x](double) { return value; };
   }
-  // From grey towards the colour in steps: near the gamut's edge a direct fit gets stuck
-  // on the flat parts of the sigmoid.
+  // Steps from grey towards the colour: near the gamut's edge a direct fit gets stuck on
+  // the flat parts of the sigmoid.
   const Rgb grey = {0.5, 0.5, 0.5};
   Coefficients c = {0, 0, 0};
   for (double share : {0.25, 0.5, 0.75, 0.9, 1.0})

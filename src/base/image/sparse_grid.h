@@ -11,14 +11,14 @@ namespace lanelight {
 
 class GridBytes;
 
-/// A NanoVDB grid as it lies in memory. Values may be float, Fp4, Fp8, Fp16 or FpN; other
-/// types, level sets, values that are not finite, damage: InputError, without what it is
-/// about. Nothing that the grid says of itself is believed: no lookup leaves its bytes.
+/// Checks a NanoVDB grid in memory, so that no lookup leaves its bytes. Values may be
+/// float, Fp4, Fp8, Fp16 or FpN. InputError, without the name of the grid, for other
+/// types, level sets, values that are not finite, and damage.
 std::shared_ptr<const SparseGrid> MakeSparseGrid(GridBytes bytes);
 
-/// The first grid of that name in a NanoVDB file (.nvdb), whole or compressed by zip or
-/// blosc; null if the file has none. InputError, without a place in the scene, names the
-/// file by its path and says what of it is wrong.
+/// Reads the first grid of that name in a NanoVDB file (.nvdb), uncompressed or
+/// compressed by zip or blosc; null if the file has none. InputError names the file by
+/// its path.
 std::shared_ptr<const SparseGrid> ReadSparseGrid(std::istream& file,
                                                  const std::string& path,
                                                  const std::string& name);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "src/base/image/bucket_shares.h"
 #include "src/base/image/wavelengths.h"
 
 namespace lanelight {
@@ -22,14 +21,14 @@ double Integral(const Spectrum& spectrum, double low, double high) {
 std::string ChannelName(const SpectralBuckets& buckets, int i) {
   const double middle = (buckets.Edge(i) + buckets.Edge(i + 1)) / 2;
   std::string text = fmt::format("{:.3f}", middle);
-  // A dot would part layers.
+  // A dot would separate layers.
   std::replace(text.begin(), text.end(), '.', ',');
   return "S0." + text + "nm";
 }
 
 Spectrum WhiteRadiance() {
   const Spectrum d65 = DaylightD65();
-  // The eye's integral over that of what it sees of D65.
+  // Integral of the photometric curve over that of D65.
   double unit = 0;
   for (int nm = kFirstCarriedNm; nm <= kLastCarriedNm; ++nm) {
     unit += Luminance(WhiteShare(nm)) / d65(nm);

@@ -1,9 +1,12 @@
 // The buckets of wavelengths of a film that keeps spectra (pbrt-v4's Film "spectral").
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "src/base/core/spectral_constants.h"
+#include "src/base/image/spectrum_integral.h"
 
 namespace lanelight {
 
@@ -22,5 +25,32 @@ struct SpectralBuckets {
 /// 2021, "An OpenEXR Layout for Spectral Images", JCGT 10(3)), three digits as in
 /// pbrt-v4.
 std::string ChannelName(const SpectralBuckets& buckets, int i);
+
+/// Spectrum of D65 of luminance 1: the factor that turns radiance in units of D65 into
+/// pbrt's units.
+Spectrum WhiteRadiance();
+
+/// Contributions of a path to the bucket sums of its pixel. Their mean over samples is
+/// the mean radiance over those wavelengths of a bucket that paths carry.
+class BucketShares {
+ public:
+  explicit BucketShares(const SpectralBuckets& buckets);
+
+  /// Adds radiance in units of D65 in a bin of the triple that was drawn. A bucket that
+  /// no bin reaches stays 0.
+  void Add(std::uint32_t bin, double radiance, double* sums) const {
+    for (std::uint32_t i = begin_[bin]; i < begin_[bin + 1]; ++i) {
+      sums[shares_[i].bucket] += shares_[i].of_radiance * radiance;
+    }
+  }
+
+ private:
+  struct Share {
+    std::uint32_t bucket;
+    double of_radiance;
+  };
+  std::vector<std::uint32_t> begin_;  // by bin, and the end of the last
+  std::vector<Share> shares_;
+};
 
 }  // namespace lanelight

@@ -5,7 +5,6 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/base/image/color_matrix.h"
 #include "src/base/image/color_spaces.h"
 #include "src/base/image/fluorescent_lamps.h"
 #include "src/base/image/spectrum_data.h"
@@ -16,7 +15,7 @@ namespace {
 
 Rgb ClampZero(Rgb c) { return Max(c, Rgb{}); }
 
-// Cut to the gamut first, so that the luminance is 1 after it.
+// Clamps to the gamut first, so that the luminance is 1 afterwards.
 Rgb NormalizedLight(const Spectrum& light) {
   const Rgb color = ClampZero(ColorOfLight(light));
   const double y = Luminance(color);
@@ -36,32 +35,29 @@ Rgb Convert(const Spectrum& spectrum, SpectrumUse use) {
 
 void CheckSamples(const std::vector<double>& nm, const std::vector<double>& values) {
   if (nm.empty() || nm.size() != values.size()) {
-    throw InputError(fmt::format(
+    throw InputError(
         "a spectrum needs as many values as wavelengths, at least one; found {} "
         "wavelengths and {} values",
-        nm.size(), values.size()));
+        nm.size(), values.size());
   }
   for (std::size_t i = 0; i < nm.size(); ++i) {
     if (!std::isfinite(nm[i]) || !std::isfinite(values[i])) {
-      throw InputError(fmt::format("sample {} of a spectrum is not finite", i + 1));
+      throw InputError("sample {} of a spectrum is not finite", i + 1);
     }
     if (i > 0 && nm[i] <= nm[i - 1]) {
-      throw InputError(
-          fmt::format("the wavelengths of a spectrum must increase; found {} "
-                      "after {}",
-                      nm[i], nm[i - 1]));
+      throw InputError("the wavelengths of a spectrum must increase; found {} after {}",
+                       nm[i], nm[i - 1]);
     }
   }
 }
 
-// Reflectance at normal incidence from air.
 double NormalReflectance(double eta, double k) {
   const double below = eta - 1, above = eta + 1;
   return (below * below + k * k) / (above * above + k * k);
 }
 
-// (eta, k) with this reflectance: keeps eta and solves for k; if eta alone already
-// reflects more, k is 0 and eta gives way.
+// Finds (eta, k) of this reflectance: keeps eta and solves for k; if eta alone reflects
+// more, k becomes 0 and eta changes.
 void SolveChannel(double reflectance, double* eta, double* k) {
   const double r = std::clamp(reflectance, 0.0, 0.9995);
   const double below = *eta - 1, above = *eta + 1;
@@ -115,6 +111,33 @@ double GlassIndexAt(const GlassIndex& glass, double nm) {
   return std::sqrt(sum);
 }
 
+// Returns the entry of this name, or null.
+template <class Table>
+auto Find(const Table& table, const std::string& name) {
+  const auto found = std::find_if(std::begin(table), std::end(table),
+                                  [&](const auto& entry) { return name == entry.name; });
+  return found == std::end(table) ? nullptr : &*found;
+}
+
+// Eta or k of a metal.
+struct MetalPart {
+  const MetalTable* table = nullptr;
+  bool is_eta = false;
+
+  lanelight::Spectrum Spectrum() const {
+    return MetalSpectrum(is_eta ? table->eta : table->k);
+  }
+};
+
+// Finds a spectrum such as "metal-Cu-eta"; a null table for other names.
+MetalPart FindMetalPart(const std::string& name) {
+  for (const MetalTable& table : kMetals) {
+    if (name == fmt::format("metal-{}-eta", table.name)) return {&table, true};
+    if (name == fmt::format("metal-{}-k", table.name)) return {&table, false};
+  }
+  return {};
+}
+
 }  // namespace
 
 // Planck's law, up to a factor that keeps it in range at any temperature.
@@ -134,20 +157,12 @@ Spectrum SpectrumFromSamples(const std::vector<double>& wavelengths_nm,
 }
 
 std::optional<Spectrum> SpectrumOfName(const std::string& name) {
-  for (const NamedLight& light : NamedLights()) {
-    if (name == light.name) return light.spectrum;
+  if (const NamedLight* light = Find(NamedLights(), name)) return light->spectrum;
+  if (const GlassIndex* glass = Find(kGlasses, name)) {
+    return [glass](double nm) { return GlassIndexAt(*glass, nm); };
   }
-  for (const GlassIndex& glass : kGlasses) {
-    if (name == glass.name) {
-      return [&glass](double nm) { return GlassIndexAt(glass, nm); };
-    }
-  }
-  for (const MetalTable& table : kMetals) {
-    const auto is = [&](const char* which) {
-      return name == fmt::format("metal-{}-{}", table.name, which);
-    };
-    if (is("eta")) return MetalSpectrum(table.eta);
-    if (is("k")) return MetalSpectrum(table.k);
+  if (const MetalPart part = FindMetalPart(name); part.table != nullptr) {
+    return part.Spectrum();
   }
   return std::nullopt;
 }
@@ -168,12 +183,10 @@ Rgb RgbFromSamples(const std::vector<double>& wavelengths_nm,
 }
 
 bool NamedMetal(const std::string& metal, ComplexIor* ior) {
-  for (const MetalTable& table : kMetals) {
-    if (metal != table.name) continue;
-    *ior = MatchReflectance(MetalSpectrum(table.eta), MetalSpectrum(table.k));
-    return true;
-  }
-  return false;
+  const MetalTable* table = Find(kMetals, metal);
+  if (table == nullptr) return false;
+  *ior = MatchReflectance(MetalSpectrum(table->eta), MetalSpectrum(table->k));
+  return true;
 }
 
 ComplexIor ComplexIorFromSamples(const std::vector<double>& eta_nm,
@@ -185,39 +198,29 @@ ComplexIor ComplexIorFromSamples(const std::vector<double>& eta_nm,
 }
 
 bool NamedGlassEta(const std::string& name, double* eta) {
-  for (const GlassIndex& glass : kGlasses) {
-    if (name != glass.name) continue;
-    *eta = glass.eta;
-    return true;
-  }
-  return false;
+  const GlassIndex* glass = Find(kGlasses, name);
+  if (glass != nullptr) *eta = glass->eta;
+  return glass != nullptr;
 }
 
 bool NamedSpectrum(const std::string& name, SpectrumUse use, Rgb* rgb) {
-  for (const NamedLight& light : NamedLights()) {
-    if (name != light.name) continue;
-    const bool emits = use == SpectrumUse::kRadiance;
-    *rgb = Convert(light.spectrum, emits ? SpectrumUse::kIlluminant : use);
-    return true;
-  }
+  const MetalPart metal = FindMetalPart(name);
   double glass;
-  if (NamedGlassEta(name, &glass)) {
+  if (const NamedLight* light = Find(NamedLights(), name)) {
+    const bool emits = use == SpectrumUse::kRadiance;
+    *rgb = Convert(light->spectrum, emits ? SpectrumUse::kIlluminant : use);
+  } else if (NamedGlassEta(name, &glass)) {
     *rgb = Convert([glass](double) { return glass; }, use);
-    return true;
+  } else if (metal.table != nullptr && use == SpectrumUse::kUnbounded) {
+    ComplexIor ior;
+    NamedMetal(metal.table->name, &ior);
+    *rgb = metal.is_eta ? ior.eta : ior.k;
+  } else if (metal.table != nullptr) {
+    *rgb = Convert(metal.Spectrum(), use);
+  } else {
+    return false;
   }
-  for (const MetalTable& table : kMetals) {
-    const bool is_eta = name == fmt::format("metal-{}-eta", table.name);
-    if (!is_eta && name != fmt::format("metal-{}-k", table.name)) continue;
-    if (use == SpectrumUse::kUnbounded) {
-      ComplexIor ior;
-      NamedMetal(table.name, &ior);
-      *rgb = is_eta ? ior.eta : ior.k;
-    } else {
-      *rgb = Convert(MetalSpectrum(is_eta ? table.eta : table.k), use);
-    }
-    return true;
-  }
-  return false;
+  return true;
 }
 
 std::vector<std::string> NamedSpectra() {

@@ -82,4 +82,22 @@ bool NamedGlassEta(const std::string& name, double* eta);
 /// (above 1 only beside one below 0).
 Rgb ToSrgb(const std::string& color_space, Rgb color, SpectrumUse use);
 
+/// The spectrum of a black body divided by its own maximum. `kelvin` as below.
+Spectrum NormalizedBlackbody(double kelvin);
+
+/// Linear sRGB of a black body whose spectrum is divided by its own maximum, as pbrt-v4's
+/// film sees it: its luminance is the integral over nm of that spectrum times the
+/// photometric curve, so at most 106.9, and nearly 0 where all is infrared. Channels
+/// below 0 are cut, and the luminance kept. `kelvin` must be positive and finite
+/// (LL_CHECK).
+Rgb RgbOfBlackbody(double kelvin);
+
+/// The integral over nm of the photometric curve of the CIE 1931 observer: what pbrt-v4's
+/// film makes of `rgb` illuminants of (1, 1, 1) that nothing normalises.
+inline constexpr double kPhotometricIntegral = 106.856895;
+
+/// By bin of wavelengths: what a spectrum of 1, as that of a black body is at its
+/// maximum, is in units of D65, in the scale of RgbOfBlackbody.
+std::vector<float> UnitsOfBlackbody();
+
 }  // namespace lanelight

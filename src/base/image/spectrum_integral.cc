@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 #include "src/base/image/spectrum_data.h"
 
 namespace lanelight {

@@ -1,4 +1,3 @@
-#include "src/base/image/stb.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -36,8 +35,8 @@
 namespace lanelight {
 namespace {
 
-// The file as stb reads it. stb itself takes the end of a file for zeros, so that a
-// truncated image would look like a good one; here every read past the end is noticed.
+// The input of stb. stb reads zeros past the end of a file, so that a truncated image
+// would look valid; here every read past the end is detected.
 class Source {
  public:
   explicit Source(const std::string& content) : content_(content) {}
@@ -73,9 +72,8 @@ class Source {
     const Source* source = static_cast<const Source*>(self);
     return source->at_ >= source->content_.size();
   }
-  // The first read fills stb's look-ahead buffer, and so do the later ones into the same
-  // place: those may come short at the end of the file, but not empty. The others want
-  // exactly what they ask for.
+  // Reads into stb's look-ahead buffer, the target of the first read, may be short at the
+  // end of the file, but not empty. Other reads need all bytes.
   int Take(char* data, int size) {
     if (look_ahead_ == nullptr) look_ahead_ = data;
     const std::size_t n =
@@ -98,24 +96,11 @@ struct FreeStb {
   void operator()(void* p) const { stbi_image_free(p); }
 };
 
-std::vector<std::string> NamesOf(int channels) {
-  switch (channels) {
-    case 1:
-      return {"Y"};
-    case 2:
-      return {"Y", "A"};
-    case 3:
-      return {"R", "G", "B"};
-    default:
-      return {"R", "G", "B", "A"};
-  }
-}
-
 struct Format {
   std::string_view magic;  // what its files begin with
   double pixels_per_byte;  // at best
 };
-// The last one begins with anything.
+// The last one matches any file.
 constexpr Format kFormats[] = {
     {"\xff\xd8", 512},  // JPEG: a bit for a block of 8 x 8
     {"\xff\xff", 512},  // the same, after fill bytes
@@ -153,7 +138,7 @@ Image ReadStbHeader(const std::string& path, const std::string& content, Source&
                      ": not an image that can be read; supported: exr, pfm, hdr, png, "
                      "qoi, jpg, tga, bmp, gif, psd, ppm, pgm");
   }
-  // The height of a BMP is negative if its rows go from the top.
+  // The height of a BMP with rows from the top is negative.
   CheckImageFits(path, image.width, std::abs(static_cast<long long>(image.height)),
                  PixelsPerByte(content), content.size());
   source.Rewind();
@@ -164,7 +149,6 @@ Image ReadStbHeader(const std::string& path, const std::string& content, Source&
   return image;
 }
 
-// Decodes with `load` into the vector `pixels` of the image.
 template <class T, class Load>
 Image DecodeByStb(const std::string& path, const std::string& content, Load load,
                   AlignedVector<T> Image::* pixels) {
@@ -175,7 +159,7 @@ Image DecodeByStb(const std::string& path, const std::string& content, Load load
                                               &image.height, &image.channels, 0));
   if (source.overrun()) throw InputError(path + ": the image file is truncated");
   if (!data) FailDecode(path);
-  image.names = NamesOf(image.channels);
+  image.names = ChannelNames(image.channels);
   (image.*pixels).assign(data.get(), data.get() + image.Offset(0, image.height, 0));
   return image;
 }

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "src/base/core/error.h"
-
 namespace lanelight {
 namespace {
 
@@ -22,15 +20,11 @@ constexpr int kTypes = 12;
 
 }  // namespace
 
-void FailAtByte(std::uint64_t place, const std::string& what) {
-  throw InputError(fmt::format("byte {}: {}", place, what));
-}
-
 template <typename T>
 T TensorFile::Read(const char* what) {
   T value;
   if (sizeof value > bytes_.size() - at_) {
-    FailAtByte(at_, fmt::format("the file ends within {}", what));
+    FailAtByte(at_, "the file ends within {}", what);
   }
   std::memcpy(&value, bytes_.data() + at_, sizeof value);
   at_ += sizeof value;
@@ -45,11 +39,11 @@ TensorFile::TensorFile(std::string bytes) : bytes_(std::move(bytes)) {
   const int major = Read<std::uint8_t>("the version");
   const int minor = Read<std::uint8_t>("the version");
   if (major != 1 || minor != 0) {
-    FailAtByte(kMagic.size(), fmt::format("version {}.{}; supported: 1.0", major, minor));
+    FailAtByte(kMagic.size(), "version {}.{}; supported: 1.0", major, minor);
   }
   const auto count = Read<std::uint32_t>("the number of fields");
   if (count > kMostFields) {
-    FailAtByte(at_ - 4, fmt::format("{} fields; at most {}", count, kMostFields));
+    FailAtByte(at_ - 4, "{} fields; at most {}", count, kMostFields);
   }
   for (std::uint32_t i = 0; i < count; ++i) ReadField();
 }
@@ -57,7 +51,7 @@ TensorFile::TensorFile(std::string bytes) : bytes_(std::move(bytes)) {
 const TensorField& TensorFile::Find(const std::string& name) const {
   const auto found = fields_.find(name);
   if (found != fields_.end()) return found->second;
-  throw InputError(fmt::format("has no field \"{}\"", name));
+  throw InputError("has no field \"{}\"", name);
 }
 
 void TensorFile::ReadField() {
@@ -68,31 +62,29 @@ void TensorFile::ReadField() {
   at_ += length;
   const auto dimensions = Read<std::uint16_t>("a number of dimensions");
   if (dimensions > kMostDimensions) {
-    FailAtByte(at_ - 2,
-               fmt::format("{} dimensions; at most {}", dimensions, kMostDimensions));
+    FailAtByte(at_ - 2, "{} dimensions; at most {}", dimensions, kMostDimensions);
   }
   field.type = Read<std::uint8_t>("a type");
   if (field.type == 0 || field.type >= kTypes) {
-    FailAtByte(at_ - 1, fmt::format("type {} of numbers; there are 1 to {}", field.type,
-                                    kTypes - 1));
+    FailAtByte(at_ - 1, "type {} of numbers; there are 1 to {}", field.type, kTypes - 1);
   }
   field.offset = Read<std::uint64_t>("an offset");
   const std::uint64_t size = kTypeSizes[field.type], total = bytes_.size();
   for (int d = 0; d < dimensions; ++d) {
     field.shape.push_back(Read<std::uint64_t>("a shape"));
     if (field.count > 0 && field.shape.back() > total / field.count) {
-      FailAtByte(at_ - 8, fmt::format("a shape with {} numbers in a file of {} bytes",
-                                      field.shape.back(), total));
+      FailAtByte(at_ - 8, "a shape with {} numbers in a file of {} bytes",
+                 field.shape.back(), total);
     }
     field.count *= field.shape.back();
   }
   if (field.offset > total || field.count > (total - field.offset) / size) {
-    FailAtByte(field.place, fmt::format("{} numbers of {} bytes from byte {} on, but the "
-                                        "file ends at byte {}",
-                                        field.count, size, field.offset, total));
+    FailAtByte(field.place,
+               "{} numbers of {} bytes from byte {} on, but the file ends at byte {}",
+               field.count, size, field.offset, total);
   }
   if (!fields_.emplace(name, std::move(field)).second) {
-    FailAtByte(at_, fmt::format("a second field \"{}\"", name));
+    FailAtByte(at_, "a second field \"{}\"", name);
   }
 }
 
@@ -100,8 +92,8 @@ std::vector<float> TensorFile::Floats(const std::string& name, float low,
                                       bool raise) const {
   const TensorField& field = Find(name);
   if (field.type != kFloat32) {
-    FailAtByte(field.place, fmt::format("field \"{}\" of type {}; supported: float32",
-                                        name, kTypeNames[field.type]));
+    FailAtByte(field.place, "field \"{}\" of type {}; supported: float32", name,
+               kTypeNames[field.type]);
   }
   std::vector<float> numbers(field.count);
   if (field.count > 0) {
@@ -111,9 +103,8 @@ std::vector<float> TensorFile::Floats(const std::string& name, float low,
     if (raise && numbers[i] < low && numbers[i] >= -kLargestInTensor) numbers[i] = low;
     if (numbers[i] >= low && numbers[i] <= kLargestInTensor) continue;
     FailAtByte(field.offset + 4 * i,
-               fmt::format("number {} of \"{}\" is {}; it lies within "
-                           "{} and {}",
-                           i, name, numbers[i], low, kLargestInTensor));
+               "number {} of \"{}\" is {}; it lies within {} and {}", i, name, numbers[i],
+               low, kLargestInTensor);
   }
   return numbers;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/base/core/error.h"
+
 namespace lanelight {
 
 /// No number is larger, so that what is computed of them stays finite.
@@ -14,7 +16,12 @@ inline constexpr float kLargestInTensor = 1e12f;
 inline constexpr int kTensorUint8 = 1;
 
 /// Throws InputError about a byte of a file.
-[[noreturn]] void FailAtByte(std::uint64_t place, const std::string& what);
+template <class... Args>
+[[noreturn]] void FailAtByte(std::uint64_t place, fmt::format_string<Args...> format,
+                             Args&&... args) {
+  throw InputError("byte {}: {}", place,
+                   fmt::format(format, std::forward<Args>(args)...));
+}
 
 struct TensorField {
   std::uint64_t place;  // of its entry

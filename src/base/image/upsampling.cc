@@ -4,20 +4,20 @@
 #include <cmath>
 
 #include "src/base/core/parallel.h"
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 
 namespace lanelight {
 namespace {
 
 using Polynomial = std::array<double, 3>;
 
-// Steeper ones are no better.
+// Steeper sigmoids fit no better.
 constexpr double kSteepest = 400;
 constexpr double kNear = 1e-12;  // squared error of a fit that is good enough
 
 double Sigmoid(double p) { return 0.5 + 0.5 * p / std::sqrt(1 + p * p); }
 
-// What a fit integrates over, one entry per bin.
+// Quadrature of a fit, one entry per bin.
 struct Quadrature {
   std::array<double, kWavelengthBins> place;
   std::array<Rgb, kWavelengthBins> share;
@@ -89,6 +89,27 @@ double NodeValue(int node) {
   return 0.5 + h / (1 + h * h);
 }
 
+std::vector<float> MakeUpsamplingTable() {
+  constexpr int n = kUpsamplingNodes;
+  std::vector<float> table(3 * n * n * n);
+  Bins();
+  ParallelFor(std::size_t{n} * n, [&](std::size_t row) {
+    const int g = static_cast<int>(row) % n, b = static_cast<int>(row) / n;
+    SigmoidSpectrum fit;
+    for (int r = 0; r < n; ++r) {
+      fit =
+          FitSigmoid({NodeValue(r), NodeValue(g), NodeValue(b)}, r == 0 ? nullptr : &fit);
+      for (int i = 0; i < 3; ++i) {
+        const double t = SigmoidPlace(kUpsamplingNm[i]);
+        const double p = (fit.c[0] * t + fit.c[1]) * t + fit.c[2];
+        table[3 * (row * n + static_cast<std::size_t>(r)) + static_cast<std::size_t>(i)] =
+            static_cast<float>(HalfTangent(p));
+      }
+    }
+  });
+  return table;
+}
+
 }  // namespace
 
 double HalfTangent(double p) { return p / (1 + std::sqrt(1 + p * p)); }
@@ -121,8 +142,8 @@ SigmoidSpectrum FitSigmoid(Rgb rgb, const SigmoidSpectrum* near) {
     const Polynomial c = Fit(rgb, near->c);
     if (Error(Colored(c).color, rgb) <= kNear) return {c};
   }
-  // Near the edges of the gamut a direct fit gets stuck on the flat parts of the sigmoid:
-  // from grey towards the colour.
+  // Steps from grey towards the colour: near the gamut's edge a direct fit gets stuck on
+  // the flat parts of the sigmoid.
   Polynomial c = {0, 0, 0};
   const Rgb grey = {0.5, 0.5, 0.5};
   for (double share : {0.5, 0.8, 0.95, 1.0}) c = Fit(grey + (rgb - grey) * share, c);
@@ -142,31 +163,6 @@ Spectrum UpsampledColor(Rgb rgb) {
   const Spectrum shape = UpsampledReflectance(rgb / scale);
   return [=](double nm) { return scale * shape(nm); };
 }
-
-namespace {
-
-std::vector<float> MakeUpsamplingTable() {
-  constexpr int n = kUpsamplingNodes;
-  std::vector<float> table(3 * n * n * n);
-  Bins();
-  ParallelFor(std::size_t{n} * n, [&](std::size_t row) {
-    const int g = static_cast<int>(row) % n, b = static_cast<int>(row) / n;
-    SigmoidSpectrum fit;
-    for (int r = 0; r < n; ++r) {
-      fit =
-          FitSigmoid({NodeValue(r), NodeValue(g), NodeValue(b)}, r == 0 ? nullptr : &fit);
-      for (int i = 0; i < 3; ++i) {
-        const double t = SigmoidPlace(kUpsamplingNm[i]);
-        const double p = (fit.c[0] * t + fit.c[1]) * t + fit.c[2];
-        table[3 * (row * n + static_cast<std::size_t>(r)) + static_cast<std::size_t>(i)] =
-            static_cast<float>(HalfTangent(p));
-      }
-    }
-  });
-  return table;
-}
-
-}  // namespace
 
 const std::vector<float>& UpsamplingTable() {
   static const std::vector<float> table = MakeUpsamplingTable();

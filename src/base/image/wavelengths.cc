@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "src/base/core/check.h"
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 
 namespace lanelight {
 namespace {
 
 constexpr int kNodes = kLastCarriedNm - kFirstCarriedNm + 1;
 
-// Where the second and the third segment begin, nm. Of the pairs for which all edges
-// increase (485 to 490, 570 to 580), one with little noise of saturated colours.
+// Begin of the second and third segment, nm: of the pairs with increasing edges (485 to
+// 490, 570 to 580), one with little noise of saturated colours.
 constexpr double kSecondSegment = 488, kThirdSegment = 575;
 
-// What the channels of D65 have per nm, linear between whole ones, and below.
+// Shares of D65 of each channel: per nm, linear between whole ones, and cumulative.
 class WhiteShares {
  public:
   WhiteShares() {
@@ -61,8 +61,8 @@ Rgb SumBelow(const Vec3d& nm) {
   return Shares().Below(nm.x) + Shares().Below(nm.y) + Shares().Below(nm.z);
 }
 
-// Three wavelengths below which lies `wanted` in sum, by damped Newton steps from `nm`.
-// The damping matters where the eye hardly sees: at both ends of the range.
+// Finds three wavelengths whose cumulative shares sum to `wanted`, by damped Newton steps
+// from `nm`. The damping matters at both ends of the range.
 Vec3d Solve(Vec3d nm, Rgb wanted) {
   constexpr double kDamping = 1e-13, kLongestStep = 5, kNear = 1e-9;
   for (int i = 0; i < 100; ++i) {
@@ -89,7 +89,7 @@ Vec3d Solve(Vec3d nm, Rgb wanted) {
   return nm;
 }
 
-// Returns the film's sensitivity around a wavelength.
+// Weight of a wavelength in the response of the film.
 double Weight(double nm) {
   const Rgb share = Shares().Density(nm);
   return std::abs(share.x) + std::abs(share.y) + std::abs(share.z) + 1e-12;

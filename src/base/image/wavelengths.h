@@ -25,12 +25,12 @@ struct WavelengthBins {
   std::array<Rgb, kWavelengthBins> film;
 };
 
-/// Made once, by Newton's method from triple to triple.
+/// Returns the bins, which are computed once.
 const WavelengthBins& CarriedWavelengths();
 
-/// Means of a spectrum over the bins, weighed by what the film sees there.
+/// Means of a spectrum over the bins, weighted by the response of the film.
 std::vector<float> BinMeans(const Spectrum& spectrum);
-/// The same of a smooth one: its values at the centres.
+/// The same for smooth spectra: values at the centres.
 std::vector<float> BinValues(const Spectrum& spectrum);
 
 /// Colour of values in the bins: of a reflectance under D65, or of light in units of it.

@@ -42,7 +42,6 @@ struct Estimate {
   double value = 0, error = 0;  // error: the jackknife's
 };
 
-// Reuses its memory over many resamples.
 class Jackknife {
  public:
   Jackknife(const Repetitions& repetitions, const OfMeans& f)
@@ -52,7 +51,6 @@ class Jackknife {
         means_(repetitions.columns()),
         values_(repetitions.size()) {}
 
-  // Evaluates the repetitions with these indices.
   Estimate operator()(std::span<const std::size_t> indices) {
     std::fill(sums_.begin(), sums_.end(), 0.0);
     for (std::size_t i : indices) {
@@ -70,7 +68,7 @@ class Jackknife {
   }
 
  private:
-  // f at the means of `count` repetitions, one of them left out.
+  // Returns f at the means of `count` repetitions, without one.
   double Value(const double* left_out, double count) {
     for (std::size_t c = 0; c < sums_.size(); ++c) {
       means_[c] = (sums_[c] - (left_out ? left_out[c] : 0)) / count;
@@ -95,7 +93,7 @@ double Studentised(const Estimate& resample, double value) {
              : kInfinity;
 }
 
-// Returns the factor by which the bootstrap's quantile exceeds Student's.
+// Ratio of the bootstrap's quantile to Student's, at least 1.
 double Widening(Jackknife& jackknife, std::size_t n, double value, double tail) {
   std::vector<std::size_t> indices(n);
   std::vector<double> t;

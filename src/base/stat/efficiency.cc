@@ -13,7 +13,7 @@ namespace lanelight::stat {
 namespace {
 
 constexpr std::size_t kLeastPairs = 3;
-// No render is shorter: a clock that shows nothing must not make an efficiency infinite.
+// Lower limit of seconds, so that a coarse clock cannot make an efficiency infinite.
 constexpr double kLeastCost = 1e-9;
 
 Cost MeanCost(std::span<const Cost> costs) {
@@ -26,7 +26,6 @@ Cost MeanCost(std::span<const Cost> costs) {
   return mean;
 }
 
-// Logarithm of the ratio, from the mean error and seconds of both.
 double LogRatio(std::span<const double> m) {
   return std::log(m[0] * m[1] / (m[2] * m[3]));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "src/base/core/check.h"
 #include "src/base/stat/distributions.h"
@@ -52,6 +53,62 @@ double WelchPValue(const MeanEstimate& a, const MeanEstimate& b, double toleranc
 double SidakLevel(double family, int n) {
   LL_CHECK(family > 0 && family < 1 && n >= 1);
   return -std::expm1(std::log1p(-family) / n);
+}
+
+// A martingale M of variance V exceeds sqrt((V + r) log((V + r) / (r a^2))) at any time
+// with probability a at most (Ville's inequality for the mixture); here r = 1, in units
+// of the variance at the first look, and over the standard error sqrt(V).
+double TimeUniformQuantile(double growth, double confidence) {
+  const double alpha = 1 - confidence;
+  return std::sqrt((1 + 1 / growth) * std::log((growth + 1) / (alpha * alpha)));
+}
+
+std::vector<std::size_t> HolmRejections(std::span<const double> p, double family) {
+  LL_CHECK(family > 0 && family < 1);
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto value = [&](std::size_t i) { return std::isnan(p[i]) ? 2 : p[i]; };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return value(a) < value(b); });
+  std::size_t rejected = 0;
+  while (rejected < p.size() &&
+         value(order[rejected]) <= family / static_cast<double>(p.size() - rejected)) {
+    ++rejected;
+  }
+  order.resize(rejected);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+Consensus ConsensusOf(std::span<const MeanEstimate> measurements, double least_variance) {
+  LL_CHECK(!measurements.empty() && least_variance > 0);
+  const auto weight = [&](const MeanEstimate& m) {
+    return 1 / std::max(m.variance, least_variance);
+  };
+  double weights = 0, mean = 0, quartic = 0, chi_square = 0;
+  for (const MeanEstimate& m : measurements) weights += weight(m);
+  for (const MeanEstimate& m : measurements) {
+    const double share = weight(m) / weights;
+    mean += share * m.mean;
+    quartic += share * share / std::max(m.dof, 1.0);
+  }
+  for (const MeanEstimate& m : measurements) {
+    chi_square += weight(m) * (m.mean - mean) * (m.mean - mean);
+  }
+  Consensus out;
+  const double freedom = double(measurements.size()) - 1;
+  if (freedom > 0) out.birge = std::max(1.0, chi_square / freedom);
+  out.estimate = {mean, out.birge / weights, 1 / quartic};
+  return out;
+}
+
+double DeparturePValue(const MeanEstimate& one, std::span<const MeanEstimate> others,
+                       double least_variance) {
+  if (others.empty()) return 1;
+  const Consensus consensus = ConsensusOf(others, least_variance);
+  MeanEstimate own = one;
+  own.variance = std::max(own.variance, least_variance) * consensus.birge;
+  return WelchPValue(own, consensus.estimate);
 }
 
 }  // namespace lanelight::stat

@@ -1,6 +1,8 @@
-// Hypothesis tests on means and p-values.
+// Hypothesis tests on means and p-values, and intervals that hold at every look.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace lanelight::stat {
@@ -26,5 +28,40 @@ double WelchPValue(const MeanEstimate& a, const MeanEstimate& b, double toleranc
 /// Sidak: per-test level so that n independent tests together raise a false alarm with
 /// probability `family`. Conservative for positively dependent tests.
 double SidakLevel(double family, int n);
+
+/// How many standard errors either side of an estimate has, so that the intervals hold at
+/// all looks from the first one on together, with probability `confidence`. `growth` >=
+/// 1: the data over that of the first look, in intrinsic time (the variance of the
+/// martingale that the estimate is made of). Grows as the root of the logarithm of
+/// `growth`.
+///
+/// Robbins' normal mixture (1970, "Statistical methods related to the law of the iterated
+/// logarithm", Annals of Mathematical Statistics 41) with the variance of the mixture at
+/// the first look; for sums that are normal only in the limit, an asymptotic confidence
+/// sequence (Waudby-Smith, Arbour, Sinha, Kennedy and Ramdas 2024, "Time-uniform central
+/// limit theory and asymptotic confidence sequences", Annals of Statistics 52).
+double TimeUniformQuantile(double growth, double confidence);
+
+/// Holm's (1979) step-down procedure: which hypotheses are rejected, as ascending
+/// indices. Any false rejection happens with probability at most `family` in (0, 1),
+/// however the tests depend on each other. A p-value of NaN is never rejected.
+std::vector<std::size_t> HolmRejections(std::span<const double> p, double family);
+
+/// Mean of independent measurements of one quantity, weighted by the inverses of their
+/// variances. Where they scatter more than their variances explain, as their chi-square
+/// says, its variance is multiplied by Birge's (1932) ratio, chi-square over its degrees
+/// of freedom: some variance is too small then, and nobody knows whose. Measurements of
+/// variance 0 (below `least_variance`) count as if they had `least_variance` > 0.
+struct Consensus {
+  MeanEstimate estimate;
+  double birge = 1;  // at least 1
+};
+Consensus ConsensusOf(std::span<const MeanEstimate> measurements, double least_variance);
+
+/// p-value of the test that `one` measures what the `others` measure (Welch's test
+/// against their consensus, both variances multiplied by their Birge ratio): large where
+/// they do not agree among themselves. 1 without others.
+double DeparturePValue(const MeanEstimate& one, std::span<const MeanEstimate> others,
+                       double least_variance);
 
 }  // namespace lanelight::stat

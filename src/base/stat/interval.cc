@@ -87,7 +87,7 @@ Interval ClusteredProportion(std::span<const Cluster> clusters, double confidenc
     const double d = static_cast<double>(c.successes) - p * static_cast<double>(c.trials);
     squares += d * d;
   }
-  // Variance of p over what independent trials would give it.
+  // Variance of p relative to that of independent trials.
   const double effect = p * (1 - p) > 0 ? squares * m / (m - 1) / (n * p * (1 - p)) : 1;
   return Wilson(p, n / std::max(1.0, effect),
                 StudentTwoSidedQuantile(1 - confidence, m - 1));

@@ -19,9 +19,8 @@ std::vector<hsize_t> DimsInFile(std::size_t rows, const std::vector<std::size_t>
   return dims;
 }
 
-// Chunks of about kChunkBytes hold some rows. Rows of more than one dimension, {4, 3},
-// are cut as well, into parts of the last one, {1, 3}: one quantity a chunk, so that
-// zeros do not stand among noise.
+// Chunks of about kChunkBytes hold some rows. Rows of several dimensions, {4, 3}, are
+// split into parts of the last one, {1, 3}, so that each chunk holds one quantity.
 hdf5::Handle Compressed(const StateColumn& column, const std::vector<hsize_t>& dims) {
   hdf5::Handle properties = hdf5::NewProperties(H5P_DATASET_CREATE);
   std::vector<hsize_t> chunk(dims.size(), 1);
@@ -42,7 +41,7 @@ struct Block {
   hdf5::Handle in_memory, in_file;  // data spaces
 };
 
-// Returns the rows of a chunk; of a dataset without chunks, all rows.
+// Rows per chunk; all rows for a dataset without chunks.
 hsize_t RowsOfChunk(const hdf5::Handle& dataset, const std::vector<hsize_t>& dims) {
   const hdf5::Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose, "chunks");
   std::vector<hsize_t> chunk = dims;

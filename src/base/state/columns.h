@@ -1,4 +1,4 @@
-// Columns as datasets of a state file: from live memory, and back.
+// Writes columns as datasets of a state file, and reads them.
 #pragma once
 
 #include <cstddef>

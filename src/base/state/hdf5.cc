@@ -7,7 +7,7 @@
 namespace lanelight::hdf5 {
 namespace {
 
-// Text of a fixed length; HDF5 has none of length 0.
+// Text type of a fixed length, at least 1.
 Handle TextType(const std::string& text) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "a type of text");
   Check(H5Tset_size(type.get(), std::max<std::size_t>(1, text.size())), "its length");
@@ -22,7 +22,7 @@ const char* DataOf(const std::string& text) { return text.empty() ? "\0" : text.
 
 void Fail(const std::string& what) {
   std::string reason;
-  // The first is the innermost.
+  // The first error is the innermost.
   H5Ewalk2(
       H5E_DEFAULT, H5E_WALK_UPWARD,
       [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
@@ -42,19 +42,9 @@ Session::Session() {
 Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
 
 hid_t TypeInFile(StateType type) {
-  switch (type) {
-    case StateType::kFloat32:
-      return H5T_IEEE_F32LE;
-    case StateType::kFloat64:
-      return H5T_IEEE_F64LE;
-    case StateType::kUint32:
-      return H5T_STD_U32LE;
-    case StateType::kUint64:
-      return H5T_STD_U64LE;
-    case StateType::kInt32:
-      return H5T_STD_I32LE;
-  }
-  Fail("an unknown type");
+  const hid_t types[] = {H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_U32LE, H5T_STD_U64LE,
+                         H5T_STD_I32LE};  // in the order of StateType
+  return types[static_cast<int>(type)];
 }
 
 Handle NewProperties(hid_t kind) {

@@ -1,4 +1,4 @@
-// What we use of HDF5, with exceptions. For files of this folder that include <hdf5.h>.
+// Wrapper of HDF5 with exceptions, for this folder alone.
 #pragma once
 
 #include <hdf5.h>
@@ -13,21 +13,20 @@
 
 namespace lanelight::hdf5 {
 
-/// What HDF5 could not do, and why.
 class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 [[noreturn]] void Fail(const std::string& what);
 
-/// `value`, unless it is negative, as HDF5 says that something failed: what was tried.
+/// Returns `value`; a negative one throws Failure, with `what` for the failed action.
 template <class T>
 T Check(T value, const std::string& what) {
   if (value < 0) Fail(what);
   return value;
 }
 
-/// An identifier of HDF5, closed in the end.
+/// Owns an identifier of HDF5.
 class Handle {
  public:
   using Closer = herr_t (*)(hid_t);
@@ -46,8 +45,8 @@ class Handle {
   Closer close_;
 };
 
-/// While it lives HDF5 is this thread's alone, since not every build of it knows threads,
-/// and prints nothing when something fails. None while another one of the thread lives.
+/// Locks HDF5 for this thread while it lives, since not every build of it is thread-safe,
+/// and keeps it from printing errors. Sessions of a thread do not nest.
 class Session {
  public:
   Session();

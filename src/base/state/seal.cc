@@ -33,17 +33,19 @@ std::uint64_t HashOfSeal(const SealBlock& block) {
   return Hash64(&block, offsetof(SealBlock, seal));
 }
 
-[[noreturn]] void Refuse(const std::string& path, const std::string& why) {
-  throw InputError(fmt::format("{}: {}", path, why));
+template <class... Args>
+[[noreturn]] void Refuse(const std::string& path, fmt::format_string<Args...> format,
+                         Args&&... args) {
+  throw InputError("{}: {}", path, fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Reads until `size` bytes are there or the file ends; how many there are.
+// Reads up to `size` bytes; returns how many there were.
 std::size_t Read(int fd, const std::string& path, void* bytes, std::size_t size) {
   std::size_t done = 0;
   while (done < size) {
     const ssize_t n = read(fd, static_cast<char*>(bytes) + done, size - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) Refuse(path, fmt::format("cannot read: {}", std::strerror(errno)));
+    if (n < 0) Refuse(path, "cannot read: {}", std::strerror(errno));
     if (n == 0) break;
     done += static_cast<std::size_t>(n);
   }
@@ -57,14 +59,14 @@ void CheckBlock(const SealBlock& block, std::size_t size, const std::string& pat
     Refuse(path, "is not a state file of lanelight, or its beginning is damaged");
   }
   if (size < sizeof(block)) {
-    Refuse(path, fmt::format("the state is torn: {} bytes are left", size));
+    Refuse(path, "the state is torn: {} bytes are left", size);
   }
   if (HashOfSeal(block) != block.seal) {
     Refuse(path, "the state is damaged: its first 512 bytes do not have their checksum");
   }
   if (block.schema != schema) {
-    Refuse(path, fmt::format("the state is of schema {}; this program reads schema {}",
-                             block.schema, schema));
+    Refuse(path, "the state is of schema {}; this program reads schema {}", block.schema,
+           schema);
   }
 }
 
@@ -85,11 +87,11 @@ std::uint64_t CheckSeal(int fd, const std::string& path, std::uint64_t schema) {
   SealBlock block = {};
   CheckBlock(block, Read(fd, path, &block, sizeof(block)), path, schema);
   struct stat info;
-  if (fstat(fd, &info) != 0) Refuse(path, std::strerror(errno));
+  if (fstat(fd, &info) != 0) Refuse(path, "cannot read: {}", std::strerror(errno));
   const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
   if (size != block.length) {
-    Refuse(path, fmt::format("the state is torn: it has {} bytes and was written with {}",
-                             size, block.length));
+    Refuse(path, "the state is torn: it has {} bytes and was written with {}", size,
+           block.length);
   }
   StreamHash hash;
   std::vector<char> buffer(1 << 18);  // stays in the second cache

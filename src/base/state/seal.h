@@ -1,5 +1,5 @@
-// The seal of a state file: the 512 bytes in front of its HDF5 (which calls them a user
-// block), by which a file is known to be whole before HDF5 sees any of it. Little-endian:
+// The seal of a state file: 512 bytes before the HDF5 data (its user block), which show
+// that the file is complete before HDF5 reads it. Little-endian:
 //
 //   0    "lanelight state\n"
 //   16   schema

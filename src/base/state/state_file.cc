@@ -12,8 +12,8 @@
 namespace lanelight {
 namespace {
 
-// The file that was checked, whatever its path names by now. HDF5's driver "stdio", since
-// the default one looks for the path of the link, which may be gone.
+// Opens the file that was checked, even if its path now names another. The driver "stdio"
+// does not need the path, which may be gone.
 hdf5::Handle OpenHdf5(int fd) {
   const hdf5::Handle access = hdf5::NewProperties(H5P_FILE_ACCESS);
   hdf5::Check(H5Pset_fapl_stdio(access.get()), "the driver stdio");
@@ -23,7 +23,7 @@ hdf5::Handle OpenHdf5(int fd) {
       H5Fclose, "open");
 }
 
-// Coordinates whose differences are numbers as well.
+// Limit of coordinates, so that differences do not overflow.
 constexpr std::int32_t kFarthest = 1 << 30;
 
 std::vector<PixelRect> ReadRects(hid_t file, const char* name) {
@@ -50,14 +50,14 @@ struct StateFile::Impl {
   PixelRect window;
   std::vector<PixelRect> tiles;
 
-  // Reports HDF5 errors of action() as errors of this file.
+  // Turns failures of HDF5 in action() into errors of this file.
   template <class Action>
   auto Do(const Action& action) const {
     const hdf5::Session session;
     try {
       return action();
     } catch (const hdf5::Failure& failure) {
-      throw InputError(fmt::format("{}: {}", path, failure.what()));
+      throw InputError("{}: {}", path, failure.what());
     }
   }
 

@@ -10,16 +10,16 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/column.h"
-#include "src/base/core/untouched.h"
 #include "src/base/image/pixel_rect.h"
 
 namespace lanelight {
 
-/// The schema of state files. Files with another number are refused.
+/// Schema of state files; files with another number are refused.
 inline constexpr std::uint64_t kStateSchema = 1;
 
-/// The content of a state file.
+/// Content of a state file.
 struct StateContent {
   std::string identity;  // of the run, JSON
   std::string report;    // what it has done so far, JSON

@@ -14,7 +14,7 @@ bool Contains(const PixelRect& outer, const PixelRect& r) {
   return outer.x0 <= r.x0 && outer.y0 <= r.y0 && r.x1 <= outer.x1 && r.y1 <= outer.y1;
 }
 
-// A top edge of a tile, or the bottom edge.
+// The top or bottom edge of a tile.
 struct Edge {
   int y;
   bool top;
@@ -42,7 +42,7 @@ std::string Overlap(const std::vector<PixelRect>& tiles) {
       open.erase(tile.x0);
       continue;
     }
-    // The last one that begins to the left of the tile's end is the only one to ask.
+    // Only the last tile that begins left of this one's end can overlap it.
     const auto next = open.lower_bound(tile.x1);
     if (next != open.begin() && std::prev(next)->second->x1 > tile.x0) {
       return fmt::format("the tiles {} and {} overlap",

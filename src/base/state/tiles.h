@@ -1,4 +1,4 @@
-// Locates the pixels of a state's tiles in the memory of a film.
+// Positions of the pixels of a state's tiles in the memory of a film.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace lanelight {
 /// "[x0, x1) x [y0, y1)".
 std::string ToString(const PixelRect& rect);
 
-/// Describes what is wrong with the tiles of a film with pixels `window`, or returns an
-/// empty text. Tiles must not be empty, leave the window, or overlap.
+/// Returns the problem of the tiles of a film with the pixels `window`, or "": each tile
+/// has pixels, all in the window, none in another tile.
 std::string TileProblem(const std::vector<PixelRect>& tiles, const PixelRect& window);
 
 /// The pixels of tiles in the order of the file, tile after tile and row by row, and the

@@ -3,7 +3,7 @@
 #include <set>
 #include <span>
 
-#include "src/base/core/huge_pages.h"
+#include "src/base/core/aligned.h"
 #include "src/base/core/parallel.h"
 #include "src/base/image/atomic_file.h"
 #include "src/base/state/columns.h"
@@ -13,8 +13,7 @@
 namespace lanelight {
 namespace {
 
-// HDF5 asks for more memory by and by, and clears it: little, so that it is still in the
-// cache when it is written.
+// HDF5 allocates and clears memory in these steps; small, so that it stays in the cache.
 constexpr std::size_t kIncrement = 1 << 20;
 
 void CheckColumns(const std::vector<StateColumn>& columns) {
@@ -37,8 +36,8 @@ void CheckContent(const StateContent& content) {
   }
 }
 
-// A file in memory, behind room for the seal: HDF5 is never in the middle of a file when
-// a disk is full.
+// Creates a file in memory, after space for the seal, so that a full disk cannot
+// interrupt HDF5.
 hdf5::Handle NewFile() {
   const hdf5::Handle access = hdf5::NewProperties(H5P_FILE_ACCESS),
                      creation = hdf5::NewProperties(H5P_FILE_CREATE);
@@ -48,10 +47,10 @@ hdf5::Handle NewFile() {
                       H5Fclose, "a file in memory");
 }
 
-// Its bytes, complete, where HDF5 has them until the file is closed.
+// Returns the complete bytes, valid until the file is closed.
 std::span<char> BytesOf(const hdf5::Handle& file) {
   hdf5::Check(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "flush");
-  // The size of HDF5's part of the file; the memory is longer.
+  // The memory is longer than HDF5's part of the file.
   const ssize_t size =
       hdf5::Check(H5Fget_file_image(file.get(), nullptr, 0), "the size of the file");
   void* handle = nullptr;  // of this driver: where it keeps the address
@@ -75,11 +74,10 @@ void WriteContent(hid_t file, const StateContent& content) {
             "window", "the film: pixels [x0, x1) x [y0, y1), as x0 y0 x1 y1", window),
         nullptr);
   write(file,
-        MakeStateColumn<std::int32_t>(
-            "tiles",
-            "tiles whose pixels are in /pixels, one after the other, row by row: "
-            "x0 y0 x1 y1",
-            content.tiles),
+        MakeStateColumn<std::int32_t>("tiles",
+                                      "tiles whose pixels are in /pixels, one after the "
+                                      "other, row by row: x0 y0 x1 y1",
+                                      content.tiles),
         nullptr);
   const TileRows tiles(content.tiles, content.window);
   const hdf5::Handle pixels = hdf5::NewGroup(file, "pixels"),
@@ -88,8 +86,8 @@ void WriteContent(hid_t file, const StateContent& content) {
   for (const StateColumn& c : content.tables) write(tables.get(), c, nullptr);
 }
 
-// The column refers to a copy of its rows from now on, which is returned. Large pages:
-// small ones take ten times as long to be made as to be filled.
+// Returns a copy of the rows, to which the column then refers. In large pages, because
+// small ones take ten times as long to create as to fill.
 UntouchedVector<char> MakeOwn(StateColumn& column) {
   const char* const from = static_cast<const char*>(column.data);
   UntouchedVector<char> copy;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/image/color_channels.h"
+#include "src/base/image/image.h"
 #include "src/base/stat/distributions.h"
-#include "src/base/stat/multiple.h"
+#include "src/base/stat/hypothesis.h"
 #include "src/measure/compare/noisy_channels.h"
 
 namespace lanelight {

@@ -1,7 +1,7 @@
 // Colours as FLIP sees them.
 #pragma once
 
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 
 namespace lanelight {
 

@@ -1,7 +1,7 @@
 #include "src/measure/compare/linear_image.h"
 
 #include "src/base/core/error.h"
-#include "src/base/image/color_channels.h"
+#include "src/base/image/image.h"
 
 namespace lanelight {
 

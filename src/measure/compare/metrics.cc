@@ -10,8 +10,7 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/base/image/color_channels.h"
-#include "src/base/image/variance_unit.h"
+#include "src/base/image/image.h"
 #include "src/base/stat/interval.h"
 #include "src/measure/compare/z_scores.h"
 

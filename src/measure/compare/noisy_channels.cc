@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/image/color_channels.h"
-#include "src/base/image/variance_unit.h"
+#include "src/base/image/image.h"
 
 namespace lanelight {
 namespace {

@@ -8,7 +8,7 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/suggest.h"
-#include "src/base/image/color_matrix.h"
+#include "src/base/image/color_spaces.h"
 #include "src/base/image/spectrum.h"
 #include "src/measure/report/page.h"
 #include "src/render/films/accumulator.h"

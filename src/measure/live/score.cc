@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "src/base/stat/confidence_sequence.h"
 #include "src/base/stat/distributions.h"
+#include "src/base/stat/hypothesis.h"
 
 namespace lanelight::live {
 namespace {

@@ -36,7 +36,7 @@ struct Ratio {
 Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch = 1);
 
 /// The efficiency by all looks: the interval is that of the last look, and intervals hold
-/// at all looks together with kEstimateConfidence (src/base/stat/confidence_sequence.h),
+/// at all looks together with kEstimateConfidence (src/base/stat/hypothesis.h),
 /// so a viewer may stop at any of them. The squared sums of the pixels' errors, less what
 /// is expected of them, are a martingale whose variance grows with the square of the
 /// samples.

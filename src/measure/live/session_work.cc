@@ -6,7 +6,7 @@
 #include "src/measure/live/session.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/train/training.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 
 namespace lanelight::live {
 namespace {

@@ -8,7 +8,7 @@
 #include "src/base/core/parallel.h"
 #include "src/base/core/version.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/vocabulary/strategy/strategies_json.h"
 
 namespace lanelight::live {

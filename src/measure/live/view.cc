@@ -7,7 +7,7 @@
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/footprint.h"
 #include "src/scene/compile/gbuffer.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 
 namespace lanelight::live {
 namespace {

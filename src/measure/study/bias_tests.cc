@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/stat/consensus.h"
-#include "src/base/stat/multiple.h"
+#include "src/base/stat/hypothesis.h"
 #include "src/measure/study/analysis.h"
 
 namespace lanelight {

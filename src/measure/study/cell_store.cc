@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/check.h"
-#include "src/base/core/error_text.h"
+#include "src/base/core/error.h"
 #include "src/base/core/hash.h"
 #include "src/base/core/json_text.h"
 #include "src/base/state/state_file.h"

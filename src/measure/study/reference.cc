@@ -5,10 +5,8 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/base/image/color_channels.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "src/base/image/variance_unit.h"
 #include "src/measure/compare/noisy_channels.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"

@@ -10,7 +10,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/saving.h"
 #include "src/render/wave/profile.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 
 namespace lanelight {
 namespace {

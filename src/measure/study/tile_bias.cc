@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "src/base/stat/hypothesis.h"
-#include "src/base/stat/multiple.h"
 #include "src/measure/study/analysis.h"
 
 namespace lanelight {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/check.h"
-#include "src/base/core/huge_pages.h"
 #include "src/render/films/regression_film.h"
 
 namespace lanelight {

@@ -7,8 +7,6 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/column.h"
-#include "src/base/core/huge_pages.h"
-#include "src/base/image/bucket_shares.h"
 #include "src/base/image/spectral_buckets.h"
 
 namespace lanelight {

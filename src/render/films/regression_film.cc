@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/check.h"
-#include "src/base/core/huge_pages.h"
 #include "src/base/core/parallel.h"
 
 namespace lanelight {

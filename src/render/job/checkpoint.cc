@@ -6,7 +6,7 @@
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
 #include "src/base/image/exr.h"
-#include "src/base/image/png.h"
+#include "src/base/image/image.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/loaded_scene.h"

@@ -9,7 +9,7 @@
 #include "src/render/job/transport.h"
 #include "src/scene/compile/compile.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/scene/parse/parse.h"
 #include "src/scene/prepare/chance_of_light.h"
 #include "src/scene/prepare/groups.h"

@@ -9,8 +9,8 @@
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
 #include "src/base/core/source_location.h"
+#include "src/base/image/image.h"
 #include "src/base/image/spectrum.h"
-#include "src/base/image/variance_unit.h"
 #include "src/render/films/accumulator.h"
 #include "src/vocabulary/strategy/strategy.h"
 

@@ -10,7 +10,6 @@
 #include "src/base/core/aligned.h"
 #include "src/base/core/check.h"
 #include "src/base/core/hardware_counters.h"
-#include "src/base/core/huge_pages.h"
 #include "src/base/core/stopwatch.h"
 #include "src/render/job/memory.h"
 

@@ -8,7 +8,7 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/base/image/png.h"
+#include "src/base/image/image.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/job/display.h"
 #include "src/render/job/identity.h"

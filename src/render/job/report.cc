@@ -7,7 +7,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 #include "src/scene/prepare/chance_of_light.h"
 #include "src/scene/prepare/groups.h"
 

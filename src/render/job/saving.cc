@@ -9,7 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "src/base/core/error_text.h"
+#include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
 #include "src/base/image/atomic_file.h"
 

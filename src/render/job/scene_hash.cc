@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/core/gunzip.h"
 #include "src/base/core/hash.h"
 #include "src/base/core/input_file.h"
 #include "src/render/job/job.h"

@@ -9,7 +9,8 @@
 #include "src/render/train/training.h"
 #include "src/scene/accel/build.h"
 #include "src/scene/compile/compile.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/description.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {

@@ -14,7 +14,7 @@
 #include "src/render/wave/profile.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/prepared_scene.h"
 

@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/base/core/untouched.h"
-#include "src/base/image/pixel_rect.h"
+#include "src/base/core/aligned.h"
 #include "src/render/plan/plan.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/vocabulary/path/block.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/base/image/film_response.h"
+#include "src/base/image/color_spaces.h"
 #include "src/base/image/pixel_rect.h"
 #include "src/render/films/accumulator.h"
 #include "src/vocabulary/path/sample_planes.h"

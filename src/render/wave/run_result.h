@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/hardware_counters.h"
-#include "src/base/core/untouched.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/wave/run_state.h"
 #include "src/vocabulary/path/stage.h"

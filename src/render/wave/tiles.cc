@@ -7,7 +7,7 @@
 #include "src/render/films/accumulator.h"
 #include "src/render/wave/run_options.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {

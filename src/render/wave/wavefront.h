@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/base/core/untouched.h"
+#include "src/base/core/aligned.h"
 #include "src/render/plan/plan.h"
 #include "src/vocabulary/path/sample_planes.h"
 #include "src/vocabulary/path/wave.h"

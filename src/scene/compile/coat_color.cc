@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/image/rgb_spectrum.h"
+#include "src/base/image/upsampling.h"
 
 namespace lanelight {
 namespace {

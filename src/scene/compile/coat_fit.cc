@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "src/base/core/parallel.h"
-#include "src/base/image/rgb_spectrum.h"
+#include "src/base/image/upsampling.h"
 #include "src/scene/compile/coat_color.h"
 
 namespace lanelight {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "src/base/core/error.h"
-#include "src/base/core/error_text.h"
 #include "src/base/image/octahedral.h"
 #include "src/scene/compile/environment_table.h"
 #include "src/scene/compile/light_axes.h"

@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "src/base/core/error.h"
-#include "src/base/core/error_text.h"
-#include "src/base/image/color_channels.h"
+#include "src/base/image/image.h"
 #include "src/scene/compile/texture_programs.h"
 
 namespace lanelight {

@@ -26,7 +26,7 @@ struct LightFile {
 /// Linear texels as stored, three values each, bytes decoded as sRGB. Negative values,
 /// which filters leave in photographs, become zero as in pbrt, with a note unless `notes`
 /// is null. Throws InputError for values that are not finite and images without
-/// colours (src/base/image/color_channels.h).
+/// colours (src/base/image/image.h).
 AlignedVector<float> LightTexels(const LightFile& file, const Image& image,
                                  std::vector<Note>* notes);
 

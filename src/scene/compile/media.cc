@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "src/base/core/check.h"
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "src/scene/compile/material_row.h"
 #include "src/scene/compile/medium_cost.h"
 #include "src/scene/compile/medium_grid.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "src/base/core/sparse_grid.h"
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "src/scene/compile/store.h"
 #include "src/scene/compile/voxel_spectra.h"
 

@@ -6,10 +6,8 @@
 #include <cmath>
 
 #include "src/base/core/error.h"
-#include "src/base/core/error_text.h"
 #include "src/base/core/parallel.h"
-#include "src/base/image/color_channels.h"
-#include "src/base/image/repair.h"
+#include "src/base/image/image.h"
 #include "src/scene/compile/mip_levels.h"
 #include "src/scene/compile/texture_programs.h"
 #include "src/scene/description/description.h"

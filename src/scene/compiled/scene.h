@@ -18,7 +18,7 @@
 #include "src/scene/compiled/spectra.h"
 #include "src/scene/compiled/texture_table.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/description/integrator.h"
+#include "src/scene/description/film.h"
 #include "src/scene/description/note.h"
 #include "src/scene/geometry/accel.h"
 #include "src/scene/geometry/geometry.h"

@@ -1,8 +1,7 @@
-// What a scene file says, in double precision and in the file's own units, after the
-// parser has resolved names, transforms and spectra. Nothing here depends on how it will
-// be rendered. Produced by ParseScene (src/scene/parse/parse.h), consumed by CompileScene
-// (src/scene/compile/compile.h) and, independently, by the scalar reference tracer in
-// tests/.
+// Content of a scene file in double precision and the file's own units, after the parser
+// has resolved names, transforms and spectra. ParseScene (src/scene/parse/parse.h) makes
+// it; CompileScene (src/scene/compile/compile.h) and the scalar reference tracer of the
+// tests read it.
 #pragma once
 
 #include <array>
@@ -18,7 +17,6 @@
 #include "src/base/core/vec.h"
 #include "src/base/image/spectrum_integral.h"
 #include "src/scene/description/film.h"
-#include "src/scene/description/integrator.h"
 #include "src/scene/description/note.h"
 #include "src/vocabulary/path/scene_kinds.h"
 #include "src/vocabulary/strategy/strategy.h"
@@ -32,7 +30,7 @@ class SparseGrid;            // src/base/core/sparse_grid.h
 using Index = std::int32_t;
 inline constexpr Index kNone = -1;
 
-/// The spectrum that a colour was given as, if it was none: of light, times any factor.
+/// The spectrum that a colour was stated as; null for an rgb. For light, up to a factor.
 using OwnSpectrum = std::shared_ptr<const Spectrum>;
 
 /// A parameter that is either constant or textured. With a texture, the constant is
@@ -75,11 +73,10 @@ struct Texture {
   double scale = 1;
   bool invert = false;   // 1 - scale * value, negative results cut at 0 (as pbrt)
   bool bilinear = true;  // false: nearest
-  // For a kCheckerboard, kTrilinear and kEwa mean filtering over the footprint of a
-  // pixel.
+  // kCheckerboard is filtered over the footprint of a pixel with kTrilinear and kEwa.
   ImageFilter filter = ImageFilter::kBilinear;
   double max_anisotropy = 8;     // kEwa
-  Transform texture_from_world;  // of mappings and patterns of the place
+  Transform texture_from_world;  // for mappings and patterns of positions
   int dimension = 2;             // kCheckerboard: 2 or 3
   int octaves = 8;               // kFbm, kWrinkled, kMarble
   double roughness = 0.5;        // the same: falloff from octave to octave
@@ -119,11 +116,11 @@ struct Material {
   double scale = 1;  // diffusetransmission: factor on both colours, which are clamped to
                      // 1 after it
   Rgb sigma_a;       // hair: absorption, per radius of a fibre
-  OwnSpectrum sigma_a_spectrum;       // that `sigma_a` is the colour of
+  OwnSpectrum sigma_a_spectrum;       // spectrum of `sigma_a`
   double beta_m = 0.3, beta_n = 0.3;  // hair: roughness along a fibre and around it
   double tilt = 2;                    // hair: of its scales, degrees
   double interface_eta = 1.5;         // dielectric, thindielectric, coats, hair
-  OwnSpectrum dispersion;  // dielectric, thindielectric: the same by wavelength, or null
+  OwnSpectrum dispersion;  // dielectric, thindielectric: eta by wavelength, or null
   FloatValue uroughness, vroughness;                      // of the (outer) interface
   FloatValue conductor_uroughness, conductor_vroughness;  // coatedconductor
   bool remap_roughness = true;
@@ -134,8 +131,7 @@ struct Material {
   int coat_max_depth = 10;
   Index mix[2] = {kNone, kNone};
   FloatValue mix_amount{0.5, kNone};  // weight of mix[1]
-  /// Shaded as a bump map: height in the world's units; neither texture nor constant:
-  /// flat.
+  /// Bump map: height in the world's units; flat without texture and constant.
   FloatValue displacement;
   std::string normal_map;  // resolved path; empty: none
   Index inside = kNone;    // dielectric: the medium in it (pbrt's "subsurface"), or none
@@ -148,16 +144,15 @@ struct TriangleMesh {
   std::vector<Vec3d> normals;
   std::vector<std::array<double, 2>> uvs;
   std::vector<std::uint32_t> indices;  // 3 per triangle, all < positions.size()
-  // Per triangle: it continues the face of the one before, which had more than three
-  // corners. Empty: each is a face.
+  // Per triangle: it belongs to the same face as the previous one. Empty: each is a face.
   std::vector<bool> continues;
-  // dp/du is turned from the normal of the face to the shading normal, as pbrt-v4 does on
-  // bilinear patches with normals, instead of projected.
+  // dp/du is rotated from the normal of the face to the shading normal instead of
+  // projected, as pbrt-v4 does on bilinear patches with normals.
   bool turns_tangents = false;
 };
 
-/// A cubic Bezier curve in object space, with a width that changes evenly. u goes along
-/// it from 0 to 1, v across it.
+/// A cubic Bezier curve in object space with a linearly varying width. u runs along it
+/// from 0 to 1, v across it.
 struct Curve {
   Vec3d p[4];
   double width[2] = {1, 1};
@@ -167,8 +162,8 @@ struct Curve {
 
 enum class ShapeKind { kMesh, kSphere, kDisk, kPlane, kCylinder, kCurves };
 
-/// On each side of a surface; kNone: empty space. Alike on both: the surface changes
-/// nothing, whatever medium it lies in (as pbrt).
+/// Media on both sides of a surface; kNone: empty space. If they are the same, paths keep
+/// their medium at the surface (as pbrt).
 struct MediumInterface {
   Index inside = kNone, outside = kNone;
 
@@ -188,17 +183,16 @@ struct Shape {
   double radius = 1;                           // kSphere, kDisk
   double inner_radius = 0;                     // kDisk
   double height = 0;                           // kDisk: object-space z; normal +z
-  // What is left of a kSphere, and of a kCylinder, whose values are finite; z_min <=
-  // z_max.
+  // Remaining part of a kSphere or kCylinder (finite there); z_min <= z_max.
   double z_min = -std::numeric_limits<double>::infinity();
   double z_max = std::numeric_limits<double>::infinity();
-  double phi_max = 360;  // degrees, at least 0, about +z from +x; of the same and kDisk
+  double phi_max = 360;  // kSphere, kCylinder, kDisk: degrees >= 0, about +z from +x
   MediumInterface media;
   // kPlane: infinite, through the object-space origin, normal +z, uv = (x, y).
 };
 
-/// Where something is when the shutter closes, if it moves from where it is when the
-/// shutter opens (src/base/core/motion.h).
+/// Transform at the time when the shutter closes; null for what does not move
+/// (src/base/core/motion.h).
 using EndTransform = std::shared_ptr<const Transform>;
 
 struct Instance {
@@ -215,18 +209,17 @@ struct ObjectDefinition {
 };
 
 /// Emission of a shape: radiance `radiance * scale`, one-sided along the surface normal
-/// unless two_sided. If power > 0, the radiance is scaled so that each round shape, or
-/// each face of a mesh, emits `power` (with an image, by its mean). In pbrt these are
-/// separate lights with Phi = pi * area * (two_sided ? 2 : 1) * Y(L).
+/// unless two_sided. If power > 0, it is scaled so that a round shape, or each face of a
+/// mesh, emits this power: pbrt's Phi = pi * area * (two_sided ? 2 : 1) * Y(L), with the
+/// mean of an image.
 struct AreaLight {
   SourceLocation where;
   Rgb radiance{1, 1, 1};
-  OwnSpectrum spectrum;  // that `radiance` is the colour of
+  OwnSpectrum spectrum;  // spectrum of `radiance`
   double scale = 1;
   double power = -1;
   bool two_sided = false;
-  std::string
-      image_path;  // of emitted radiance over the surface coordinates; empty: none
+  std::string image_path;  // emitted radiance by surface coordinates; empty: none
 };
 
 enum class LightKind { kPoint, kSpot, kDistant, kInfinite, kGoniometric, kProjection };
@@ -238,9 +231,9 @@ struct Light {
   Transform world_from_light;
   Rgb emission;          // kPoint, kSpot: W/sr. kDistant: irradiance on a facing surface.
                          // kInfinite without image: radiance.
-  OwnSpectrum spectrum;  // that `emission` is the colour of
-  Vec3d from,
-      to{0, 0, 1};  // light space. kPoint: from. kSpot: from, to. kDistant: from-to
+  OwnSpectrum spectrum;  // spectrum of `emission`
+  Vec3d from;            // light space; kPoint, kSpot, kDistant
+  Vec3d to{0, 0, 1};     // light space; kSpot, kDistant
   double cone_angle = 30, cone_delta = 5;  // kSpot, degrees
   std::string image_path;                  // kInfinite: equal-area octahedral map, square
   double image_scale = 1;
@@ -263,10 +256,10 @@ struct Camera {
   double aperture_diameter = 1;  // kRealistic, mm
   std::string aperture;          // kRealistic: built-in shape or resolved path
   double film_diagonal = 35;     // kRealistic, mm
-  Index medium = kNone;          // that it stands in
+  Index medium = kNone;          // medium around the camera
   EndTransform end = nullptr;
-  // For how much of the time of motions the shutter is open: first + u * rate, u from 0
-  // to 1. What is below 0 is as at 0, above 1 as at 1.
+  // Time of motions while the shutter is open: first + u * rate, u from 0 to 1, clamped
+  // to 0..1.
   double time_first = 0, time_rate = 1;
 };
 
@@ -294,26 +287,26 @@ struct Medium {
   SourceLocation where;
   Rgb sigma_a{1, 1, 1}, sigma_s{1, 1, 1};
   Rgb emission;  // radiance of the blackbody limit: sigma_a * emission per length
-  OwnSpectrum emission_spectrum;  // that `emission` is the colour of
+  OwnSpectrum emission_spectrum;  // spectrum of `emission`
   double g = 0;                   // Henyey-Greenstein
   Transform world_from_medium;
-  /// The inside of a material of index `eta`; all that happens in it is one event. If
-  /// `by_reflectance`, sigma_s is its extinction and sigma_a 0, and its albedo such that
-  /// `reflectance` of what goes in along the normal comes out where the material is deep.
+  /// The inside of a material of index `eta`; a walk in it counts as one event. If
+  /// `by_reflectance`, sigma_s is the extinction and sigma_a 0; the albedo is such that a
+  /// deep material returns `reflectance` of the light that enters along the normal.
   bool in_material = false, by_reflectance = false;
   double eta = 1;
   ColorValue reflectance;
-  // For heterogeneous media: a box in their own space, samples at the centres of its
-  // voxels, x fastest. kUniformGrid: densities, factors of the coefficients. kRgbGrid:
-  // sigma_a and sigma_s, six numbers each.
+  // Varying media: a box in medium space, with samples at the centres of its voxels, x
+  // fastest. kUniformGrid: factors on the coefficients. kRgbGrid: sigma_a and sigma_s.
   Vec3d box_min{0, 0, 0}, box_max{1, 1, 1};
   int grid_size[3] = {1, 1, 1};
   std::vector<float> grid;
-  // What `emission` is multiplied with, at the same voxels; empty: by 1. kUniformGrid:
-  // one number each, or a single one that is a grid of one voxel. kRgbGrid: three.
+  // Factors on `emission` at the same voxels; empty: 1. kUniformGrid: one number each, or
+  // one for a grid of one voxel. kRgbGrid: three.
   std::vector<float> emission_grid;
-  // And by the colour of a black body (RgbOfBlackbody) of (t - offset) * scale kelvin,
-  // none up to 100 kelvin. kUniformGrid: t at the same voxels; empty: not multiplied.
+  // kUniformGrid: t at the same voxels, or empty. The emission is multiplied by the
+  // colour of a black body (RgbOfBlackbody) of (t - offset) * scale kelvin, 0 up to 100
+  // kelvin.
   std::vector<float> temperature;
   double temperature_offset = 0, temperature_scale = 1;
   double density = 1, wispiness = 1, frequency = 5;  // kCloud, as pbrt

@@ -28,7 +28,6 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/base/core/shared_array.h"
 #include "src/base/core/vec.h"
 #include "src/vocabulary/path/scene_kinds.h"
 

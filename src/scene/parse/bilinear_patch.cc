@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "src/scene/parse/quad.h"
-
 namespace lanelight {
 namespace {
 
@@ -27,9 +25,8 @@ std::array<double, 2> MixUv(const BilinearPatch& patch, double u, double v) {
   return out;
 }
 
-// Returns how far the corners are from a parallelogram. On a square of a grid, the patch
-// deviates from its two triangles by a quarter of the remaining twist, 1 / steps^2 of the
-// whole.
+// Distance of the corners from a parallelogram. In a cell of the grid, the patch differs
+// from its two triangles by a quarter of the twist there, 1 / steps^2 of the whole.
 double Twist(const std::array<Vec3d, 4>& corners) {
   return Length(corners[0] - corners[1] - corners[2] + corners[3]);
 }
@@ -84,7 +81,36 @@ void AddGrid(const BilinearPatch& patch, TriangleMesh* mesh) {
   }
 }
 
+bool IsFlat(const std::array<Vec3d, 4>& ring, Vec3d across, Vec3d along, double unit) {
+  const Vec3d normal = Normalize(Cross(across, along));
+  // Text input of six digits has relative errors of 1e-6.
+  double tolerance = 1e-5;
+  for (const Vec3d& p : ring) {
+    tolerance = std::max(tolerance, 4e-6 * LargestComponent(p) / unit);
+  }
+  for (int i = 1; i < 4; ++i) {
+    if (std::abs(Dot(normal, (ring[i] - ring[0]) / unit)) > tolerance) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+QuadSplit SplitQuad(const std::array<Vec3d, 4>& ring) {
+  QuadSplit split;
+  split.corners = {0, 1, 2, 0, 2, 3};
+  double unit = 0;
+  for (int i = 1; i < 4; ++i) unit = std::max(unit, LargestComponent(ring[i] - ring[0]));
+  if (!(unit > 0) || !std::isfinite(unit)) return split;
+  // Scaled by the size of the quad, so that products neither over- nor underflow.
+  const Vec3d a = (ring[1] - ring[0]) / unit, b = (ring[2] - ring[0]) / unit;
+  const Vec3d c = (ring[3] - ring[0]) / unit;
+  split.is_flat = IsFlat(ring, b, c - a, unit);
+  if (Dot(Cross(a, b), Cross(b, c)) >= 0) return split;
+  split.corners = {0, 1, 3, 1, 2, 3};
+  split.is_simple = Dot(Cross(a, c), Cross(b - a, c - a)) >= 0;
+  return split;
+}
 
 Vec3d BilinearPatch::Point(double u, double v) const { return Mix(p, u, v); }
 

@@ -4,15 +4,9 @@
 
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
-#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 namespace {
-
-bool IsAscii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(),
-                     [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-}
 
 enum class Block { kAny, kOptions, kWorld };  // before WorldBegin, after it
 
@@ -75,12 +69,10 @@ const Directive* FindDirective(std::string_view name) {
 void CheckBlock(const ParseState& state, const Directive& directive,
                 const SourceLocation& where) {
   if (directive.block == Block::kOptions && state.in_world) {
-    throw InputError(where,
-                     fmt::format("{} must stand before WorldBegin", directive.name));
+    throw InputError(where, "{} must stand before WorldBegin", directive.name);
   }
   if (directive.block == Block::kWorld && !state.in_world) {
-    throw InputError(where,
-                     fmt::format("{} must stand after WorldBegin", directive.name));
+    throw InputError(where, "{} must stand after WorldBegin", directive.name);
   }
 }
 
@@ -89,8 +81,8 @@ void CheckBlock(const ParseState& state, const Directive& directive,
 double Statement::Number() {
   const Token operand = lexer.Next();
   if (operand.kind == TokenKind::kNumber) return operand.number;
-  throw InputError(lexer.Where(operand), fmt::format("found {} where {} needs a number",
-                                                     operand.Describe(), token.text));
+  throw InputError(lexer.Where(operand), "found {} where {} needs a number",
+                   operand.Describe(), token.text);
 }
 
 NameOperand Statement::Name() {
@@ -103,8 +95,8 @@ NameOperand Statement::FileName() {
   const Token operand = lexer.Next();
   const SourceLocation where = lexer.Where(operand);
   if (operand.kind == TokenKind::kString) return {std::string(operand.text), where};
-  throw InputError(where, fmt::format("found {} where {} needs a name in quotes",
-                                      operand.Describe(), token.text));
+  throw InputError(where, "found {} where {} needs a name in quotes", operand.Describe(),
+                   token.text);
 }
 
 std::vector<double> Statement::Numbers(std::size_t count) {
@@ -115,10 +107,8 @@ std::vector<double> Statement::Numbers(std::size_t count) {
   if (!bracket) return numbers;
   const Token close = lexer.Next();
   if (close.kind != TokenKind::kClose) {
-    throw InputError(lexer.Where(close),
-                     fmt::format("found {} where {} needs ] after {} "
-                                 "numbers",
-                                 close.Describe(), token.text, count));
+    throw InputError(lexer.Where(close), "found {} where {} needs ] after {} numbers",
+                     close.Describe(), token.text, count);
   }
   return numbers;
 }
@@ -129,18 +119,17 @@ void RunDirectives(ParseState& state) {
   for (Token token = lexer.Next(); token.kind != TokenKind::kEnd; token = lexer.Next()) {
     Statement statement{lexer, token};
     if (token.kind != TokenKind::kWord) {
-      throw InputError(statement.where(), fmt::format("found {} where a directive should "
-                                                      "stand",
-                                                      token.Describe()));
+      throw InputError(statement.where(), "found {} where a directive should stand",
+                       token.Describe());
     }
     const Directive* directive = FindDirective(token.text);
     if (directive == nullptr) {
       CheckVersion3(statement.where(), "directive", token.text);
-      if (!IsAscii(token.text)) {
+      if (!std::all_of(token.text.begin(), token.text.end(), IsAscii)) {
         throw InputError(statement.where(),
-                         fmt::format("{} is not a directive: it has characters that are "
-                                     "not ASCII, such as a no-break space",
-                                     Quoted(token.text)));
+                         "{} is not a directive: it has characters that are not ASCII, "
+                         "such as a no-break space",
+                         Quoted(token.text));
       }
       std::vector<std::string> known;
       for (const Directive& d : kDirectives) known.emplace_back(d.name);

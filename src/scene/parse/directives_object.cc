@@ -14,30 +14,7 @@ struct TypedObject {
   ParamSet params;
 };
 
-// Types that are refused whatever their parameters are, and why.
-struct Refusal {
-  std::string_view directive, type, why;
-};
-constexpr Refusal kRefusals[] = {
-    {"Texture", "ptex",
-     "textures per face (Ptex files) are not in this renderer; an image with surface "
-     "coordinates can stand for one"}};
-
-// InputError for what is refused. Where unsupported things are to be skipped, the
-// interpreters say what happens instead.
-void CheckRefused(const ParseState& state, const NameOperand& type,
-                  std::string_view directive, std::string_view kind) {
-  if (state.options.skip_unsupported) return;
-  for (const Refusal& refusal : kRefusals) {
-    if (directive != refusal.directive || type.text != refusal.type) continue;
-    throw InputError(
-        type.where,
-        fmt::format("{} {} is not supported: {} (--skip-unsupported goes on without it)",
-                    kind, Quoted(type.text), refusal.why));
-  }
-}
-
-// What messages call an object, and where its defaults come from.
+// The name of an object in messages, and the source of its defaults.
 struct ObjectKind {
   const char* word;
   std::optional<AttributeTarget> defaults = {};
@@ -51,10 +28,9 @@ ParamSet ReadParamSet(ParseState& state, Statement& statement, const ObjectKind&
           kind.defaults ? state.Inherited(*kind.defaults) : nullptr, &state.scene.notes};
 }
 
-// Reads "type" and parameters; the type's own place is where errors about it point.
+// Reads "type" and parameters. Errors point at the type.
 TypedObject ReadObject(ParseState& state, Statement& statement, const ObjectKind& kind) {
   const NameOperand type = statement.Name();
-  CheckRefused(state, type, statement.token.text, kind.word);
   return {type.text, ReadParamSet(state, statement, kind, type)};
 }
 
@@ -102,6 +78,12 @@ constexpr std::pair<std::string_view, ObjectDirective> kObjects[] = {
     {"AreaLightSource", {{"area light", AttributeTarget::kLight}, SetAreaLight}},
     {"Shape", {{"shape", AttributeTarget::kShape}, AddShape}}};
 
+// Reads the name of a medium; "" is empty space.
+Index NextMedium(ParseState& state, Statement& statement) {
+  const auto [name, where] = statement.Name();
+  return name.empty() ? kNone : UseMedium(state, name, where);
+}
+
 }  // namespace
 
 void RunObject(ParseState& state, Statement& statement) {
@@ -114,9 +96,8 @@ void RunObject(ParseState& state, Statement& statement) {
 void RunAccelerator(ParseState& state, Statement& statement) {
   TypedObject object = ReadObject(state, statement, {"accelerator"});
   InterpretAccelerator(object.type, object.params);
-  state.AddNote(statement.where(),
-                fmt::format("accelerator {} has no effect: there is one kind",
-                            Quoted(object.type)));
+  state.AddNote(statement.where(), "accelerator {} has no effect: there is one kind",
+                Quoted(object.type));
 }
 
 void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
@@ -124,12 +105,10 @@ void RunMakeNamedMaterial(ParseState& state, Statement& statement) {
   ParamSet params = ReadParamSet(state, statement, kMaterial, name);
   const NameKey key = {NameKind::kMaterial, name.text};
   if (state.declared.contains(key)) {
-    throw InputError(name.where,
-                     fmt::format("material {} is defined twice", Quoted(name.text)));
+    throw InputError(name.where, "material {} is defined twice", Quoted(name.text));
   }
   params.Need("type", ParamType::kString);
   const std::string type = params.String("type", "");
-  CheckRefused(state, {type, name.where}, "Material", "material");
   RunOrWait(state, &key, [key, type, params](ParseState& s) mutable {
     Define(s, key, InterpretMaterial(s, key.second, type, params));
   });
@@ -151,8 +130,7 @@ void RunTexture(ParseState& state, Statement& statement) {
   const NameKey key = {is_float ? NameKind::kFloatTexture : NameKind::kSpectrumTexture,
                        name};
   if (state.declared.contains(key)) {
-    throw InputError(where,
-                     fmt::format("{} texture {} is defined twice", value, Quoted(name)));
+    throw InputError(where, "{} texture {} is defined twice", value, Quoted(name));
   }
   RunOrWait(state, &key, [key, object](ParseState& s) mutable {
     InterpretTexture(s, key, object.type, object.params);
@@ -168,23 +146,12 @@ void RunMakeNamedMedium(ParseState& state, Statement& statement) {
   }
   if (const auto it = state.media.find(name.text);
       it != state.media.end() && it->second.defined) {
-    throw InputError(name.where,
-                     fmt::format("medium {} is defined twice", Quoted(name.text)));
+    throw InputError(name.where, "medium {} is defined twice", Quoted(name.text));
   }
   InterpretMedium(state, name.text, params);
 }
 
-namespace {
-
-// The medium that the next string names; "": empty space.
-Index NextMedium(ParseState& state, Statement& statement) {
-  const auto [name, where] = statement.Name();
-  return name.empty() ? kNone : UseMedium(state, name, where);
-}
-
-}  // namespace
-
-// One name: the same on both sides.
+// A single name stands for both sides.
 void RunMediumInterface(ParseState& state, Statement& statement) {
   MediumInterface& media = state.graphics.media;
   media.inside = media.outside = NextMedium(state, statement);

@@ -12,36 +12,28 @@ namespace {
 
 constexpr std::size_t kDeepestNesting = 1000;
 
-const char* BeginName(ScopeKind kind) {
-  switch (kind) {
-    case ScopeKind::kAttribute:
-      return "AttributeBegin";
-    case ScopeKind::kObject:
-      return "ObjectBegin";
-    default:
-      return "Import";
-  }
-}
-
 void Push(ParseState& state, const Statement& statement, ScopeKind kind) {
   if (state.scopes.size() >= kDeepestNesting) {
-    throw InputError(statement.where(),
-                     fmt::format("blocks are nested more than {} deep", kDeepestNesting));
+    throw InputError(statement.where(), "blocks are nested more than {} deep",
+                     kDeepestNesting);
   }
   state.scopes.push_back({kind, statement.where(), state.graphics});
 }
 
+bool HasOpenScope(const ParseState& state) {
+  return !state.scopes.empty() && state.scopes.back().kind != ScopeKind::kImport;
+}
+
 // Removes the innermost scope, which must be of this kind.
 GraphicsState Pop(ParseState& state, const Statement& statement, ScopeKind kind) {
-  if (state.scopes.empty() || state.scopes.back().kind == ScopeKind::kImport) {
-    throw InputError(statement.where(),
-                     fmt::format("{} without {}", statement.token.text, BeginName(kind)));
+  if (!HasOpenScope(state)) {
+    throw InputError(statement.where(), "{} without {}", statement.token.text,
+                     BeginName(kind));
   }
   const Scope& scope = state.scopes.back();
   if (scope.kind != kind) {
-    throw InputError(statement.where(),
-                     fmt::format("{} inside the {} of {}", statement.token.text,
-                                 BeginName(scope.kind), scope.where.ToString()));
+    throw InputError(statement.where(), "{} inside the {} of {}", statement.token.text,
+                     BeginName(scope.kind), scope.where.ToString());
   }
   GraphicsState saved = std::move(state.scopes.back().saved);
   state.scopes.pop_back();
@@ -62,21 +54,21 @@ void RunAttributeBegin(ParseState& state, Statement& statement) {
   Push(state, statement, ScopeKind::kAttribute);
 }
 
-// pbrt-v4 goes on after one too many, in an imported file as well.
+// pbrt-v4 goes on after a superfluous one, in an imported file as well.
 void RunAttributeEnd(ParseState& state, Statement& statement) {
-  if (state.scopes.empty() || state.scopes.back().kind == ScopeKind::kImport) {
-    return state.AddWarning(
-        statement.where(),
-        fmt::format("{} without AttributeBegin is ignored", statement.token.text));
+  if (!HasOpenScope(state)) {
+    return state.AddWarning(statement.where(), "{} without AttributeBegin is ignored",
+                            statement.token.text);
   }
   state.graphics = Pop(state, statement, ScopeKind::kAttribute);
 }
 
 void RunTransformBegin(ParseState& state, Statement& statement) {
-  const std::string message =
+  constexpr const char* kMessage =
       "TransformBegin and TransformEnd are AttributeBegin and AttributeEnd, as in "
       "pbrt-v4; write those";
-  if (state.noted.insert(message).second) state.AddWarning(statement.where(), message);
+  if (state.noted.insert(kMessage).second)
+    state.AddWarning(statement.where(), "{}", kMessage);
   RunAttributeBegin(state, statement);
 }
 
@@ -85,9 +77,8 @@ void RunObjectBegin(ParseState& state, Statement& statement) {
   if (state.open_object != kNone) {
     throw InputError(
         statement.where(),
-        fmt::format("ObjectBegin inside the definition of object {}; objects "
-                    "do not nest",
-                    Quoted(state.scene.objects[state.open_object].name)));
+        "ObjectBegin inside the definition of object {}; objects do not nest",
+        Quoted(state.scene.objects[state.open_object].name));
   }
   const Index index = DefineObject(state, name, where);
   Push(state, statement, ScopeKind::kObject);
@@ -103,8 +94,7 @@ void RunObjectInstance(ParseState& state, Statement& statement) {
   const auto [name, where] = statement.Name();
   if (state.open_object != kNone) {
     throw InputError(statement.where(),
-                     "ObjectInstance inside an object definition; "
-                     "instances do not nest");
+                     "ObjectInstance inside an object definition; instances do not nest");
   }
   PlaceObject(state, UseObject(state, name, where), statement.where());
 }
@@ -121,8 +111,8 @@ void RunImport(ParseState& state, Statement& statement) {
   RunFile(state, ResolvePath(state, name), where);
   const Scope& scope = state.scopes.back();
   if (scope.kind != ScopeKind::kImport) {
-    throw InputError(scope.where, fmt::format("this {} has no end in the imported file",
-                                              BeginName(scope.kind)));
+    throw InputError(scope.where, "this {} has no end in the imported file",
+                     BeginName(scope.kind));
   }
   state.graphics = std::move(state.scopes.back().saved);
   state.scopes.pop_back();
@@ -161,9 +151,8 @@ void RunColorSpace(ParseState& state, Statement& statement) {
   std::string name = given;  // in letters of either case, as in pbrt-v4
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (std::find(kSpaces.begin(), kSpaces.end(), name) == kSpaces.end()) {
-    return state.AddWarning(
-        where, fmt::format("unknown color space {} is ignored; known: {}", Quoted(given),
-                           QuotedList(kSpaces)));
+    return state.AddWarning(where, "unknown color space {} is ignored; known: {}",
+                            Quoted(given), QuotedList(kSpaces));
   }
   state.graphics.color_space = name;
 }

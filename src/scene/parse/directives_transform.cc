@@ -10,13 +10,9 @@
 namespace lanelight {
 namespace {
 
-// Columns whose volume is below this part of the product of their lengths are as good as
-// coplanar: 16 numbers that were rounded from a singular matrix.
+// A matrix is singular if the volume of its columns relative to the product of their
+// lengths is below this, because the file has rounded numbers.
 constexpr double kSingular = 1e-12;
-
-double LargestComponent(Vec3d v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 // Unit vector without overflow or underflow of the squared length; zero stays zero.
 Vec3d SafeNormalize(Vec3d v) {
@@ -40,24 +36,22 @@ bool IsFinite(const Transform& t) {
   return true;
 }
 
-// A transform that this statement makes, unless it is useless.
+// Returns a new transform, or throws InputError if it overflows or is singular.
 const Transform& Checked(const Statement& statement, const Transform& ctm) {
   if (!IsFinite(ctm)) {
-    throw InputError(
-        statement.where(),
-        fmt::format("the transform overflows with this {}", statement.token.text));
+    throw InputError(statement.where(), "the transform overflows with this {}",
+                     statement.token.text);
   }
   if (IsSingular(ctm)) {
     throw InputError(
         statement.where(),
-        fmt::format("this {} makes the transform singular: it flattens space "
-                    "and cannot be inverted",
-                    statement.token.text));
+        "this {} makes the transform singular: it flattens space and cannot be inverted",
+        statement.token.text);
   }
   return ctm;
 }
 
-// Sets those of the two current transforms that are active. Most often they are the same.
+// Sets the active ones of the two current transforms, which are mostly the same.
 void Set(ParseState& state, const Statement& statement, const Transform& start,
          const Transform& end) {
   GraphicsState& graphics = state.graphics;
@@ -79,11 +73,10 @@ Transform ReadMatrix(Statement& statement) {
   std::copy(numbers.begin(), numbers.end(), values.begin());
   const Transform t = Transform::FromPbrt(values);
   if (t(3, 0) != 0 || t(3, 1) != 0 || t(3, 2) != 0 || t(3, 3) != 1) {
-    throw InputError(
-        statement.where(),
-        fmt::format("{} needs an affine matrix: numbers 4, 8, 12, 16 must be "
-                    "0, 0, 0, 1; found {}, {}, {}, {}",
-                    statement.token.text, t(3, 0), t(3, 1), t(3, 2), t(3, 3)));
+    throw InputError(statement.where(),
+                     "{} needs an affine matrix: numbers 4, 8, 12, 16 must be 0, 0, 0, "
+                     "1; found {}, {}, {}, {}",
+                     statement.token.text, t(3, 0), t(3, 1), t(3, 2), t(3, 3));
   }
   return t;
 }
@@ -111,7 +104,7 @@ void RunRotate(ParseState& state, Statement& statement) {
     throw InputError(statement.where(),
                      "Rotate has the axis 0 0 0, which is no direction");
   }
-  // Whole turns first: the sine of a huge angle has no correct digits left.
+  // Removes whole turns: the sine of a huge angle has no correct digits.
   Concat(state, statement, Transform::Rotate(std::remainder(n[0], 360.0), axis));
 }
 
@@ -151,12 +144,10 @@ void RunCoordSysTransform(ParseState& state, Statement& statement) {
   if (found == state.coordinate_systems.end()) {
     const std::string nearest = NearestName(name, Names(state.coordinate_systems));
     return state.AddWarning(
-        where,
-        fmt::format(
-            "unknown coordinate system {} is ignored{}", Quoted(name),
-            nearest.empty() ? "" : fmt::format("; did you mean {}?", Quoted(nearest))));
+        where, "unknown coordinate system {} is ignored{}", Quoted(name),
+        nearest.empty() ? "" : fmt::format("; did you mean {}?", Quoted(nearest)));
   }
-  // Both, whichever is active: as in pbrt-v4.
+  // Sets both, whichever is active, as pbrt-v4.
   std::tie(state.graphics.ctm, state.graphics.ctm_end) = found->second;
 }
 
@@ -173,10 +164,9 @@ void RunActiveTransform(ParseState& state, Statement& statement) {
 void RunTransformTimes(ParseState& state, Statement& statement) {
   const std::vector<double> n = statement.Numbers(2);
   if (!(n[0] < n[1]) || !std::isfinite(n[1] - n[0])) {
-    throw InputError(
-        statement.where(),
-        fmt::format("TransformTimes {} {}: the end must come after the start", n[0],
-                    n[1]));
+    throw InputError(statement.where(),
+                     "TransformTimes {} {}: the end must come after the start", n[0],
+                     n[1]);
   }
   state.start_time = n[0];
   state.end_time = n[1];

@@ -11,8 +11,7 @@
 namespace lanelight {
 namespace {
 
-// Unit means of the unit normals of the faces around each vertex; zero where there are
-// none.
+// Unit means of the normals of the faces around each vertex; zero without faces.
 std::vector<Vec3d> VertexNormals(const TriangleMesh& mesh) {
   std::vector<Vec3d> normals(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -69,12 +68,12 @@ class Refiner {
   static void Check(double faces) {
     if (faces <= kMostDisplaced) return;
     throw InputError(
-        fmt::format("displacement makes more than {} triangles of this mesh; a larger "
-                    "\"edgelength\" makes fewer",
-                    kMostDisplaced));
+        "displacement makes more than {} triangles of this mesh; a larger \"edgelength\" "
+        "makes fewer",
+        kMostDisplaced);
   }
 
-  // No triangle with sides below the length is larger than the one that has it thrice.
+  // Of triangles with sides up to the length, the equilateral one is largest.
   double LeastFaces() const {
     double area = 0;
     for (std::size_t i = 0; i < mesh_.indices.size(); i += 3) {

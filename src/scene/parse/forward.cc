@@ -7,18 +7,12 @@
 namespace lanelight {
 namespace {
 
-std::string KindName(NameKind kind) {
-  switch (kind) {
-    case NameKind::kFloatTexture:
-      return "float texture";
-    case NameKind::kSpectrumTexture:
-      return "spectrum texture";
-    default:
-      return "named material";
-  }
+const char* KindName(NameKind kind) {
+  if (kind == NameKind::kFloatTexture) return "float texture";
+  return kind == NameKind::kSpectrumTexture ? "spectrum texture" : "named material";
 }
 
-// The sizes of the lists that an interpreter appends to.
+// Sizes of the lists to which interpreters append.
 struct Mark {
   explicit Mark(const ParseState& state)
       : notes(state.scene.notes.size()),
@@ -51,7 +45,7 @@ void Wait(ParseState& state, WaitingStatement statement) {
   state.waiting.emplace(place, std::move(statement));
 }
 
-// Puts a statement's own state in place of the current one, until the end of the scope.
+// Replaces the current state by that of a statement while it lives.
 class InItsState {
  public:
   InItsState(ParseState& state, const WaitingStatement& statement)
@@ -77,8 +71,7 @@ class InItsState {
   const bool is_float = kind == NameKind::kFloatTexture;
   const NameKind other = is_float ? NameKind::kSpectrumTexture : NameKind::kFloatTexture;
   if (kind != NameKind::kMaterial && state.declared.contains({other, name})) {
-    throw InputError(use.where,
-                     fmt::format("texture {} is not a {}", Quoted(name), KindName(kind)));
+    throw InputError(use.where, "texture {} is not a {}", Quoted(name), KindName(kind));
   }
   std::vector<std::string> known;
   for (const NameKey& key : state.declared) {
@@ -140,16 +133,15 @@ void RequireNothingWaits(const ParseState& state) {
   for (const auto& [place, statement] : state.waiting) {
     if (statement.defines) definitions[*statement.defines] = &statement;
   }
-  // From what the first one needs to what that needs, and so on.
+  // Follows the needs of the first statement.
   const WaitingStatement* at = &state.waiting.begin()->second;
   for (std::size_t steps = 0; steps <= definitions.size(); ++steps) {
     const auto next = definitions.find(at->needs.key);
     if (next == definitions.end()) ThrowUndefined(state, at->needs);
     at = next->second;
   }
-  throw InputError(at->needs.where, fmt::format("{} {} is defined by itself",
-                                                KindName(at->needs.key.first),
-                                                Quoted(at->needs.key.second)));
+  throw InputError(at->needs.where, "{} {} is defined by itself",
+                   KindName(at->needs.key.first), Quoted(at->needs.key.second));
 }
 
 }  // namespace lanelight

@@ -1,14 +1,13 @@
-#include "src/scene/parse/height_texture.h"
+#include "src/scene/parse/displace.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/base/core/error_text.h"
+#include "src/base/core/error.h"
 #include "src/base/core/suggest.h"
-#include "src/base/image/color_channels.h"
-#include "src/base/image/repair.h"
+#include "src/base/image/image.h"
 
 namespace lanelight {
 namespace {
@@ -26,7 +25,7 @@ double Decoded(const Texture& texture, std::uint8_t byte) {
   return v;
 }
 
-// Which channels are averaged: alpha where there is any transparency, else the colours.
+// Channels that are averaged: alpha if anything is transparent, else the colours.
 std::vector<int> ChannelsOf(const Image& image, const std::string& path) {
   if (image.channels == 1) return {0};
   const auto rgb = ColorChannels(image);
@@ -106,8 +105,8 @@ void HeightTexture::Load(Index index) {
     image = ReadImage(texture.path);
     channels = ChannelsOf(image, texture.path);
   } catch (const InputError& error) {
-    throw InputError(texture.where, fmt::format("texture {}: {}", Quoted(texture.name),
-                                                WithoutPrefix(error)));
+    throw InputError(texture.where, "texture {}: {}", Quoted(texture.name),
+                     WithoutPrefix(error));
   }
   ReplaceNotFinite(&image);
   Texels& texels = images_[index];

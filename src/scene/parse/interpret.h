@@ -1,11 +1,14 @@
 // Parameters to objects of the scene description, one file per concept. Each function
-// takes the type name and a ParamSet, checks ranges, and ends with CheckAllUsed(), so an
-// unknown parameter is always reported.
+// takes the type name and a ParamSet, checks ranges, and ends with CheckAllUsed(), which
+// reports unknown parameters.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
+#include "src/base/core/error.h"
+#include "src/base/core/vec.h"
 #include "src/base/image/spectrum.h"
 #include "src/scene/parse/params.h"
 #include "src/scene/parse/parse_state.h"
@@ -17,11 +20,11 @@ namespace lanelight {
 /// are clamped to non-negative, with a note.
 Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
             SpectrumUse use);
-/// The spectrum that the parameter is of, which ColorOf has found to be right; null for
-/// an rgb. Of unbounded ones, end values go on outside of the samples.
+/// Spectrum of a parameter that ColorOf has accepted; null for an rgb. Outside of their
+/// samples, unbounded spectra keep their end values.
 OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
                        const Param& param, SpectrumUse use);
-/// A colour without texture: of a light, say.
+/// A colour without texture.
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
                SpectrumUse use);
 /// A colour or the index of a spectrum texture.
@@ -48,20 +51,18 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
 void ConductorIor(ParseState& state, ParamSet& params, const std::string& prefix,
                   ColorValue* eta, ColorValue* k);
 
-// interpret_camera.cc ---------------------------------------------------------------
-/// A parameter with exactly `count` numbers, or null; another count is an InputError.
-const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
-                         std::size_t count);
-
 // parse_files.cc --------------------------------------------------------------------
-/// The file that a string parameter names; an empty name is an InputError.
+/// A file named by a string parameter.
 struct NamedFile {
   const Param* param = nullptr;  // null: it is not given
   std::string path;
 
   explicit operator bool() const { return param != nullptr; }
 };
+/// Returns the file; an empty name is an InputError.
 NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name);
+/// Returns a file that must be given, or throws InputError.
+NamedFile NeedFile(const ParseState& state, ParamSet& params, std::string_view name);
 
 // interpret_subsurface.cc -----------------------------------------------------------
 /// Appends the medium in a material "subsurface" of index `eta`; returns its index.
@@ -97,5 +98,25 @@ std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params);
 std::shared_ptr<const TriangleMesh> InterpretTriangleMesh(ParamSet& params);
 std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params);
 std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params);
+
+// scattering_presets.cc -------------------------------------------------------------
+struct Coefficients {
+  Rgb sigma_s, sigma_a;  // per millimetre; sigma_s is the reduced one
+};
+/// Returns published coefficients of media by their names in pbrt-v4.
+const std::map<std::string, Coefficients>& ScatteringPresets();
+
+// medium_grids.cc -------------------------------------------------------------------
+void ReadUniformGrid(ParseState& state, ParamSet& params, Medium* medium);
+void ReadRgbGrid(ParseState& state, ParamSet& params, Medium* medium);
+/// Reads "p0" and "p1"; every coordinate of p1 must be above that of p0.
+void ReadBox(ParamSet& params, Medium* medium);
+/// Reads "sigma_a" and "sigma_s", 1 by default, and multiplies them by `scale`.
+void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* medium);
+/// Reads "Le", black by default, and multiplies it by `scale`.
+void ReadEmission(ParseState& state, ParamSet& params, double scale, Medium* medium);
+/// Reads "temperatureoffset", or its older name "temperaturecutoff", and
+/// "temperaturescale".
+void ReadTemperatureScale(ParamSet& params, Medium* medium);
 
 }  // namespace lanelight

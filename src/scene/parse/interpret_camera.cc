@@ -1,4 +1,3 @@
-// Camera and pixel filter.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,28 +5,18 @@
 
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/interpret.h"
+#include "src/scene/parse/lex.h"
 #include "src/scene/parse/motion.h"
-#include "src/scene/parse/number_file.h"
 
 namespace lanelight {
-
-const Param* NumberArray(ParamSet& params, std::string_view name, ParamType type,
-                         std::size_t count) {
-  const Param* param = params.Find(name, {type});
-  if (param != nullptr && param->numbers.size() != count) {
-    params.Fail(*param,
-                fmt::format("{} numbers; it takes {}", param->numbers.size(), count));
-  }
-  return param;
-}
-
 namespace {
 
 void ReadWindow(ParamSet& params, Camera* camera) {
   camera->frame_aspect = params.Float("frameaspectratio", 0, {1e-6, 1e6});
-  const Param* window = NumberArray(params, "screenwindow", ParamType::kFloat, 4);
+  const Param* window = params.Find("screenwindow", {ParamType::kFloat});
   if (window == nullptr) return;
   const std::vector<double>& n = window->numbers;
+  if (n.size() != 4) params.Fail(*window, "{} numbers; it takes 4", n.size());
   if (!(n[0] < n[1] && n[2] < n[3])) {
     params.Fail(*window,
                 "the window is empty; it takes x0 x1 y0 y1 with x0 < x1, y0 < y1");
@@ -39,24 +28,21 @@ void ReadShutter(ParseState& state, ParamSet& params) {
   const double open = params.Float("shutteropen", 0);
   const double close = params.Float("shutterclose", 1);
   if (!(close > open) || !std::isfinite(close - open)) {
-    throw InputError(
-        params.where(),
-        fmt::format("the shutter closes at {} but opens at {}", close, open));
+    throw InputError(params.where(), "the shutter closes at {} but opens at {}", close,
+                     open);
   }
   state.shutter_open = open;
   state.shutter_close = close;
 }
 
-// Numbers of a lens file: four per row.
 std::vector<double> ReadLensFile(const ParseState& state, ParamSet& params,
                                  const Param& file, const std::string& path) {
-  const std::string text = ReadSceneFile(state, path, file.where, "the lens file");
-  std::vector<double> numbers =
-      ReadNumbers(text, std::make_shared<const std::string>(path));
+  std::vector<double> numbers = ReadNumberFile(state, path, file.where, "the lens file");
   if (numbers.empty() || numbers.size() % 4 != 0) {
-    params.Fail(file, fmt::format("the file {} has {} numbers; it takes rows of four: "
-                                  "radius, thickness, eta, diameter",
-                                  Quoted(path), numbers.size()));
+    params.Fail(file,
+                "the file {} has {} numbers; it takes rows of four: radius, thickness, "
+                "eta, diameter",
+                Quoted(path), numbers.size());
   }
   return numbers;
 }
@@ -66,25 +52,22 @@ void CheckLenses(ParseState& state, ParamSet& params, const Param& file,
   for (std::size_t i = 0; i < camera.lens.size(); i += 4) {
     const double* row = &camera.lens[i];
     if (row[1] < 0 || row[2] < 0 || !(row[3] > 0)) {
-      params.Fail(file, fmt::format("row {} of the lens file: thickness and eta must not "
-                                    "be negative, the diameter above 0",
-                                    i / 4 + 1));
+      params.Fail(file,
+                  "row {} of the lens file: thickness and eta must not be negative, the "
+                  "diameter above 0",
+                  i / 4 + 1);
     }
     if (row[0] == 0 && camera.aperture_diameter > row[3]) {
-      state.AddNote(params.where(),
-                    fmt::format("aperturediameter {} is larger than the stop of the "
-                                "lenses, which has {}",
-                                camera.aperture_diameter, row[3]));
+      state.AddNote(
+          params.where(),
+          "aperturediameter {} is larger than the stop of the lenses, which has {}",
+          camera.aperture_diameter, row[3]);
     }
   }
 }
 
 void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
-  const Param* file = params.Find("lensfile", {ParamType::kString});
-  const std::string name = params.String("lensfile", "");
-  if (file == nullptr || name.empty()) {
-    throw InputError(params.where(), "a realistic camera needs \"string lensfile\"");
-  }
+  const NamedFile file = NeedFile(state, params, "lensfile");
   camera.aperture_diameter = params.Float("aperturediameter", 1, {1e-6, kHuge});
   camera.focal_distance = params.Float("focusdistance", 10, {1e-30, kHuge});
   camera.aperture = params.String("aperture", "");
@@ -94,11 +77,11 @@ void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
       std::end(kShapes)) {
     camera.aperture = ResolvePath(state, camera.aperture);
   }
-  camera.lens = ReadLensFile(state, params, *file, ResolvePath(state, name));
-  CheckLenses(state, params, *file, camera);
+  camera.lens = ReadLensFile(state, params, *file.param, file.path);
+  CheckLenses(state, params, *file.param, camera);
 }
 
-// All directions: no lens, and all of the film.
+// Images all directions: it has no lens and uses the whole film.
 void ReadSpherical(ParseState&, ParamSet& params, Camera& camera) {
   static constexpr std::pair<const char*, SphericalMapping> kMappings[] = {
       {"equalarea", SphericalMapping::kEqualArea},

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/base/core/error_text.h"
+#include "src/base/core/error.h"
 #include "src/base/core/suggest.h"
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "src/scene/parse/interpret.h"
 
 namespace lanelight {
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHottest = 1e6;  // kelvin
 
-// Calls `convert`; its InputErrors, which know no place, get that of the parameter.
+// Calls `convert`; its InputErrors have no place and get that of the parameter.
 template <typename Fn>
 Rgb At(const ParamSet& params, const Param& param, const Fn& convert) {
   try {
@@ -26,10 +26,9 @@ Rgb At(const ParamSet& params, const Param& param, const Fn& convert) {
 Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   if (param.numbers.size() > 3) params.Fail(param, "more than one value");
   for (double value : param.numbers) {
-    if (value < 0) params.Fail(param, fmt::format("the component {} is negative", value));
+    if (value < 0) params.Fail(param, "the component {} is negative", value);
     if (use == SpectrumUse::kAlbedo && value > 1) {
-      params.Fail(param,
-                  fmt::format("the component {} of a reflectance is above 1", value));
+      params.Fail(param, "the component {} of a reflectance is above 1", value);
     }
   }
   const Rgb rgb = {param.numbers[0], param.numbers[1], param.numbers[2]};
@@ -40,8 +39,8 @@ Rgb RgbOf(const ParamSet& params, const Param& param, SpectrumUse use) {
 Rgb BlackbodyOf(const ParamSet& params, const Param& param, SpectrumUse use) {
   const double kelvin = param.numbers[0];
   if (!(kelvin >= 100 && kelvin <= kHottest)) {
-    params.Fail(param, fmt::format("the temperature {} is outside 100 to {} kelvin",
-                                   kelvin, kHottest));
+    params.Fail(param, "the temperature {} is outside 100 to {} kelvin", kelvin,
+                kHottest);
   }
   if (use == SpectrumUse::kAlbedo || use == SpectrumUse::kUnbounded) {
     return RgbFromSpectrum(NormalizedBlackbody(kelvin), use);
@@ -69,7 +68,7 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
                   "colour outside the sRGB gamut: negative components become 0");
     color = Max(color, Rgb{});
   }
-  // Beside a component below 0, in a colour of another space that sRGB has not.
+  // Outside of the sRGB gamut, a component can be above 1 beside one below 0.
   if (use == SpectrumUse::kAlbedo) color = Min(color, Rgb{1, 1, 1});
   return color;
 }
@@ -77,20 +76,20 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
 OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
                        const Param& param, SpectrumUse use) {
   if (param.type == ParamType::kRgb) return nullptr;
+  const auto share = [](Spectrum spectrum) {
+    return std::make_shared<const Spectrum>(std::move(spectrum));
+  };
   const bool unbounded = use == SpectrumUse::kUnbounded;
   if (param.type == ParamType::kBlackbody) {
     const bool light = !unbounded && use != SpectrumUse::kAlbedo;
     const double kelvin = param.numbers[0];
-    return std::make_shared<const Spectrum>(light ? BlackbodySpectrum(kelvin)
-                                                  : NormalizedBlackbody(kelvin));
+    return share(light ? BlackbodySpectrum(kelvin) : NormalizedBlackbody(kelvin));
   }
   if (!param.strings.empty()) {
-    const auto named = SpectrumOfName(param.strings[0]);
-    if (named) return std::make_shared<const Spectrum>(*named);
+    if (const auto named = SpectrumOfName(param.strings[0])) return share(*named);
   }
   const SpectrumSamples samples = SamplesOf(state, params, param);
-  return std::make_shared<const Spectrum>(
-      SpectrumFromSamples(samples.wavelengths, samples.values, unbounded));
+  return share(SpectrumFromSamples(samples.wavelengths, samples.values, unbounded));
 }
 
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,
@@ -102,8 +101,7 @@ Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb a
 
 ColorValue TexturedColor(ParseState& state, ParamSet& params, std::string_view name,
                          Rgb absent, SpectrumUse use) {
-  const Param* param = params.Find(name, {ParamType::kRgb, ParamType::kSpectrum,
-                                          ParamType::kTexture, ParamType::kBlackbody});
+  const Param* param = params.Find(name, kColorTypes);
   if (param == nullptr) return {absent, kNone};
   if (param->type != ParamType::kTexture) {
     return {ColorOf(state, params, *param, use), kNone,
@@ -117,8 +115,7 @@ FloatValue TexturedFloat(ParseState& state, ParamSet& params, std::string_view n
                          double absent, Limits limits) {
   const Param* param = params.Find(name, {ParamType::kFloat, ParamType::kTexture});
   if (param == nullptr) return {absent, kNone};
-  if (param->type == ParamType::kFloat)
-    return {params.Float(name, absent, limits), kNone};
+  if (param->type == ParamType::kFloat) return {params.Float(name, absent, limits)};
   return {absent,
           Resolve(state, {{NameKind::kFloatTexture, param->strings[0]}, param->where})};
 }

@@ -12,7 +12,6 @@ namespace {
 using PointList = std::vector<Vec3d>;
 enum class Basis { kBezier, kBspline };
 
-// Control points of a quadratic or cubic Bezier curve.
 using Segment = std::array<Vec3d, 4>;
 
 Segment Elevated(Vec3d a, Vec3d b, Vec3d c) {
@@ -32,42 +31,29 @@ Segment SegmentOf(const PointList& p, std::size_t at, Basis basis, int degree) {
           (b + 4.0 * c + d) / 6};
 }
 
-PointList PointsOf(ParamSet& params, const char* name, ParamType type) {
-  PointList points;
-  const Param* param = params.Find(name, {type});
-  if (param == nullptr) return points;
-  for (std::size_t i = 0; i + 2 < param->numbers.size(); i += 3) {
-    points.push_back({param->numbers[i], param->numbers[i + 1], param->numbers[i + 2]});
-  }
-  return points;
-}
-
-// Returns the number of curves that the points make.
 std::size_t CountSegments(ParamSet& params, std::size_t points, Basis basis, int degree) {
   const auto n = static_cast<std::size_t>(degree);
   const bool bezier = basis == Basis::kBezier;
   if (points <= n || (bezier && (points - 1) % n != 0)) {
-    params.Fail(
-        params.Need("P", ParamType::kPoint3),
-        fmt::format("{} points; a {} of degree {} takes {}", points,
-                    bezier ? "Bezier curve" : "B-spline", degree,
-                    bezier ? fmt::format("{} and {} for each further part", n + 1, n)
-                           : fmt::format("{} or more", n + 1)));
+    params.Fail(params.Need("P", ParamType::kPoint3),
+                "{} points; a {} of degree {} takes {}", points,
+                bezier ? "Bezier curve" : "B-spline", degree,
+                bezier ? fmt::format("{} and {} for each further part", n + 1, n)
+                       : fmt::format("{} or more", n + 1));
   }
   return bezier ? (points - 1) / n : points - n;
 }
 
-// Normals at the ends of all parts, unit.
 PointList NormalsOf(ParamSet& params, CurveType type, std::size_t segments) {
   if (type != CurveType::kRibbon) {
     params.Ignore("N", "only curves of type \"ribbon\" have normals");
     return {};
   }
   const Param& param = params.Need("N", ParamType::kNormal);
-  PointList normals = PointsOf(params, "N", ParamType::kNormal);
+  PointList normals = Triples(param);
   if (normals.size() != segments + 1) {
-    params.Fail(param, fmt::format("{} normals; a ribbon of {} parts takes {}",
-                                   normals.size(), segments, segments + 1));
+    params.Fail(param, "{} normals; a ribbon of {} parts takes {}", normals.size(),
+                segments, segments + 1);
   }
   for (Vec3d& n : normals) {
     if (Length(n) == 0) params.Fail(param, "a normal is zero");
@@ -76,8 +62,8 @@ PointList NormalsOf(ParamSet& params, CurveType type, std::size_t segments) {
   for (std::size_t i = 0; i < segments; ++i) {
     if (Length(normals[i] + normals[i + 1]) < 1e-3) {
       params.Fail(param,
-                  "normals of neighbouring ends are opposite, so that the ribbon "
-                  "between them could turn either way");
+                  "normals of neighbouring ends are opposite, so that the ribbon between "
+                  "them could turn either way");
     }
   }
   return normals;
@@ -98,9 +84,8 @@ std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params) {
                                                    {"cylinder", CurveType::kCylinder},
                                                    {"ribbon", CurveType::kRibbon}},
                                                   "cylinder");
-  params.Integer("splitdepth", 3, {0, 30});  // pieces are chosen by what curves are like
-  params.Need("P", ParamType::kPoint3);
-  const PointList points = PointsOf(params, "P", ParamType::kPoint3);
+  params.Integer("splitdepth", 3, {0, 30});  // checked; the shape decides on pieces
+  const PointList points = Triples(params.Need("P", ParamType::kPoint3));
   const std::size_t n = CountSegments(params, points.size(), basis, degree);
   const PointList normals = NormalsOf(params, type, n);
   const double width = params.Float("width", 1, kNotNegative);
@@ -130,10 +115,9 @@ std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params) {
     }
   }
   if (left_out > 0) {
-    state.AddNote(
-        params.where(),
-        fmt::format("left out {} of {} parts of shape \"curve\": without length",
-                    left_out, n));
+    state.AddNote(params.where(),
+                  "left out {} of {} parts of shape \"curve\": without length", left_out,
+                  n);
   }
   return curves;
 }

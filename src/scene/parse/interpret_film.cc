@@ -1,4 +1,4 @@
-// Film: its size, its part that is rendered, and what it makes of light.
+// Film: size, crop window, and response to light.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "src/base/image/color_spaces.h"
 #include "src/base/image/wavelengths.h"
 #include "src/scene/parse/interpret.h"
-#include "src/scene/parse/version3.h"
+#include "src/scene/parse/names.h"
 
 namespace lanelight {
 namespace {
@@ -24,13 +24,15 @@ const std::vector<std::string> kCameras = {
     "nikon_d850",     "sony_ilce_6400",     "sony_ilce_7m3",      "sony_ilce_7rm3",
     "sony_ilce_9"};
 
-// Four numbers, or null: pbrt-v4 goes on without others.
+// Returns four numbers, or null; pbrt-v4 ignores other counts.
 const Param* Window(ParamSet& params, std::string_view name, ParamType type) {
   const Param* param = params.Find(name, {type});
   if (param == nullptr || param->numbers.size() == 4) return param;
-  params.Warn(*param, fmt::format("{} numbers; it takes 4 (x0 x1 y0 y1); the window is "
-                                  "ignored, as in pbrt-v4",
-                                  param->numbers.size()));
+  params.Warn(
+      *param,
+      fmt::format(
+          "{} numbers; it takes 4 (x0 x1 y0 y1); the window is ignored, as in pbrt-v4",
+          param->numbers.size()));
   return nullptr;
 }
 
@@ -63,18 +65,17 @@ void ReadCrop(ParamSet& params, Film* film) {
   std::copy(crop, crop + 4, film->crop);
 }
 
-// What pbrt-v4's sensors make of light, as far as colours of three numbers go: the
-// observer of CIE 1931, balanced by the Bradford transform. A named camera balances at
-// 6500 K where the file says nothing; its response curves are not in this project.
+// Approximates pbrt-v4's sensors by the CIE 1931 observer with the Bradford transform. A
+// named camera balances at 6500 K by default; its response curves are not in this
+// project.
 void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
   const std::string sensor = params.String("sensor", "cie1931");
   double kelvin = params.Float("whitebalance", 0);
   const Param* balance = params.Find("whitebalance", {});
   if (kelvin != 0 && !(kelvin >= kLeastWhiteKelvin && kelvin <= kMostWhiteKelvin)) {
     params.Fail(*balance,
-                fmt::format("the temperature {} is not 0 (none) and outside {} to {} "
-                            "kelvin",
-                            kelvin, kLeastWhiteKelvin, kMostWhiteKelvin));
+                "the temperature {} is not 0 (none) and outside {} to {} kelvin", kelvin,
+                kLeastWhiteKelvin, kMostWhiteKelvin);
   }
   if (sensor != "cie1931") {
     const SourceLocation& where = params.Find("sensor", {})->where;
@@ -83,10 +84,10 @@ void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
       known.insert(known.begin(), "cie1931");
       ThrowUnknown(where, "sensor", sensor, known);
     }
-    state.AddNote(where, fmt::format("sensor {} is taken as \"cie1931\" with the white "
-                                     "balance of the camera: greys are the same, "
-                                     "saturated colours differ a little",
-                                     Quoted(sensor)));
+    state.AddNote(where,
+                  "sensor {} is taken as \"cie1931\" with the white balance of the "
+                  "camera: greys are the same, saturated colours differ a little",
+                  Quoted(sensor));
     if (kelvin == 0) kelvin = 6500;
   }
   film->color_space = state.graphics.color_space;
@@ -95,7 +96,7 @@ void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
       params.Float("maxcomponentvalue", film->response.max_component, {1e-30, 1e30});
 }
 
-void ReadGbuffer(ParamSet& params, Film* film) {
+void ReadGbuffer(ParseState&, ParamSet& params, Film* film) {
   film->gbuffer = params.Choice<Gbuffer>(
       "coordinatesystem", {{"camera", Gbuffer::kCamera}, {"world", Gbuffer::kWorld}});
 }
@@ -111,38 +112,34 @@ void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
   if (buckets.last - buckets.first < kLeastWidth * buckets.count) {
     throw InputError(
         params.where(),
-        fmt::format(
-            "{} buckets from \"lambdamin\" {} to \"lambdamax\" {} nm are narrower "
-            "than {} nm",
-            buckets.count, buckets.first, buckets.last, kLeastWidth));
+        "{} buckets from \"lambdamin\" {} to \"lambdamax\" {} nm are narrower than {} nm",
+        buckets.count, buckets.first, buckets.last, kLeastWidth);
   }
   // The first and the last bin are the wide ones.
   const auto& edge = CarriedWavelengths().edge;
   const double low = edge[1], high = edge[kWavelengthBins - 1];
   if (buckets.first >= low && buckets.last <= high) return;
   state.AddNote(params.where(),
-                fmt::format("film \"spectral\": paths carry {} to {} nm and tell none "
-                            "apart below {:.0f} and above {:.0f} nm: buckets beyond are "
-                            "zero, those that reach beyond are means of what is within",
-                            kFirstCarriedNm, kLastCarriedNm, low, high));
+                "film \"spectral\": paths carry {} to {} nm and tell none apart below "
+                "{:.0f} and above {:.0f} nm: buckets beyond are zero, those that reach "
+                "beyond are means of what is within",
+                kFirstCarriedNm, kLastCarriedNm, low, high);
 }
 
 }  // namespace
 
 void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params) {
-  if (type != "rgb" && type != "gbuffer" && type != "spectral") {
-    CheckVersion3(params.where(), "film", type);
-    ThrowUnknown(params.where(), "film", type, {"rgb", "gbuffer", "spectral"});
-  }
+  static constexpr std::pair<const char*, void (*)(ParseState&, ParamSet&, Film*)>
+      kTypes[] = {{"rgb", [](ParseState&, ParamSet&, Film*) {}},
+                  {"gbuffer", ReadGbuffer},
+                  {"spectral", ReadSpectral}};
   Film film;
-  if (type == "spectral") ReadSpectral(state, params, &film);
-  if (type == "gbuffer") ReadGbuffer(params, &film);
+  Lookup(kTypes, type, params.where(), "film")(state, params, &film);
   film.width = params.Integer("xresolution", 1280, {1, kLargestSide});
   film.height = params.Integer("yresolution", 720, {1, kLargestSide});
   if (static_cast<double>(film.width) * film.height > kMostPixels) {
-    throw InputError(params.where(),
-                     fmt::format("{} x {} pixels; at most {} are supported", film.width,
-                                 film.height, kMostPixels));
+    throw InputError(params.where(), "{} x {} pixels; at most {} are supported",
+                     film.width, film.height, kMostPixels);
   }
   film.filename = params.String("filename", film.filename);
   ReadCrop(params, &film);

@@ -1,5 +1,4 @@
-// Lights. Every scale of the file ends up in the emission, so nothing later needs to know
-// how it was stated (formulas: pbrt-v4's light descriptions).
+// Lights. All scales of the file become part of the emission (formulas: pbrt-v4).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr Rgb kWhite = {1, 1, 1};
 
-// Returns the colour of a light, by default the illuminant of the color space.
+// Colour of a light; by default the illuminant of the color space.
 Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
                OwnSpectrum* spectrum, SpectrumUse use = SpectrumUse::kIlluminant) {
   const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
@@ -31,20 +30,19 @@ double Versine(double degrees) {
   return 2 * sine * sine;
 }
 
-// A target such as "power"; 0 or less means not given, as in pbrt.
+// A target such as "power"; 0 or less means not given, as in pbrt-v4.
 double Target(ParamSet& params, const char* name) {
-  return params.Float(name, -1, {-kHuge, kHuge});  // negative: not set, as in pbrt-v4
+  return params.Float(name, -1, Limits());
 }
 
 void ReadDirection(ParamSet& params, Light* light) {
   light->from = params.Point3("from", {0, 0, 0});
   light->to = params.Point3("to", {0, 0, 1});
-  const Vec3d d = light->to - light->from;
-  const double length = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+  const double length = LargestComponent(light->to - light->from);
   if (!(length > 0) || !std::isfinite(length)) {
-    throw InputError(params.where(), params.object() +
-                                         " has no direction: \"from\" and "
-                                         "\"to\" are the same point");
+    throw InputError(
+        params.where(),
+        params.object() + " has no direction: \"from\" and \"to\" are the same point");
   }
 }
 
@@ -63,17 +61,17 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
   // The falloff of pbrt-v4 begins at the cosine of their difference, of either sign.
   const double begins = std::abs(light->cone_angle - light->cone_delta);
   if (begins > light->cone_angle) {
-    throw InputError(params.where(),
-                     fmt::format("conedeltaangle {} of the spot light is more than twice "
-                                 "its coneangle {}",
-                                 light->cone_delta, light->cone_angle));
+    throw InputError(
+        params.where(),
+        "conedeltaangle {} of the spot light is more than twice its coneangle {}",
+        light->cone_delta, light->cone_angle);
   }
   if (light->cone_delta > light->cone_angle) {
     light->cone_delta = light->cone_angle - begins;
     state.AddWarning(params.where(),
-                     fmt::format("conedeltaangle of the spot light is larger than its "
-                                 "coneangle; {} counts, as in pbrt-v4",
-                                 light->cone_delta));
+                     "conedeltaangle of the spot light is larger than its coneangle; {} "
+                     "counts, as in pbrt-v4",
+                     light->cone_delta);
   }
   double scale = params.Float("scale", 1, kNotNegative);
   const double power = Target(params, "power");
@@ -95,23 +93,19 @@ void ReadDistant(ParseState& state, ParamSet& params, Light* light) {
                     (illuminance > 0 ? scale * illuminance : scale);
 }
 
-// Corners in the world, whatever the light's transform is.
+// The corners are in world space and ignore the light's transform.
 void ReadPortal(ParamSet& params, Light* light) {
   const Param* portal = params.Find("portal", {ParamType::kPoint3});
-  if (portal == nullptr || portal->numbers.empty()) return;
-  if (portal->numbers.size() != 12) {
-    params.Fail(*portal,
-                fmt::format("{} numbers; it takes four points", portal->numbers.size()));
-  }
-  for (std::size_t i = 0; i < 12; i += 3) {
-    light->portal.push_back(
-        {portal->numbers[i], portal->numbers[i + 1], portal->numbers[i + 2]});
+  if (portal == nullptr) return;
+  light->portal = Triples(*portal);
+  if (light->portal.size() != 4) {
+    params.Fail(*portal, "{} numbers; it takes four points", portal->numbers.size());
   }
 }
 
-// Without an image. What falls on a facing surface: pi times the radiance. With a portal
-// pbrt-v4 makes an image of one pixel: from a spectrum as it stands, which nothing
-// normalises, and as if all of the sky shone from the zenith.
+// Radiance of a sky without an image; its illuminance is pi times that. With a portal,
+// pbrt-v4 makes an image of one pixel from the spectrum, without normalising it, and
+// computes its illuminance as if all light came from the zenith.
 Rgb ConstantSky(ParseState& state, ParamSet& params, Light* light) {
   const bool portal = !light->portal.empty();
   const double illuminance = Target(params, "illuminance");
@@ -121,16 +115,16 @@ Rgb ConstantSky(ParseState& state, ParamSet& params, Light* light) {
   return radiance * (illuminance / (portal ? 2 * kPi * Luminance(radiance) : kPi));
 }
 
-// An image instead of the colour L, if there is one: of any kind of light that has both.
+// Reads the image that a light can have instead of the colour L. False without one.
 template <typename T>
 bool ReadEmissionImage(ParseState& state, ParamSet& params, T* light) {
   const NamedFile file = FileOf(state, params, "filename");
   if (!file) return false;
-  if (params.Find("L", {}) != nullptr) {
+  if (params.Has("L")) {
     params.Fail(*file.param, "\"filename\" and \"L\" exclude each other");
   }
   light->image_path = file.path;
-  light->where = file.param->where;  // what a missing image is reported at
+  light->where = file.param->where;  // where a missing image is reported
   return true;
 }
 
@@ -147,30 +141,24 @@ void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
   light->emission = kWhite;
 }
 
-std::string ImageFile(ParseState& state, ParamSet& params, Light* light) {
-  const Param* file = params.Find("filename", {ParamType::kString});
-  const std::string name = params.String("filename", "");
-  if (file == nullptr || name.empty()) {
-    throw InputError(params.where(),
-                     params.object() + " needs an image, \"string filename\"");
-  }
-  light->where = file->where;  // what a missing image is reported at
-  return ResolvePath(state, name);
+// The image decides on the factor that gives the light its power.
+void ReadImageLight(ParseState& state, ParamSet& params, Light* light) {
+  light->power = Target(params, "power");
+  const NamedFile file = NeedFile(state, params, "filename");
+  light->where = file.param->where;  // where a missing image is reported
+  light->image_path = file.path;
 }
 
-// The power depends on the image.
 void ReadGoniometric(ParseState& state, ParamSet& params, Light* light) {
   light->emission = LightColor(state, params, "I", &light->spectrum) *
                     params.Float("scale", 1, kNotNegative);
-  light->power = Target(params, "power");
-  light->image_path = ImageFile(state, params, light);
+  ReadImageLight(state, params, light);
 }
 
 void ReadProjection(ParseState& state, ParamSet& params, Light* light) {
   light->emission = kWhite * params.Float("scale", 1, kNotNegative);
-  light->power = Target(params, "power");
   light->fov = params.Float("fov", 90, {1e-6, 179.999});
-  light->image_path = ImageFile(state, params, light);
+  ReadImageLight(state, params, light);
 }
 
 struct LightType {
@@ -186,9 +174,8 @@ constexpr std::pair<const char*, LightType> kLights[] = {
     {"projection", {LightKind::kProjection, ReadProjection}}};
 
 void CheckEmission(const ParamSet& params, Rgb emission) {
-  if (!std::isfinite(emission.x + emission.y + emission.z)) {
-    throw InputError(params.where(), "the emission of this light overflows");
-  }
+  if (std::isfinite(emission.x + emission.y + emission.z)) return;
+  throw InputError(params.where(), "the emission of this light overflows");
 }
 
 }  // namespace
@@ -218,8 +205,7 @@ Index InterpretAreaLight(ParseState& state, const std::string& type, ParamSet& p
   if (ReadEmissionImage(state, params, &light)) light.radiance = kWhite;
   params.CheckAllUsed();
   CheckEmission(params, light.radiance * light.scale);
-  state.scene.area_lights.push_back(light);
-  return static_cast<Index>(state.scene.area_lights.size()) - 1;
+  return Append(state.scene.area_lights, std::move(light));
 }
 
 }  // namespace lanelight

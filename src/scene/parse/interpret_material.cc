@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "src/base/core/error_text.h"
+#include "src/base/core/error.h"
 #include "src/base/core/suggest.h"
 #include "src/base/image/measured_reflectance.h"
 #include "src/scene/parse/interpret.h"
@@ -18,15 +18,14 @@ void ReadRoughness(ParseState& state, ParamSet& params, const std::string& prefi
   const auto read = [&](const char* name, FloatValue absent) {
     const FloatValue value =
         TexturedFloat(state, params, prefix + name, absent.constant, {0, kRoughest});
-    const bool given = params.Find(prefix + name, {}) != nullptr;
-    return given ? value : absent;
+    return params.Has(prefix + name) ? value : absent;
   };
   const FloatValue both = read("roughness", {0, kNone});
   *u = read("uroughness", both);
   *v = read("vroughness", both);
 }
 
-// Reads the roughness of a surface without a coat.
+// Reads the roughness of the outermost surface.
 void ReadOwnRoughness(ParseState& state, ParamSet& params, const std::string& prefix,
                       Material* material) {
   ReadRoughness(state, params, prefix, &material->uroughness, &material->vroughness);
@@ -49,18 +48,13 @@ void ReadDiffuse(ParseState& state, ParamSet& params, Material* material) {
 // `reflectance`, or else `<prefix>eta` and `<prefix>k`.
 void ReadMetal(ParseState& state, ParamSet& params, const std::string& prefix,
                Material* material) {
-  const Param* reflectance =
-      params.Find("reflectance", {ParamType::kRgb, ParamType::kSpectrum,
-                                  ParamType::kTexture, ParamType::kBlackbody});
+  const Param* reflectance = params.Find("reflectance", kColorTypes);
   material->has_reflectance = reflectance != nullptr;
   if (reflectance == nullptr) {
-    ConductorIor(state, params, prefix, &material->eta, &material->k);
-    return;
+    return ConductorIor(state, params, prefix, &material->eta, &material->k);
   }
-  if (params.Find(prefix + "eta", {}) != nullptr ||
-      params.Find(prefix + "k", {}) != nullptr) {
-    params.Fail(*reflectance,
-                fmt::format("reflectance excludes {0}eta and {0}k", prefix));
+  if (params.Has(prefix + "eta") || params.Has(prefix + "k")) {
+    params.Fail(*reflectance, "reflectance excludes {0}eta and {0}k", prefix);
   }
   ReadReflectance(state, params, material);
 }
@@ -80,14 +74,7 @@ void ReadDielectric(ParseState& state, ParamSet& params, Material* material) {
   ReadOwnRoughness(state, params, "", material);
 }
 
-void ReadCoatMedium(ParseState& state, ParamSet& params, Material* material) {
-  material->coat_g = TexturedFloat(state, params, "g", 0, {-0.9999, 0.9999});
-  material->coat_albedo =
-      TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
-}
-
-// Reads what coateddiffuse and coatedconductor share: the medium between the layers and
-// the depth of the random walk.
+// Reads what coateddiffuse and coatedconductor share.
 void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
               Material* material) {
   material->interface_eta = DielectricEta(state, params, prefix + "eta", 1.5);
@@ -95,7 +82,9 @@ void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
   const FloatValue thickness = TexturedFloat(state, params, "thickness", 0.01, {0, 1e6});
   material->thickness = thickness.constant;
   material->thickness_texture = thickness.texture;
-  ReadCoatMedium(state, params, material);
+  material->coat_g = TexturedFloat(state, params, "g", 0, {-0.9999, 0.9999});
+  material->coat_albedo =
+      TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
   material->coat_max_depth = params.Integer("maxdepth", 10, {1, 10000});
   params.Ignore("nsamples", "each path takes one walk, and more paths are less noise");
 }
@@ -125,33 +114,30 @@ void ReadDiffuseTransmission(ParseState& state, ParamSet& params, Material* mate
 // RGB).
 constexpr Rgb kEumelanin = {0.419, 0.697, 1.37}, kPheomelanin = {0.187, 0.4, 1.05};
 
-// Of four ways to give a colour the first counts, as in pbrt; brown if there is none.
+// The first of four ways to state a colour counts, as in pbrt; the default is brown.
 void ReadHairColor(ParseState& state, ParamSet& params, Material* material) {
   const char* const pigments[] = {"eumelanin", "pheomelanin"};
   const auto ignore = [&](std::initializer_list<const char*> names, const char* counts) {
     for (const char* name : names) {
-      if (params.Find(name, {}) == nullptr) continue;
       params.Ignore(name, fmt::format("\"{}\" counts", counts));
     }
   };
-  const char* const color =
-      params.Find("reflectance", {}) != nullptr ? "reflectance" : "color";
-  if (params.Find("sigma_a", {}) != nullptr) {
+  const char* const color = params.Has("reflectance") ? "reflectance" : "color";
+  if (params.Has("sigma_a")) {
     material->sigma_a =
         PlainColor(state, params, "sigma_a", {0, 0, 0}, SpectrumUse::kUnbounded);
     material->sigma_a_spectrum =
         SpectrumOf(state, params, *params.Find("sigma_a", {}), SpectrumUse::kUnbounded);
     return ignore({"reflectance", "color", pigments[0], pigments[1]}, "sigma_a");
   }
-  material->has_reflectance = params.Find(color, {}) != nullptr;
+  material->has_reflectance = params.Has(color);
   if (material->has_reflectance) {
     material->reflectance =
         TexturedColor(state, params, color, {0, 0, 0}, SpectrumUse::kAlbedo);
     if (std::string_view(color) != "color") ignore({"color"}, color);
     return ignore({pigments[0], pigments[1]}, color);
   }
-  const bool given =
-      params.Find(pigments[0], {}) != nullptr || params.Find(pigments[1], {}) != nullptr;
+  const bool given = params.Has(pigments[0]) || params.Has(pigments[1]);
   const double eumelanin = params.Float(pigments[0], given ? 0 : 1.3, kNotNegative);
   const double pheomelanin = params.Float(pigments[1], 0, kNotNegative);
   material->sigma_a = kEumelanin * eumelanin + kPheomelanin * pheomelanin;
@@ -168,15 +154,15 @@ void ReadHair(ParseState& state, ParamSet& params, Material* material) {
 void ReadMix(ParseState& state, ParamSet& params, Material* material) {
   const Param& names = params.Need("materials", ParamType::kString);
   if (names.strings.size() != 2) {
-    params.Fail(names, fmt::format("{} names; a mix takes 2", names.strings.size()));
+    params.Fail(names, "{} names; a mix takes 2", names.strings.size());
   }
   for (int i = 0; i < 2; ++i) {
     material->mix[i] =
         Resolve(state, {{NameKind::kMaterial, names.strings[i]}, names.where});
     if (state.scene.materials[material->mix[i]].inside != kNone) {
       params.Fail(names,
-                  "mixing a \"subsurface\" material is not supported: what is in a "
-                  "shape is the same behind all of its surface");
+                  "mixing a \"subsurface\" material is not supported: what is in a shape "
+                  "is the same behind all of its surface");
     }
   }
   material->mix_amount = TexturedFloat(state, params, "amount", 0.5, {0, 1});
@@ -192,8 +178,7 @@ void ReadSubsurface(ParseState& state, ParamSet& params, Material* material) {
 }
 
 void ReadMeasured(ParseState& state, ParamSet& params, Material* material) {
-  params.Need("filename", ParamType::kString);
-  const NamedFile file = FileOf(state, params, "filename");
+  const NamedFile file = NeedFile(state, params, "filename");
   if (!state.options.allow_files) {
     params.Fail(*file.param, "files may not be read here");
   }
@@ -205,8 +190,6 @@ void ReadMeasured(ParseState& state, ParamSet& params, Material* material) {
   }
   material->measured = read;
 }
-
-void ReadInterface(ParseState&, ParamSet&, Material*) {}
 
 struct MaterialType {
   MaterialKind kind;
@@ -225,19 +208,16 @@ const std::map<std::string, MaterialType> kMaterials = {
     {"measured", {MaterialKind::kMeasured, ReadMeasured}},
     {"hair", {MaterialKind::kHair, ReadHair}},
     {"mix", {MaterialKind::kMix, ReadMix}},
-    {"interface", {MaterialKind::kInterface, ReadInterface}}};
+    {"interface", {MaterialKind::kInterface, [](ParseState&, ParamSet&, Material*) {}}}};
 
-// Materials that do not scatter themselves have no normal to change.
-void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
-  const char* why = nullptr;
-  if (material->kind == MaterialKind::kMix) {
-    why = "a mix has the relief of the materials that it mixes";
-  } else if (material->kind == MaterialKind::kInterface) {
-    why = "an interface has no surface of its own";
-  } else if (material->kind == MaterialKind::kHair) {
-    why = "hair is thinner than any relief";
-  }
-  if (why != nullptr) {
+// Reads bump and normal maps. Some materials have no normal that these could change.
+void ReadBumps(ParseState& state, ParamSet& params, Material* material) {
+  static constexpr std::pair<MaterialKind, const char*> kWithout[] = {
+      {MaterialKind::kMix, "the bump and normal maps of the mixed materials count"},
+      {MaterialKind::kInterface, "an interface has no surface of its own"},
+      {MaterialKind::kHair, "hair has no bump or normal maps"}};
+  for (const auto& [kind, why] : kWithout) {
+    if (material->kind != kind) continue;
     params.Ignore("displacement", why);
     params.Ignore("normalmap", why);
     return;
@@ -246,9 +226,7 @@ void ReadRelief(ParseState& state, ParamSet& params, Material* material) {
   const NamedFile map = FileOf(state, params, "normalmap");
   if (!map) return;
   material->normal_map = map.path;
-  if (params.Find("displacement", {}) != nullptr) {
-    params.Ignore("displacement", "the normal map counts");
-  }
+  params.Ignore("displacement", "the normal map counts");
 }
 
 }  // namespace
@@ -267,11 +245,10 @@ Index InterpretMaterial(ParseState& state, const std::string& name,
       Lookup(kMaterials, none ? "interface" : type, params.where(), "material");
   material.kind = kind;
   read(state, params, &material);
-  ReadRelief(state, params, &material);
+  ReadBumps(state, params, &material);
   params.Find("type", {ParamType::kString});  // of MakeNamedMaterial, or superfluous
   params.CheckAllUsed();
-  state.scene.materials.push_back(std::move(material));
-  return static_cast<Index>(state.scene.materials.size()) - 1;
+  return Append(state.scene.materials, std::move(material));
 }
 
 }  // namespace lanelight

@@ -1,4 +1,3 @@
-// Meshes whose vertices stand in the scene file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,78 +9,65 @@
 namespace lanelight {
 namespace {
 
-std::vector<Vec3d> Triples(const Param* param) {
-  std::vector<Vec3d> out;
-  if (param == nullptr) return out;
-  const std::vector<double>& n = param->numbers;
-  out.reserve(n.size() / 3);
-  for (std::size_t i = 0; i < n.size(); i += 3) out.push_back({n[i], n[i + 1], n[i + 2]});
-  return out;
-}
-
-// Values that are not one for each vertex are discarded with a warning, as in pbrt-v4.
+// Discards values with a warning unless there is one for each vertex, as pbrt-v4.
 template <typename T>
-void KeepOneEach(const ParamSet& params, const Param* param, std::size_t vertices,
+void KeepOneEach(const ParamSet& params, const Param& param, std::size_t vertices,
                  std::vector<T>& values) {
-  if (param == nullptr || values.size() == vertices) return;
-  params.Warn(*param, fmt::format("{} values for {} vertices; discarded", values.size(),
-                                  vertices));
+  if (values.size() == vertices) return;
+  params.Warn(param, fmt::format("{} values for {} vertices; discarded", values.size(),
+                                 vertices));
   values.clear();
 }
 
-// N and uv, where there are any.
 void ReadAttributes(ParamSet& params, TriangleMesh& mesh) {
-  const Param* n = params.Find("N", {ParamType::kNormal});
-  mesh.normals = Triples(n);
-  KeepOneEach(params, n, mesh.positions.size(), mesh.normals);
+  if (const Param* n = params.Find("N", {ParamType::kNormal})) {
+    mesh.normals = Triples(*n);
+    KeepOneEach(params, *n, mesh.positions.size(), mesh.normals);
+  }
   if (const Param* uv = params.Find("uv", {ParamType::kPoint2})) {
     for (std::size_t i = 0; i < uv->numbers.size(); i += 2) {
       mesh.uvs.push_back({uv->numbers[i], uv->numbers[i + 1]});
     }
-    KeepOneEach(params, uv, mesh.positions.size(), mesh.uvs);
+    KeepOneEach(params, *uv, mesh.positions.size(), mesh.uvs);
   }
 }
 
-// P, and indices with `corners` of them per face.
 TriangleMesh ReadFaces(ParamSet& params, std::size_t corners) {
   TriangleMesh mesh;
-  mesh.positions = Triples(&params.Need("P", ParamType::kPoint3));
+  mesh.positions = Triples(params.Need("P", ParamType::kPoint3));
   const Param* indices = params.Find("indices", {ParamType::kInteger});
   if (indices == nullptr) {
     if (mesh.positions.size() != corners) {
-      throw InputError(
-          params.where(),
-          fmt::format("{} has {} vertices and no \"integer indices\"; without "
-                      "them it takes {} vertices",
-                      params.object(), mesh.positions.size(), corners));
+      throw InputError(params.where(),
+                       "{} has {} vertices and no \"integer indices\"; without them it "
+                       "takes {} vertices",
+                       params.object(), mesh.positions.size(), corners);
     }
     for (std::uint32_t i = 0; i < corners; ++i) mesh.indices.push_back(i);
     return mesh;
   }
-  // As in pbrt-v4.
   const std::size_t given = indices->numbers.size(), excess = given % corners;
   if (given < corners) {
-    params.Fail(*indices, fmt::format("{} indices; a face takes {}", given, corners));
+    params.Fail(*indices, "{} indices; a face takes {}", given, corners);
   }
   if (excess != 0) {
-    params.Warn(*indices, fmt::format("{} indices; they come in groups of {}; the last "
-                                      "{} discarded",
-                                      given, corners, excess));
+    params.Warn(
+        *indices,
+        fmt::format("{} indices; they come in groups of {}; the last {} discarded", given,
+                    corners, excess));
   }
   mesh.indices.reserve(given - excess);
   for (std::size_t i = 0; i < given - excess; ++i) {
     const double index = indices->numbers[i];
     if (index < 0 || index >= static_cast<double>(mesh.positions.size())) {
-      params.Fail(*indices,
-                  fmt::format("index {} (number {}) is not one of the {} vertices", index,
-                              i + 1, mesh.positions.size()));
+      params.Fail(*indices, "index {} (number {}) is not one of the {} vertices", index,
+                  i + 1, mesh.positions.size());
     }
     mesh.indices.push_back(static_cast<std::uint32_t>(index));
   }
   return mesh;
 }
 
-// The patch whose indices begin at `first`.
 BilinearPatch PatchOf(const TriangleMesh& in, std::size_t first) {
   BilinearPatch patch;
   if (!in.normals.empty()) patch.n.emplace();
@@ -94,7 +80,7 @@ BilinearPatch PatchOf(const TriangleMesh& in, std::size_t first) {
   return patch;
 }
 
-// Beyond that a level that was mistyped would fill the memory.
+// Limits the memory that a mistyped level can take.
 constexpr double kMostTriangles = 1e8;
 
 int SubdivisionLevels(ParamSet& params, std::size_t faces) {
@@ -102,10 +88,9 @@ int SubdivisionLevels(ParamSet& params, std::size_t faces) {
   const int levels = params.Integer("levels", 3, {0, kMost});
   const double triangles = std::ldexp(static_cast<double>(faces), 2 * levels);
   if (triangles <= kMostTriangles) return levels;
-  params.Fail(
-      *params.Find("levels", {}),
-      fmt::format("{} levels make {:g} triangles of {}; at most {:g} are supported",
-                  levels, triangles, faces, kMostTriangles));
+  params.Fail(*params.Find("levels", {}),
+              "{} levels make {:g} triangles of {}; at most {:g} are supported", levels,
+              triangles, faces, kMostTriangles);
 }
 
 }  // namespace
@@ -125,7 +110,7 @@ std::shared_ptr<const TriangleMesh> InterpretBilinearMesh(ParamSet& params) {
   for (std::size_t i = 0; i < in.indices.size(); i += 4) {
     AddPatch(PatchOf(in, i), mesh.get());
   }
-  params.IgnoreVisible("emissionfilename", "patches do not sample an image");
+  params.Ignore("emissionfilename", "patches do not sample an image", true);
   params.Ignore("faceIndices", "only ptex textures need it");
   return mesh;
 }
@@ -136,8 +121,8 @@ std::shared_ptr<const TriangleMesh> InterpretLoopSubdivision(ParamSet& params) {
   params.Choice<bool>("scheme", {{"loop", true}}, "loop");
   const std::string problem = SubdivisionProblem(control);
   if (!problem.empty()) {
-    throw InputError(params.where(), fmt::format("{} cannot be subdivided: {}",
-                                                 params.object(), problem));
+    throw InputError(params.where(), "{} cannot be subdivided: {}", params.object(),
+                     problem);
   }
   return std::make_shared<TriangleMesh>(LoopSubdivide(control, levels));
 }

@@ -1,4 +1,3 @@
-// Sampler, integrator and accelerator.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,6 +34,22 @@ const Ignored kAccelerators = {
     {"bvh", {"maxnodeprims", "splitmethod"}},
     {"kdtree", {"intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth"}}};
 
+// Without a light sampler in the file, the strategy's default stays.
+void InterpretLightSampler(ParseState& state, ParamSet& params) {
+  static constexpr std::pair<const char*, LightSelection> kSelections[] = {
+      {"bvh", LightSelection::kTree},
+      {"exhaustive", LightSelection::kTree},
+      {"power", LightSelection::kPower},
+      {"uniform", LightSelection::kUniform}};
+  const std::string name = params.String("lightsampler", "");
+  if (name.empty()) return;
+  state.scene.strategy.light_selection =
+      Lookup(kSelections, name, params.where(), "light sampler");
+  if (name == "exhaustive") {
+    state.AddNote(params.where(), "light sampler \"exhaustive\" is replaced by a tree");
+  }
+}
+
 }  // namespace
 
 void InterpretSampler(ParseState& state, const std::string& type, ParamSet& params) {
@@ -63,29 +78,15 @@ void InterpretSampler(ParseState& state, const std::string& type, ParamSet& para
   state.scene.strategy.points = points;
 }
 
-// pbrt's choice of lights; where the file does not say, the strategy's default stays.
-static void InterpretLightSampler(ParseState& state, ParamSet& params) {
-  static constexpr std::pair<const char*, LightSelection> kSelections[] = {
-      {"bvh", LightSelection::kTree},
-      {"exhaustive", LightSelection::kTree},
-      {"power", LightSelection::kPower},
-      {"uniform", LightSelection::kUniform}};
-  const std::string name = params.String("lightsampler", "");
-  if (name.empty()) return;
-  state.scene.strategy.light_selection =
-      Lookup(kSelections, name, params.where(), "light sampler");
-  if (name == "exhaustive") {
-    state.AddNote(params.where(), "light sampler \"exhaustive\" is replaced by a tree");
-  }
-}
-
 void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& params) {
   const auto& ignored = Lookup(kIntegrators, type, params.where(), "integrator");
   const bool ours = type == "path" || type == "volpath";
   if (!ours) {
-    state.AddNote(params.where(),
-                  fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
-                  type == "ambientocclusion" || type == "function");
+    const bool changes_image = type == "ambientocclusion" || type == "function";
+    state.scene.notes.push_back(
+        {params.where(),
+         fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
+         changes_image});
   }
   state.scene.integrator.max_depth = params.Integer("maxdepth", 5, {0, 1000000});
   if (ours) {

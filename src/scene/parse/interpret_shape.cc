@@ -15,7 +15,7 @@ void ReadPhi(ParamSet& params, Shape* shape) {
   shape->phi_max = std::min(params.Float("phimax", 360, kNotNegative), 360.0);
 }
 
-// `most`: how far from the middle they can be. pbrt takes them in either order.
+// `most` limits their distance from the middle. pbrt accepts them in either order.
 void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
   const double a = std::clamp(params.Float("zmin", -absent), -most, most);
   const double b = std::clamp(params.Float("zmax", absent), -most, most);
@@ -23,7 +23,6 @@ void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
   shape->z_max = std::max(a, b);
 }
 
-// Nothing can be seen of a sphere, disk or cylinder of radius 0.
 bool IsVisible(const Shape& shape) {
   return shape.kind == ShapeKind::kMesh || shape.kind == ShapeKind::kPlane ||
          shape.kind == ShapeKind::kCurves || shape.radius > 0;
@@ -47,8 +46,8 @@ void ReadDisk(ParseState&, ParamSet& params, Shape* shape) {
   shape->height = params.Float("height", 0, Limits());
   if (shape->inner_radius >= shape->radius && shape->radius > 0) {
     params.Fail(*params.Find("innerradius", {}),
-                fmt::format("the inner radius {} is not below the radius {}",
-                            shape->inner_radius, shape->radius));
+                "the inner radius {} is not below the radius {}", shape->inner_radius,
+                shape->radius);
   }
   ReadPhi(params, shape);
 }
@@ -59,29 +58,24 @@ double EdgeLength(ParseState& state, ParamSet& params) {
   const Limits limits = {kTiny, kHuge};
   const double other = params.Float(kOfGpus, 1, limits);
   if (const Param* given = params.Find(kOfGpus, {})) {
-    state.AddNote(
-        given->where,
-        fmt::format("pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"", kOfGpus));
+    state.AddNote(given->where, "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
+                  kOfGpus);
   }
   return params.Float("edgelength", other, limits) * state.edge_scale;
 }
 
 void ReadPly(ParseState& state, ParamSet& params, Shape*) {
-  params.Need("filename", ParamType::kString);
-  const NamedFile file = FileOf(state, params, "filename");
+  const NamedFile file = NeedFile(state, params, "filename");
   MeshRequest request{file.path, file.param->where, state.open_object,
                       state.OpenShapes().size()};
   request.world_from_object = state.graphics.ctm;
   if (params.Find("displacement", {ParamType::kTexture}) != nullptr) {
-    const FloatValue height = TexturedFloat(state, params, "displacement", 0, {0, 0});
-    request.displacement = height.texture;
+    request.displacement = TexturedFloat(state, params, "displacement", 0).texture;
   }
   request.edge_length = EdgeLength(state, params);
   params.Ignore("displacement.uvscale", "pbrt-v4 has no such parameter");
   state.meshes.push_back(std::move(request));
 }
-
-void ReadPlane(ParseState&, ParamSet&, Shape*) {}
 
 template <std::shared_ptr<const TriangleMesh> (*kInterpret)(ParamSet&)>
 void ReadMesh(ParseState&, ParamSet& params, Shape* shape) {
@@ -104,7 +98,7 @@ constexpr std::pair<const char*, ShapeType> kShapes[] = {
     {"plymesh", {ShapeKind::kMesh, ReadPly}},
     {"bilinearmesh", {ShapeKind::kMesh, ReadMesh<InterpretBilinearMesh>}},
     {"loopsubdiv", {ShapeKind::kMesh, ReadMesh<InterpretLoopSubdivision>}},
-    {"plane", {ShapeKind::kPlane, ReadPlane}},
+    {"plane", {ShapeKind::kPlane, [](ParseState&, ParamSet&, Shape*) {}}},
     {"curve", {ShapeKind::kCurves, ReadCurve}}};
 
 Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
@@ -119,20 +113,20 @@ Index CurrentMaterial(ParseState& state, const SourceLocation& where) {
   return state.default_material;
 }
 
-// What a material has in it is inside of its shapes, whatever MediumInterface says.
+// The medium inside of a material takes precedence over MediumInterface.
 MediumInterface MediaOf(ParseState& state, const Shape& shape) {
   MediumInterface media = state.graphics.media;
   const Index inside = state.scene.materials[shape.material].inside;
   if (inside == kNone) return media;
   if (media.IsTransition() && media.inside != kNone) {
-    state.AddNote(shape.where, fmt::format("the material's own medium replaces {} inside",
-                                           Quoted(state.scene.media[media.inside].name)));
+    state.AddNote(shape.where, "the material's own medium replaces {} inside",
+                  Quoted(state.scene.media[media.inside].name));
   }
   media.inside = inside;
   return media;
 }
 
-// pbrt lets these two cases pass without a light; so do we, and say so.
+// In these cases pbrt-v4 drops the light silently; here a note reports it.
 Index CurrentAreaLight(ParseState& state, const Shape& shape,
                        const SourceLocation& where) {
   const Index light = state.graphics.area_light;
@@ -143,8 +137,7 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
   }
   if (state.scene.materials[shape.material].kind == MaterialKind::kInterface) {
     state.AddNote(where,
-                  "the area light has no effect on a shape with material "
-                  "\"interface\"");
+                  "the area light has no effect on a shape with material \"interface\"");
     return kNone;
   }
   if (shape.kind == ShapeKind::kCurves) {
@@ -158,8 +151,8 @@ Index CurrentAreaLight(ParseState& state, const Shape& shape,
   return light;
 }
 
-// Returns whether curves may join those of the shape before: hair has a directive for
-// each strand.
+// True if the curves may join those of the shape before. Hair has one directive per
+// strand.
 bool ContinuesCurves(const Shape& shape, const Shape& before) {
   return before.kind == ShapeKind::kCurves && shape.material == before.material &&
          shape.reverse_orientation == before.reverse_orientation &&
@@ -199,15 +192,14 @@ void AddShape(ParseState& state, const std::string& type, ParamSet& params,
   shape.alpha = TexturedFloat(state, params, "alpha", 1, {0, 1});
   params.CheckAllUsed();
   if (!IsVisible(shape)) {
-    return state.AddNote(shape.where,
-                         fmt::format("left out {}: its radius is 0", params.object()));
+    return state.AddNote(shape.where, "left out {}: its radius is 0", params.object());
   }
   shape.area_light = CurrentAreaLight(state, shape, params.where());
   if (shape.kind == ShapeKind::kCurves) return AddCurves(state, std::move(shape));
   state.OpenShapes().push_back(std::move(shape));
 }
 
-// Why a shape that the file moves does not; empty if it does.
+// Why a shape that moves in the file cannot move here; empty if it can.
 std::string WhyStill(const ParseState& state, ShapeKind kind, Index material) {
   if (const char* why = WhyCannotMove(kind)) return why;
   const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
@@ -218,7 +210,7 @@ std::string WhyStill(const ParseState& state, ShapeKind kind, Index material) {
 
 }  // namespace
 
-// A shape that moves is an object of its own, which is placed once, as in pbrt-v4.
+// A moving shape becomes an object with one instance, as in pbrt-v4.
 void InterpretShape(ParseState& state, const std::string& type, ParamSet& params) {
   const Transform& ctm = state.graphics.ctm;
   if (!state.graphics.Moves()) return AddShape(state, type, params, ctm);

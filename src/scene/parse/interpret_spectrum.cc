@@ -6,7 +6,6 @@
 #include "src/base/core/suggest.h"
 #include "src/base/image/upsampling.h"
 #include "src/scene/parse/interpret.h"
-#include "src/scene/parse/number_file.h"
 
 namespace lanelight {
 namespace {
@@ -18,22 +17,18 @@ const std::vector<std::string> kMetals = {"Ag", "Al", "Au", "Cu", "CuZn", "MgO",
 SpectrumSamples PairUp(const ParamSet& params, const Param& param,
                        const std::vector<double>& numbers) {
   if (numbers.empty() || numbers.size() % 2 != 0) {
-    params.Fail(param,
-                fmt::format("{} numbers; a spectrum is pairs of wavelength (nm) and "
-                            "value",
-                            numbers.size()));
+    params.Fail(param, "{} numbers; a spectrum is pairs of wavelength (nm) and value",
+                numbers.size());
   }
   SpectrumSamples samples;
   for (std::size_t i = 0; i < numbers.size(); i += 2) {
     if (numbers[i] <= 0 || (i > 0 && numbers[i] <= numbers[i - 2])) {
       params.Fail(param,
-                  fmt::format("wavelength {} (number {}): wavelengths must be positive "
-                              "and increase",
-                              numbers[i], i + 1));
+                  "wavelength {} (number {}): wavelengths must be positive and increase",
+                  numbers[i], i + 1);
     }
     if (numbers[i + 1] < 0) {
-      params.Fail(param, fmt::format("the value {} at {} nm is negative", numbers[i + 1],
-                                     numbers[i]));
+      params.Fail(param, "the value {} at {} nm is negative", numbers[i + 1], numbers[i]);
     }
     samples.wavelengths.push_back(numbers[i]);
     samples.values.push_back(numbers[i + 1]);
@@ -60,11 +55,14 @@ ComplexIor Metal(const ParamSet& params, const Param* param, const std::string& 
   return ior;
 }
 
-bool IsSampled(const Param* param) {
+bool IsNamed(const Param& param) {
   Rgb unused;
-  return param != nullptr && param->type == ParamType::kSpectrum &&
-         (param->strings.empty() ||
-          !NamedSpectrum(param->strings[0], SpectrumUse::kUnbounded, &unused));
+  return !param.strings.empty() &&
+         NamedSpectrum(param.strings[0], SpectrumUse::kUnbounded, &unused);
+}
+
+bool IsSampled(const Param* param) {
+  return param != nullptr && param->type == ParamType::kSpectrum && !IsNamed(*param);
 }
 
 bool IsGrey(const Param& param) {
@@ -72,20 +70,16 @@ bool IsGrey(const Param& param) {
   return param.type == ParamType::kRgb && n[0] == n[1] && n[1] == n[2];
 }
 
-// Returns the index of refraction by wavelength.
 OwnSpectrum IndexOf(ParseState& state, const ParamSet& params, const Param& param) {
   if (param.type == ParamType::kRgb) {
     return std::make_shared<const Spectrum>(
         UpsampledColor(ColorOf(state, params, param, SpectrumUse::kUnbounded)));
   }
   double glass = 0;
-  Rgb unused;
-  const bool named = !param.strings.empty() &&
-                     NamedSpectrum(param.strings[0], SpectrumUse::kUnbounded, &unused);
+  const bool named = IsNamed(param);
   if (named && !NamedGlassEta(param.strings[0], &glass) &&
       !param.strings[0].starts_with("metal-")) {
-    params.Fail(param, fmt::format("the spectrum {} is that of a light",
-                                   Quoted(param.strings[0])));
+    params.Fail(param, "the spectrum {} is that of a light", Quoted(param.strings[0]));
   }
   if (!named) ColorOf(state, params, param, SpectrumUse::kUnbounded);  // checks it
   return SpectrumOf(state, params, param, SpectrumUse::kUnbounded);
@@ -105,9 +99,8 @@ SpectrumSamples SamplesOf(const ParseState& state, const ParamSet& params,
     ThrowUnknown(param.where, "spectrum (and there is no such file):", name,
                  NamedSpectra());
   }
-  const std::string text = ReadSceneFile(state, path, param.where, "the spectrum file");
   return PairUp(params, param,
-                ReadNumbers(text, std::make_shared<const std::string>(path)));
+                ReadNumberFile(state, path, param.where, "the spectrum file"));
 }
 
 double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
@@ -121,18 +114,18 @@ double DielectricEta(ParseState& state, ParamSet& params, std::string_view name,
   double eta = (*spectrum)(kSodium);
   if (!param->strings.empty()) NamedGlassEta(param->strings[0], &eta);
   if (!(eta >= kLow && eta <= kHigh)) {
-    params.Fail(*param, fmt::format("the index of refraction {} is outside {} to {}", eta,
-                                    kLow, kHigh));
+    params.Fail(*param, "the index of refraction {} is outside {} to {}", eta, kLow,
+                kHigh);
   }
   if (IsGrey(*param)) return eta;
   if (dispersion != nullptr) {
     *dispersion = spectrum;
     return eta;
   }
-  state.AddNoteOnce(param->where,
-                    fmt::format("dispersion of this material is not modelled: eta is "
-                                "taken at {} nm",
-                                kSodium));
+  state.AddNoteOnce(
+      param->where,
+      fmt::format("dispersion of this material is not modelled: eta is taken at {} nm",
+                  kSodium));
   return eta;
 }
 

@@ -1,29 +1,27 @@
-// Material "subsurface": a dielectric with a medium in it, in which paths walk at random.
-// pbrt-v4 has a profile instead, tabulated by photon beam diffusion (Habel, Christensen
-// and Jarosz 2013).
+// Material "subsurface": a dielectric that contains a medium with random walks. pbrt-v4
+// has a profile by photon beam diffusion instead (Habel, Christensen and Jarosz 2013).
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "src/scene/parse/interpret.h"
-#include "src/scene/parse/scattering_presets.h"
 
 namespace lanelight {
 namespace {
 
-// Only one of the ways to say what is inside may be taken.
+// Throws if the file states the inside in two ways.
 void Exclude(ParamSet& params, const Param* given, const char* name,
              const std::vector<const char*>& others) {
   for (const char* other : others) {
-    if (given == nullptr || params.Find(other, {}) == nullptr) continue;
-    params.Fail(*given, fmt::format("\"{}\" and \"{}\" exclude each other", name, other));
+    if (given == nullptr || !params.Has(other)) continue;
+    params.Fail(*given, "\"{}\" and \"{}\" exclude each other", name, other);
   }
 }
 
 void ReadNamed(ParamSet& params, const Param& name, Medium* inside) {
   Exclude(params, &name, "name", {"sigma_a", "sigma_s", "reflectance", "mfp"});
-  const Coefficients& found =
-      CoefficientsOf(name.strings.at(0), name.where, "named medium of a material:");
+  const Coefficients& found = Lookup(ScatteringPresets(), name.strings.at(0), name.where,
+                                     "named medium of a material:");
   inside->sigma_a = found.sigma_a, inside->sigma_s = found.sigma_s;
   if (inside->g == 0) return;
   inside->g = 0;
@@ -45,9 +43,9 @@ void ReadByReflectance(ParseState& state, ParamSet& params, Medium* inside) {
   inside->sigma_s = {1 / mfp.x, 1 / mfp.y, 1 / mfp.z};
 }
 
-// Reads both coefficients or none, as pbrt-v4; the default is whole milk.
+// The defaults are those of whole milk. pbrt-v4 takes both coefficients or none.
 void ReadOwnCoefficients(ParseState& state, ParamSet& params, Medium* inside) {
-  const Coefficients& milk = CoefficientsOf("Wholemilk", params.where(), "");
+  const Coefficients& milk = ScatteringPresets().at("Wholemilk");
   const auto read = [&](const char* name, Rgb absent) {
     return PlainColor(state, params, name, absent, SpectrumUse::kUnbounded);
   };
@@ -68,23 +66,22 @@ Index InterpretInside(ParseState& state, ParamSet& params, double eta) {
   for (const char* name : {"sigma_a", "sigma_s", "mfp"}) {
     const Param* texture = params.Find(name, {});
     if (texture == nullptr || texture->type != ParamType::kTexture) continue;
-    params.Fail(*texture, fmt::format("a texture of \"{}\" is not supported: the medium "
-                                      "in a material is the same everywhere, but for "
-                                      "its \"reflectance\"",
-                                      name));
+    params.Fail(*texture,
+                "a texture of \"{}\" is not supported: the medium in a material is the "
+                "same everywhere, but for its \"reflectance\"",
+                name);
   }
   double scale = params.Float("scale", 1, {1e-12, 1e12});
   if (const Param* name = params.Find("name", {ParamType::kString})) {
     ReadNamed(params, *name, &inside);
-  } else if (params.Find("reflectance", {}) != nullptr) {
+  } else if (params.Has("reflectance")) {
     ReadByReflectance(state, params, &inside);
     scale = 1 / scale;  // of the mean free path
   } else {
     ReadOwnCoefficients(state, params, &inside);
   }
   inside.sigma_a *= scale, inside.sigma_s *= scale;
-  state.scene.media.push_back(std::move(inside));
-  return static_cast<Index>(state.scene.media.size()) - 1;
+  return Append(state.scene.media, std::move(inside));
 }
 
 }  // namespace lanelight

@@ -14,7 +14,7 @@ Vec3d VectorOf(ParamSet& params, std::string_view name, Vec3d absent) {
   const Param* param = params.Find(name, {ParamType::kVector3});
   if (param == nullptr) return absent;
   if (param->numbers.size() != 3) params.Fail(*param, "one vector is wanted");
-  return {param->numbers[0], param->numbers[1], param->numbers[2]};
+  return Triples(*param)[0];
 }
 
 // A texture operand: colour or number, stored as a colour either way.
@@ -35,7 +35,7 @@ void ReadMapping(ParamSet& params, UvMapping* mapping) {
                                               {"cylindrical", MappingKind::kCylindrical},
                                               {"planar", MappingKind::kPlanar}},
                                              "uv");
-  // All are read whatever the mapping: pbrt takes no notice of the others.
+  // pbrt accepts the parameters of other mappings too.
   mapping->su = params.Float("uscale", 1, Limits());
   mapping->sv = params.Float("vscale", 1, Limits());
   mapping->du = params.Float("udelta", 0, Limits());
@@ -65,18 +65,16 @@ void ReadEncoding(ParamSet& params, Texture* texture) {
     gamma = 0;  // not a number; the range check below reports it at the parameter
   }
   if (!(gamma >= 0.01 && gamma <= 100)) {
-    params.Fail(*param, fmt::format("{} needs a number from 0.01 to 100 after gamma",
-                                    Quoted(name)));
+    params.Fail(*param, "{} needs a number from 0.01 to 100 after gamma", Quoted(name));
   }
   texture->encoding = Encoding::kGamma;
   texture->gamma = gamma;
 }
 
 void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
-  params.Need("filename", ParamType::kString);
-  const NamedFile file = FileOf(state, params, "filename");
+  const NamedFile file = NeedFile(state, params, "filename");
   texture->path = file.path;
-  texture->where = file.param->where;  // what a missing image is reported at
+  texture->where = file.param->where;  // where a missing image is reported
   texture->wrap = params.Choice<WrapMode>(
       "wrap", {{"repeat", WrapMode::kRepeat},
                {"clamp", WrapMode::kClamp},
@@ -89,7 +87,7 @@ void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
                                                 {"ewa", ImageFilter::kEwa},
                                                 {"EWA", ImageFilter::kEwa}},
                                                "ewa");
-  // Footprints of no extent: pbrt then interpolates in the finest image.
+  // pbrt then interpolates in the finest image.
   if (state.unfiltered_images && texture->filter >= ImageFilter::kTrilinear) {
     texture->filter = ImageFilter::kBilinear;
   }
@@ -171,43 +169,42 @@ void ReadMarble(ParseState& state, ParamSet& params, Texture* texture) {
   texture->variation = params.Float("variation", 0.2, Limits());
 }
 
-void ReadNothing(ParseState&, ParamSet&, Texture*) {}
-
 struct TextureType {
   TextureKind kind;
   void (*read)(ParseState&, ParamSet&, Texture*);
   bool as_float = true, as_spectrum = true;  // pbrt has it as
 };
 
-const std::map<std::string, TextureType>& TextureTypes() {
-  static const std::map<std::string, TextureType> types = {
-      {"constant", {TextureKind::kConstant, ReadConstant}},
-      {"scale", {TextureKind::kScale, ReadScale}},
-      {"mix", {TextureKind::kMix, ReadMix}},
-      {"directionmix", {TextureKind::kDirectionMix, ReadDirectionMix}},
-      {"bilerp", {TextureKind::kBilinear, ReadBilinear}},
-      {"imagemap", {TextureKind::kImage, ReadImage}},
-      {"checkerboard", {TextureKind::kCheckerboard, ReadCheckerboard}},
-      {"dots", {TextureKind::kDots, ReadDots}},
-      {"fbm", {TextureKind::kFbm, ReadOctaves, true, false}},
-      {"wrinkled", {TextureKind::kWrinkled, ReadOctaves, true, false}},
-      {"windy", {TextureKind::kWindy, ReadNothing, true, false}},
-      {"marble", {TextureKind::kMarble, ReadMarble, false, true}}};
-  return types;
-}
+const std::map<std::string, TextureType> kTextureTypes = {
+    {"constant", {TextureKind::kConstant, ReadConstant}},
+    {"scale", {TextureKind::kScale, ReadScale}},
+    {"mix", {TextureKind::kMix, ReadMix}},
+    {"directionmix", {TextureKind::kDirectionMix, ReadDirectionMix}},
+    {"bilerp", {TextureKind::kBilinear, ReadBilinear}},
+    {"imagemap", {TextureKind::kImage, ReadImage}},
+    {"checkerboard", {TextureKind::kCheckerboard, ReadCheckerboard}},
+    {"dots", {TextureKind::kDots, ReadDots}},
+    {"fbm", {TextureKind::kFbm, ReadOctaves, true, false}},
+    {"wrinkled", {TextureKind::kWrinkled, ReadOctaves, true, false}},
+    {"windy",
+     {TextureKind::kWindy, [](ParseState&, ParamSet&, Texture*) {}, true, false}},
+    {"marble", {TextureKind::kMarble, ReadMarble, false, true}}};
 
 const TextureType& FindType(const std::string& name, bool is_float,
                             const SourceLocation& where) {
-  const auto found = TextureTypes().find(name);
+  const auto found = kTextureTypes.find(name);
   const auto fits = [&](const TextureType& type) {
     return is_float ? type.as_float : type.as_spectrum;
   };
-  if (found != TextureTypes().end() && fits(found->second)) return found->second;
+  if (found != kTextureTypes.end() && fits(found->second)) return found->second;
   if (name == "ptex") {
-    throw InputError(where, "texture \"ptex\": Ptex files are not supported");
+    throw InputError(
+        where,
+        "texture \"ptex\" is not supported: textures per face (Ptex files) are not in "
+        "this renderer; an image with surface coordinates can stand for one");
   }
   std::vector<std::string> names;
-  for (const auto& [other, type] : TextureTypes()) {
+  for (const auto& [other, type] : kTextureTypes) {
     if (fits(type)) names.push_back(other);
   }
   ThrowUnknown(where, is_float ? "float texture" : "spectrum texture", name, names);
@@ -228,8 +225,7 @@ void InterpretTexture(ParseState& state, const NameKey& key, const std::string& 
   NoteStill(state, texture.where, "texture");
   found.read(state, params, &texture);
   params.CheckAllUsed();
-  state.scene.textures.push_back(std::move(texture));
-  Define(state, key, static_cast<Index>(state.scene.textures.size()) - 1);
+  Define(state, key, Append(state.scene.textures, std::move(texture)));
 }
 
 }  // namespace lanelight

@@ -23,26 +23,11 @@ bool StartsNumber(char c) {
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
 }
 
-// The character meant by backslash + `c`, or -1.
+// Returns the character of the escape `c`, or -1.
 int Escape(char c) {
-  switch (c) {
-    case 'b':
-      return '\b';
-    case 'f':
-      return '\f';
-    case 'n':
-      return '\n';
-    case 'r':
-      return '\r';
-    case 't':
-      return '\t';
-    case '\\':
-    case '\'':
-    case '"':
-      return c;
-    default:
-      return -1;
-  }
+  constexpr std::string_view kNames = "bfnrt\\'\"", kMeant = "\b\f\n\r\t\\'\"";
+  const std::size_t at = kNames.find(c);
+  return at == kNames.npos ? -1 : kMeant[at];
 }
 
 }  // namespace
@@ -129,14 +114,13 @@ void Lexer::ScanNumber(Token* token) {
   if (plus) ++first;
   const auto result = fast_float::from_chars(first, last, token->number);
   if (result.ec == std::errc::invalid_argument || result.ptr != last) {
-    throw InputError(Where(*token),
-                     fmt::format("{} is not a number", Quoted(token->text)));
+    throw InputError(Where(*token), "{} is not a number", Quoted(token->text));
   }
   if (!std::isfinite(token->number)) {
-    throw InputError(Where(*token),
-                     fmt::format("the number {} is not finite or beyond the range of a "
-                                 "double (about 1.8e308)",
-                                 Quoted(token->text)));
+    throw InputError(
+        Where(*token),
+        "the number {} is not finite or beyond the range of a double (about 1.8e308)",
+        Quoted(token->text));
   }
   token->kind = TokenKind::kNumber;
 }
@@ -148,9 +132,8 @@ void Lexer::ScanString(Token* token) {
   for (; cursor_ < end_ && *cursor_ != '"'; ++cursor_) {
     if (*cursor_ == '\n' || *cursor_ == '\r') break;
     if (static_cast<unsigned char>(*cursor_) < 0x20 && *cursor_ != '\t') {
-      throw InputError(
-          Where(line_, static_cast<int>(cursor_ - line_start_) + 1),
-          fmt::format("control character {} in a string", static_cast<int>(*cursor_)));
+      throw InputError(Where(line_, static_cast<int>(cursor_ - line_start_) + 1),
+                       "control character {} in a string", static_cast<int>(*cursor_));
     }
     if (*cursor_ == '\\') {
       escaped = true;
@@ -174,11 +157,10 @@ std::string_view Lexer::Unescape(const Token& token, std::string_view raw) {
     }
     const int meant = Escape(raw[++i]);
     if (meant < 0) {
-      throw InputError(
-          Where(token.line, token.column + static_cast<int>(i)),
-          fmt::format("unknown escape {} in a string; supported: "
-                      "\\b \\f \\n \\r \\t \\\\ \\' \\\"; write / in file names",
-                      Quoted(raw.substr(i - 1, 2))));
+      throw InputError(Where(token.line, token.column + static_cast<int>(i)),
+                       "unknown escape {} in a string; supported: \\b \\f \\n \\r \\t "
+                       "\\\\ \\' \\\"; write / in file names",
+                       Quoted(raw.substr(i - 1, 2)));
     }
     out += static_cast<char>(meant);
   }

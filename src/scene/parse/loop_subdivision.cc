@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "src/scene/parse/mesh_edges.h"
-#include "src/scene/parse/vertex_rings.h"
 
 namespace lanelight {
 namespace {
@@ -14,12 +13,11 @@ double NeighbourWeight(std::size_t valence) {
   return valence == 3 ? 3.0 / 16 : 3 / (8.0 * static_cast<double>(valence));
 }
 
-// The same for the place after infinitely many levels.
+// The same for the limit after infinitely many levels.
 double LimitWeight(std::size_t valence) {
   return 1 / (static_cast<double>(valence) + 3 / (8 * NeighbourWeight(valence)));
 }
 
-// The neighbourhood of a vertex.
 struct Neighbours {
   Vec3d sum, boundary_sum;  // over all; over the two along the boundary
   std::size_t count = 0;
@@ -90,8 +88,8 @@ TriangleMesh Subdivide(const TriangleMesh& mesh) {
   return out;
 }
 
-// Across the boundary, into the surface (Hoppe et al. 1994). `ring` runs from one end of
-// the boundary to the other.
+// Tangent across the boundary, into the surface (Hoppe et al. 1994). `ring` runs from one
+// end of the boundary to the other.
 Vec3d AcrossBoundary(Vec3d p, const std::vector<Vec3d>& ring) {
   const std::size_t n = ring.size();
   if (n == 2) return ring[0] + ring[1] - 2 * p;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "src/base/core/error_text.h"
-#include "src/base/image/blackbody.h"
-#include "src/scene/parse/medium_kinds.h"
+#include "src/base/core/error.h"
+#include "src/base/image/spectrum.h"
+#include "src/scene/parse/interpret.h"
 
 namespace lanelight {
 namespace {
@@ -21,24 +21,24 @@ std::size_t ReadVoxels(ParamSet& params, Medium* medium) {
   return voxels;
 }
 
-// `count` numbers per voxel, none negative; null if the parameter is not given.
+// Returns `count` numbers per voxel, none negative; null without the parameter.
 const Param* Samples(ParamSet& params, std::string_view name, ParamType type,
                      std::size_t voxels, std::size_t count) {
   const Param* param = params.Find(name, {type});
   if (param == nullptr) return nullptr;
   if (param->numbers.size() != voxels * count) {
-    params.Fail(*param, fmt::format("{} values; nx * ny * nz voxels need {}",
-                                    param->numbers.size() / count, voxels));
+    params.Fail(*param, "{} values; nx * ny * nz voxels need {}",
+                param->numbers.size() / count, voxels);
   }
   for (const double v : param->numbers) {
-    if (v < 0) params.Fail(*param, fmt::format("the value {} is negative", v));
+    if (v < 0) params.Fail(*param, "the value {} is negative", v);
   }
   return param;
 }
 
-// One number for all voxels, which is returned, or one for each. Without any, the scale
-// is 1 at the centre of the box and falls linearly to 1/2 at each side: pbrt-v4 has a
-// grid of one voxel then, outside of which the scale is 0.
+// Returns one number for all voxels, or 1 after reading one for each. By default pbrt-v4
+// has a grid of one voxel, outside of which the scale is 0: the scale is 1 at the centre
+// of the box and falls linearly to 1/2 at each side.
 double ReadEmissionScale(ParamSet& params, std::size_t voxels, Medium* medium) {
   const Param* param = params.Find("Lescale", {ParamType::kFloat});
   if (param == nullptr) {
@@ -53,7 +53,6 @@ double ReadEmissionScale(ParamSet& params, std::size_t voxels, Medium* medium) {
   return 1;
 }
 
-// In linear sRGB.
 void ReadColors(const ParamSet& params, const Param& param, Medium* medium) {
   for (std::size_t i = 0; i < param.numbers.size(); i += 3) {
     Rgb color = {param.numbers[i], param.numbers[i + 1], param.numbers[i + 2]};
@@ -75,13 +74,13 @@ void ReadBox(ParamSet& params, Medium* medium) {
   medium->box_max = params.Point3("p1", {1, 1, 1});
   const Vec3d size = medium->box_max - medium->box_min;
   if (!(size.x > 0 && size.y > 0 && size.z > 0)) {
-    throw InputError(params.where(), params.object() +
-                                         " has an empty box: every coordinate of "
-                                         "\"p1\" must be above that of \"p0\"");
+    throw InputError(
+        params.where(),
+        params.object() +
+            " has an empty box: every coordinate of \"p1\" must be above that of \"p0\"");
   }
 }
 
-// pbrt's default is 1 for each coefficient that is missing.
 void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* medium) {
   const auto sigma = [&](const char* name) {
     return PlainColor(state, params, name, {1, 1, 1}, SpectrumUse::kUnbounded) * scale;
@@ -117,7 +116,7 @@ void ReadUniformGrid(ParseState& state, ParamSet& params, Medium* medium) {
   ReadEmission(state, params, scale, medium);
   const Param* t = Samples(params, "temperature", ParamType::kFloat, voxels, 1);
   if (t == nullptr) return;
-  if (params.Find("Le", {}) != nullptr) {
+  if (params.Has("Le")) {
     params.Fail(*t, "\"temperature\" and \"Le\" exclude each other");
   }
   medium->temperature.assign(t->numbers.begin(), t->numbers.end());
@@ -149,7 +148,7 @@ void ReadRgbGrid(ParseState&, ParamSet& params, Medium* medium) {
   if (le == nullptr) return;
   if (a == nullptr) params.Fail(*le, "\"Le\" needs \"rgb sigma_a\" beside it");
   ReadColors(params, *le, medium);
-  // Other than everywhere else, pbrt does not normalise these.
+  // pbrt does not normalise these illuminants, unlike others.
   medium->emission = Rgb{1, 1, 1} * (emission_scale * kPhotometricIntegral);
 }
 

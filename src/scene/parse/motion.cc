@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-// By how much transforms may differ that are to be the same, relatively.
+// Largest relative difference of transforms that count as equal.
 constexpr double kSame = 1e-6;
 
 bool AreSame(const Transform& a, const Transform& b) {
@@ -30,8 +30,8 @@ const Transform& EndTransformOf(const Instance& instance) {
   return instance.end ? *instance.end : instance.world_from_object;
 }
 
-// A shape that moves in an object, placed with it. Two motions one after the other are
-// seldom one of translation, rotation and stretching again.
+// Places a shape that moves in an object. Two successive motions are seldom a motion of
+// translation, rotation and stretching again.
 Instance Together(const Instance& outer, const Instance& inner) {
   const Transform start = outer.world_from_object * inner.world_from_object;
   const Transform end = EndTransformOf(outer) * EndTransformOf(inner);
@@ -39,17 +39,16 @@ Instance Together(const Instance& outer, const Instance& inner) {
       then(outer.world_from_object, EndTransformOf(outer));
   for (const double s : {0.25, 0.5, 0.75}) {
     if (AreSame(then.At(s) * first.At(s), both.At(s))) continue;
-    throw InputError(
-        outer.where,
-        fmt::format("a shape moves in this object ({}), and as it is placed here the two "
-                    "transforms together are no motion of translation, rotation and "
-                    "scale; take the shape out of the object",
-                    inner.where.ToString()));
+    throw InputError(outer.where,
+                     "a shape moves in this object ({}), and as it is placed here the "
+                     "two transforms together are no motion of translation, rotation and "
+                     "scale; take the shape out of the object",
+                     inner.where.ToString());
   }
   return {inner.object, start, outer.where, EndOf(start, end, outer.where)};
 }
 
-// Part of the way from `start` to `end`.
+// Replaces both ends of a motion by places on the way between them.
 void Fit(double from, double to, Transform* start, EndTransform* end) {
   if (*end == nullptr) return;
   const Motion motion(*start, **end);
@@ -70,10 +69,9 @@ const char* WhyCannotMove(ShapeKind kind) {
 
 void NoteStill(ParseState& state, const SourceLocation& where, std::string_view kind) {
   if (!state.graphics.Moves()) return;
-  state.AddNote(
+  state.AddImageNote(
       where,
-      fmt::format("this {} does not move: it stays where it is at the start", kind),
-      true);
+      fmt::format("this {} does not move: it stays where it is at the start", kind));
 }
 
 EndTransform EndOf(const Transform& start, const Transform& end,

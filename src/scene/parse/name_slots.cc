@@ -1,4 +1,3 @@
-// Media and objects that may be used before they are defined.
 #include <fmt/format.h>
 
 #include "src/scene/parse/forward.h"
@@ -7,22 +6,23 @@
 namespace lanelight {
 namespace {
 
-std::vector<std::string> Defined(const NameSlots& slots) {
-  std::vector<std::string> names;
-  for (const auto& [name, slot] : slots) {
-    if (slot.defined) names.push_back(name);
-  }
-  return names;
-}
+using NamedSlot = NameSlots::value_type;
 
-bool Uses(const MediumInterface& media, Index medium) {
-  return media.inside == medium || media.outside == medium;
+// Throws InputError unless `missing` is null.
+void RequireDefined(const NamedSlot* missing, const char* kind, const NameSlots& slots) {
+  if (missing == nullptr) return;
+  std::vector<std::string> defined;
+  for (const auto& [name, slot] : slots) {
+    if (slot.defined) defined.push_back(name);
+  }
+  ThrowNotDefined(missing->second.where, kind, missing->first, defined);
 }
 
 bool IsUsed(const SceneDescription& scene, Index medium) {
   const auto uses = [&](const std::vector<Shape>& shapes) {
-    return std::any_of(shapes.begin(), shapes.end(),
-                       [&](const Shape& shape) { return Uses(shape.media, medium); });
+    return std::any_of(shapes.begin(), shapes.end(), [&](const Shape& shape) {
+      return shape.media.inside == medium || shape.media.outside == medium;
+    });
   };
   return scene.camera.medium == medium || uses(scene.shapes) ||
          std::any_of(scene.objects.begin(), scene.objects.end(),
@@ -34,10 +34,10 @@ bool IsUsed(const SceneDescription& scene, Index medium) {
 Index UseMedium(ParseState& state, const std::string& name, const SourceLocation& where) {
   NameSlot& slot = state.media[name];
   if (slot.index != kNone) return slot.index;
-  slot = {static_cast<Index>(state.scene.media.size()), where};
-  state.scene.media.emplace_back();
-  state.scene.media.back().name = name;
-  state.scene.media.back().where = where;
+  Medium medium;
+  medium.name = name;
+  medium.where = where;
+  slot = {Append(state.scene.media, std::move(medium)), where};
   return slot.index;
 }
 
@@ -50,8 +50,7 @@ void DefineMedium(ParseState& state, Medium medium) {
 Index UseObject(ParseState& state, const std::string& name, const SourceLocation& where) {
   NameSlot& slot = state.objects[name];
   if (slot.index != kNone) return slot.index;
-  slot = {static_cast<Index>(state.scene.objects.size()), where};
-  state.scene.objects.push_back({name, {}});
+  slot = {Append(state.scene.objects, {name, {}}), where};
   return slot.index;
 }
 
@@ -60,39 +59,31 @@ Index DefineObject(ParseState& state, const std::string& name,
   const Index index = UseObject(state, name, where);
   bool& defined = state.objects[name].defined;
   if (defined) {
-    throw InputError(where, fmt::format("object {} is defined twice", Quoted(name)));
+    throw InputError(where, "object {} is defined twice", Quoted(name));
   }
   defined = true;
   return index;
 }
 
 void RequireSlotsDefined(ParseState& state) {
-  const auto is_earlier = [](const NameSlot& slot, const NameSlot* other) {
-    return other == nullptr || slot.index < other->index;
+  const auto first = [](const NamedSlot* a, const NamedSlot& b) {
+    return a == nullptr || b.second.index < a->second.index ? &b : a;
   };
-  const std::string *object = nullptr, *medium = nullptr;
-  const NameSlot *object_slot = nullptr, *medium_slot = nullptr;
-  for (const auto& [name, slot] : state.objects) {
-    if (!slot.defined && is_earlier(slot, object_slot)) {
-      object = &name, object_slot = &slot;
+  const NamedSlot *object = nullptr, *medium = nullptr;
+  for (const NamedSlot& slot : state.objects) {
+    if (!slot.second.defined) object = first(object, slot);
+  }
+  for (const NamedSlot& slot : state.media) {
+    if (slot.second.defined) continue;
+    if (IsUsed(state.scene, slot.second.index)) {
+      medium = first(medium, slot);
+    } else {
+      state.AddWarning(slot.second.where, "medium {} is not defined; nothing is in it",
+                       Quoted(slot.first));
     }
   }
-  for (const auto& [name, slot] : state.media) {
-    if (slot.defined) continue;
-    if (!IsUsed(state.scene, slot.index)) {
-      state.AddWarning(slot.where, fmt::format("medium {} is not defined; nothing is in "
-                                               "it",
-                                               Quoted(name)));
-    } else if (is_earlier(slot, medium_slot)) {
-      medium = &name, medium_slot = &slot;
-    }
-  }
-  if (object != nullptr) {
-    ThrowNotDefined(object_slot->where, "object", *object, Defined(state.objects));
-  }
-  if (medium != nullptr) {
-    ThrowNotDefined(medium_slot->where, "named medium", *medium, Defined(state.media));
-  }
+  RequireDefined(object, "object", state.objects);
+  RequireDefined(medium, "named medium", state.media);
 }
 
 }  // namespace lanelight

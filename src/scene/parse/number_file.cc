@@ -1,4 +1,3 @@
-#include "src/scene/parse/number_file.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +18,7 @@ bool StartsIt(char c) { return IsDigit(c) || c == '.' || c == '-' || c == '+'; }
 bool ContinuesIt(char c) { return StartsIt(c) || c == 'e' || c == 'E'; }
 bool IsSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-// Walks through a text, and knows the place.
+// Reads a text and counts lines.
 class NumberText {
  public:
   NumberText(std::string_view text, std::shared_ptr<const std::string> file)
@@ -30,7 +29,7 @@ class NumberText {
 
   bool AtEnd() const { return cursor_ == end_; }
 
-  // Passes over a blank or a comment; false if there is none.
+  // Skips a blank or a comment; false if there is none.
   bool SkipOne() {
     if (*cursor_ == '#') {
       while (!AtEnd() && !EndsLine(cursor_, end_)) ++cursor_;
@@ -45,8 +44,8 @@ class NumberText {
   double Number() {
     const char* begin = cursor_;
     if (!StartsIt(*begin)) {
-      Fail(begin, fmt::format("found {} where a number should stand; text goes behind #",
-                              Quoted({begin, 1})));
+      Fail(begin, "found {} where a number should stand; text goes behind #",
+           Quoted({begin, 1}));
     }
     while (!AtEnd() && ContinuesIt(*cursor_)) ++cursor_;
     const std::string_view word(begin, static_cast<std::size_t>(cursor_ - begin));
@@ -55,15 +54,18 @@ class NumberText {
     const auto result = fast_float::from_chars(first, cursor_, value);
     if (result.ec == std::errc::invalid_argument || result.ptr != cursor_ ||
         !std::isfinite(value)) {
-      Fail(begin, fmt::format("{} is not a finite number", Quoted(word)));
+      Fail(begin, "{} is not a finite number", Quoted(word));
     }
     if (!AtEnd() && !IsSpace(*cursor_) && *cursor_ != '#') ++cursor_;
     return value;
   }
 
  private:
-  [[noreturn]] void Fail(const char* at, const std::string& message) const {
-    throw InputError({file_, line_, static_cast<int>(at - line_start_) + 1}, message);
+  template <class... Args>
+  [[noreturn]] void Fail(const char* at, fmt::format_string<Args...> format,
+                         Args&&... args) const {
+    throw InputError({file_, line_, static_cast<int>(at - line_start_) + 1},
+                     fmt::format(format, std::forward<Args>(args)...));
   }
 
   const char* cursor_;

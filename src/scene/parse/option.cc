@@ -61,9 +61,8 @@ constexpr OptionInfo kOptions[] = {
     {"bool", "wavefront", nullptr, "everything is a wavefront here"}};
 
 [[noreturn]] void Misfit(const OptionStatement& option, std::string_view takes) {
-  throw InputError(option.value_where,
-                   fmt::format("found {} as the value of option {}; it takes {}",
-                               option.value.Describe(), Quoted(option.name), takes));
+  throw InputError(option.value_where, "found {} as the value of option {}; it takes {}",
+                   option.value.Describe(), Quoted(option.name), takes);
 }
 
 const OptionInfo& FindOption(const OptionStatement& option) {
@@ -86,12 +85,11 @@ void CheckType(const OptionStatement& option, std::string_view type) {
   }
 }
 
-// A value may stand in brackets, as that of a parameter.
 OptionStatement ReadOption(Statement& statement) {
   const auto [typed, where] = statement.Name();
   OptionStatement option;
   option.where = where;
-  // As in pbrt-v4, letters of either case, - and _ are the same.
+  // As pbrt-v4, ignores the case of letters, - and _.
   for (const char c : typed.substr(typed.find_last_of(' ') + 1)) {
     if (c == '-' || c == '_') continue;
     option.name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -104,8 +102,8 @@ OptionStatement ReadOption(Statement& statement) {
   const Token close = statement.lexer.Next();
   if (close.kind != TokenKind::kClose) {
     throw InputError(statement.lexer.Where(close),
-                     fmt::format("found {} where option {} needs ] after one value",
-                                 close.Describe(), Quoted(option.name)));
+                     "found {} where option {} needs ] after one value", close.Describe(),
+                     Quoted(option.name));
   }
   return option;
 }
@@ -118,8 +116,8 @@ void RunOption(ParseState& state, Statement& statement) {
   CheckType(option, info.type);
   if (info.set != nullptr) return info.set(state, option);
   if (option.value.text == "false") return;  // what is the case anyway
-  state.AddNote(option.where, fmt::format("option {} has no effect: {}",
-                                          Quoted(option.name), info.why));
+  state.AddNote(option.where, "option {} has no effect: {}", Quoted(option.name),
+                info.why);
 }
 
 }  // namespace lanelight

@@ -20,6 +20,15 @@ bool Contains(std::initializer_list<ParamType> types, ParamType type) {
 
 }  // namespace
 
+std::vector<Vec3d> Triples(const Param& param) {
+  std::vector<Vec3d> out;
+  out.reserve(param.numbers.size() / 3);
+  for (std::size_t i = 0; i + 2 < param.numbers.size(); i += 3) {
+    out.push_back({param.numbers[i], param.numbers[i + 1], param.numbers[i + 2]});
+  }
+  return out;
+}
+
 ParamSet::ParamSet(std::string object, SourceLocation where, ParamList own,
                    std::shared_ptr<const ParamList> inherited, std::vector<Note>* notes)
     : object_(std::move(object)),
@@ -54,15 +63,14 @@ const Param* ParamSet::Find(std::string_view name,
     if (!Contains(types, own_[i].type)) {
       std::vector<std::string> supported;
       for (ParamType type : types) supported.push_back(Typed(type, name));
-      throw InputError(own_[i].where, fmt::format("found {} for {}; supported: {}",
-                                                  Quoted(Typed(own_[i].type, name)),
-                                                  object_, QuotedList(supported)));
+      throw InputError(own_[i].where, "found {} for {}; supported: {}",
+                       Quoted(Typed(own_[i].type, name)), object_, QuotedList(supported));
     }
     used_[i] = true;
     return &own_[i];
   }
   if (!inherited_) return nullptr;
-  // The last of several Attribute directives applies.
+  // The last of several Attribute directives counts.
   for (auto it = inherited_->rbegin(); it != inherited_->rend(); ++it) {
     if (it->name == name && Contains(types, it->type)) return &*it;
   }
@@ -72,7 +80,7 @@ const Param* ParamSet::Find(std::string_view name,
 const Param& ParamSet::Need(std::string_view name, ParamType type) {
   const Param* param = Find(name, {type});
   if (param != nullptr) return *param;
-  throw InputError(where_, fmt::format("{} has no \"{}\"", object_, Typed(type, name)));
+  throw InputError(where_, "{} has no \"{}\"", object_, Typed(type, name));
 }
 
 const Param* ParamSet::Single(std::string_view name, ParamType type) {
@@ -85,16 +93,10 @@ const Param* ParamSet::Single(std::string_view name, ParamType type) {
   return param;
 }
 
-double ParamSet::Float(std::string_view name, double absent) {
-  const Param* param = Single(name, ParamType::kFloat);
-  return param == nullptr ? absent : param->numbers[0];
-}
-
 void ParamSet::CheckLimits(const Param& param, Limits limits) const {
   const double value = param.numbers[0];
   if (value >= limits.low && value <= limits.high) return;
-  Fail(param,
-       fmt::format("the value {} is outside {} to {}", value, limits.low, limits.high));
+  Fail(param, "the value {} is outside {} to {}", value, limits.low, limits.high);
 }
 
 double ParamSet::Float(std::string_view name, double absent, Limits limits) {
@@ -123,8 +125,7 @@ std::string ParamSet::String(std::string_view name, const std::string& absent) {
 
 Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
   const Param* param = Single(name, ParamType::kPoint3);
-  if (param == nullptr) return absent;
-  return {param->numbers[0], param->numbers[1], param->numbers[2]};
+  return param == nullptr ? absent : Triples(*param)[0];
 }
 
 std::size_t ParamSet::ChoiceOf(std::string_view name,
@@ -146,8 +147,7 @@ std::size_t ParamSet::ChoiceOf(std::string_view name,
   return static_cast<std::size_t>(it - choices.begin());
 }
 
-void ParamSet::NoteIgnored(std::string_view name, const std::string& why,
-                           bool changes_image) {
+void ParamSet::Ignore(std::string_view name, const std::string& why, bool changes_image) {
   const Param* param = Find(name, {});
   if (param == nullptr) return;
   const bool asks = param->type != ParamType::kBool || param->bools[0];
@@ -158,31 +158,20 @@ void ParamSet::NoteIgnored(std::string_view name, const std::string& why,
        changes_image});
 }
 
-void ParamSet::Ignore(std::string_view name, const std::string& why) {
-  NoteIgnored(name, why, false);
-}
-
-void ParamSet::IgnoreVisible(std::string_view name, const std::string& why) {
-  NoteIgnored(name, why, true);
-}
-
 void ParamSet::CheckAllUsed() {
   for (std::size_t i = 0; i < own_.size(); ++i) {
     if (used_[i]) continue;
+    if (legal_typed_.empty()) {
+      throw InputError(own_[i].where,
+                       "unknown parameter {} of {}, which takes no parameters",
+                       Quoted(own_[i].name), object_);
+    }
     const std::string nearest = NearestName(own_[i].name, legal_);
     const std::string hint =
         nearest.empty() ? "" : fmt::format("did you mean {}? ", Quoted(nearest));
-    if (legal_typed_.empty()) {
-      throw InputError(
-          own_[i].where,
-          fmt::format("unknown parameter {} of {}, which takes no parameters",
-                      Quoted(own_[i].name), object_));
-    }
     std::sort(legal_typed_.begin(), legal_typed_.end());
-    throw InputError(
-        own_[i].where,
-        fmt::format("unknown parameter {} of {}; {}supported: {}", Quoted(own_[i].name),
-                    object_, hint, QuotedList(legal_typed_)));
+    throw InputError(own_[i].where, "unknown parameter {} of {}; {}supported: {}",
+                     Quoted(own_[i].name), object_, hint, QuotedList(legal_typed_));
   }
 }
 

@@ -1,9 +1,13 @@
-// Parameter lists: "type name" value. They are read once into Params. An interpreter asks
-// a ParamSet for the parameters it knows; any other is an error that lists them. The
-// legal parameters of an object are thus stated once, in the code that uses them.
+// Parameter lists: "type name" value. Read once into Params; an interpreter then reads
+// its parameters from a ParamSet. A parameter that it does not read is an error that
+// lists those that it reads: the code that uses parameters is the only list of legal
+// ones.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -31,7 +35,11 @@ enum class ParamType {
   kTexture
 };
 
-/// The name of a type in a scene file, e.g. "point3".
+/// Types of colours that may be textured.
+inline constexpr std::initializer_list<ParamType> kColorTypes = {
+    ParamType::kRgb, ParamType::kSpectrum, ParamType::kTexture, ParamType::kBlackbody};
+
+/// Returns the name of a type in a scene file, e.g. "point3".
 const char* ParamTypeName(ParamType type);
 
 struct Param {
@@ -46,14 +54,19 @@ struct Param {
 };
 using ParamList = std::vector<Param>;
 
-/// The limit of parameters without a natural one.
+/// Returns the numbers of a parameter in groups of three.
+std::vector<Vec3d> Triples(const Param& param);
+
+/// Limit of parameters that have no natural one.
 inline constexpr double kHuge = 1e30;
 
-/// What a number must lie in, ends included.
+/// The range of a number, ends included.
 struct Limits {
   double low = -kHuge, high = kHuge;
 };
 inline constexpr Limits kNotNegative = {0, kHuge};
+inline constexpr Limits kAnyNumber = {-std::numeric_limits<double>::max(),
+                                      std::numeric_limits<double>::max()};
 
 /// Reads parameters up to the first token that starts none. Of several with the same type
 /// and name the last one counts, with a warning among `notes`. Throws InputError for an
@@ -71,15 +84,15 @@ class ParamSet {
   const std::string& object() const { return object_; }
   const SourceLocation& where() const { return where_; }
 
-  /// The parameter, or null; a type not in `types` is an InputError. `types` empty: any.
+  /// Returns the parameter, or null; a type not in `types` is an InputError. `types`
+  /// empty: any.
   const Param* Find(std::string_view name, std::initializer_list<ParamType> types);
-  /// The same of one that there must be: InputError `<object> has no "type name"`.
+  bool Has(std::string_view name) { return Find(name, {}) != nullptr; }
+  /// Returns a required parameter; InputError `<object> has no "type name"` without it.
   const Param& Need(std::string_view name, ParamType type);
 
   /// Single values. Out of the limits is an InputError that states them.
-  double Float(std::string_view name, double absent, Limits limits);
-  /// Float without a range (any finite number).
-  double Float(std::string_view name, double absent);
+  double Float(std::string_view name, double absent, Limits limits = kAnyNumber);
   int Integer(std::string_view name, int absent, Limits limits);
   bool Bool(std::string_view name, bool absent);
   std::string String(std::string_view name, const std::string& absent);
@@ -96,24 +109,28 @@ class ParamSet {
     return choices.begin()[ChoiceOf(name, names, unknown)].second;
   }
 
-  /// Accepts the parameter whatever its type, notes that it has no effect, and `why`.
-  void Ignore(std::string_view name, const std::string& why);
-  /// The same where the image then is visibly not what the file asks for. "false" asks
+  /// Accepts the parameter whatever its type, and notes that it has no effect and why.
+  /// `changes_image`: the image is then visibly not what the file asks for; "false" asks
   /// for nothing and is not noted.
-  void IgnoreVisible(std::string_view name, const std::string& why);
+  void Ignore(std::string_view name, const std::string& why, bool changes_image = false);
 
-  /// Throws InputError for a parameter of the object that was not asked for. Call it
-  /// last.
+  /// Throws InputError for an own parameter that was not read. Call it last.
   void CheckAllUsed();
 
-  /// InputError at a parameter: `<message>, in "type name" of <object>`.
+  /// Throws InputError at a parameter: `<message>, in "type name" of <object>`. With
+  /// further arguments, the message is a format string for them.
   [[noreturn]] void Fail(const Param& param, const std::string& message) const;
-  /// The same as a warning, where pbrt-v4 goes on.
+  template <class... Args>
+    requires(sizeof...(Args) > 0)
+  [[noreturn]] void Fail(const Param& param, fmt::format_string<Args...> format,
+                         Args&&... args) const {
+    Fail(param, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// Adds the same as a warning, where pbrt-v4 goes on.
   void Warn(const Param& param, const std::string& message) const;
 
  private:
   std::string About(const Param& param, const std::string& message) const;
-  void NoteIgnored(std::string_view name, const std::string& why, bool changes_image);
   const Param* Single(std::string_view name, ParamType type);
   void CheckLimits(const Param& param, Limits limits) const;
   // The position of a string in `choices`; 0 if it is not given.

@@ -7,7 +7,6 @@
 #include "src/base/core/suggest.h"
 #include "src/scene/parse/names.h"
 #include "src/scene/parse/params.h"
-#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 namespace {
@@ -30,7 +29,7 @@ std::vector<std::string> TypeNames() {
   return names;
 }
 
-// Splits "type name"; both words are needed.
+// Splits "type name".
 void ReadDeclaration(const Lexer& lexer, const Token& token, Param* param) {
   constexpr std::string_view kBlank = " \t";
   const std::string_view text = token.text;
@@ -42,9 +41,8 @@ void ReadDeclaration(const Lexer& lexer, const Token& token, Param* param) {
   if (name_begin == text.npos || rest != text.npos) {
     throw InputError(
         param->where,
-        fmt::format("found {} where a parameter \"type name\" or a directive "
-                    "should stand",
-                    Quoted(text)));
+        "found {} where a parameter \"type name\" or a directive should stand",
+        Quoted(text));
   }
   const std::string_view type = text.substr(type_begin, type_end - type_begin);
   param->name = text.substr(name_begin, name_end - name_begin);
@@ -66,9 +64,8 @@ void ReadDeclaration(const Lexer& lexer, const Token& token, Param* param) {
   if (token.kind == TokenKind::kWord && NearestName(token.text, {"nan", "inf"}) != "") {
     found += " (values must be finite numbers)";
   }
-  throw InputError(lexer.Where(token),
-                   fmt::format("found {} as a value of \"{} {}\"; it takes {}", found,
-                               ParamTypeName(param.type), param.name, expected));
+  throw InputError(lexer.Where(token), "found {} as a value of \"{} {}\"; it takes {}",
+                   found, ParamTypeName(param.type), param.name, expected);
 }
 
 void AddNumber(const Lexer& lexer, const Token& token, Param* param) {
@@ -83,7 +80,7 @@ void AddNumber(const Lexer& lexer, const Token& token, Param* param) {
   param->numbers.push_back(token.number);
 }
 
-// Its strings are names that the scene defines; others are files and choices.
+// True if its strings are names defined by the scene.
 bool IsName(const Param& param) {
   return param.type == ParamType::kTexture || param.name == "materials";
 }
@@ -131,11 +128,10 @@ void CheckCount(const Param& param) {
   if (values == 0) throw InputError(param.where, who + " has no value");
   const int tuple = kTypes[static_cast<int>(param.type)].tuple;
   if (tuple > 1 && n % tuple != 0) {
-    throw InputError(param.where, fmt::format("{} has {} numbers; they come in groups of "
-                                              "{}",
-                                              who, n, tuple));
+    throw InputError(param.where, "{} has {} numbers; they come in groups of {}", who, n,
+                     tuple);
   }
-  // Grids of colours are rgb; who wants one colour says so (ColorOf).
+  // Grids of colours are rgb; ColorOf requires a single colour.
   const bool single =
       param.type == ParamType::kBlackbody || param.type == ParamType::kTexture;
   const std::size_t most = single ? std::max(tuple, 1) : values;
@@ -145,16 +141,15 @@ void CheckCount(const Param& param) {
   }
 }
 
-// Removes what an earlier parameter of the same name says.
+// Removes an earlier parameter of the same name.
 void Replace(ParamList& params, const Param& param, std::vector<Note>* notes) {
   const auto earlier = std::find_if(params.begin(), params.end(),
                                     [&](const Param& p) { return p.name == param.name; });
   if (earlier == params.end()) return;
   if (earlier->type != param.type) {
-    throw InputError(param.where,
-                     fmt::format("parameter {} is given twice, as {} and as {}; keep one",
-                                 Quoted(param.name), ParamTypeName(earlier->type),
-                                 ParamTypeName(param.type)));
+    throw InputError(
+        param.where, "parameter {} is given twice, as {} and as {}; keep one",
+        Quoted(param.name), ParamTypeName(earlier->type), ParamTypeName(param.type));
   }
   notes->push_back({param.where,
                     fmt::format("parameter \"{} {}\" is given twice; this one counts",
@@ -181,8 +176,7 @@ ParamList ReadParams(Lexer& lexer, const std::string& color_space,
     Replace(params, param, notes);
     params.push_back(std::move(param));
     if (params.size() > kMostParams) {
-      throw InputError(params.back().where,
-                       fmt::format("more than {} parameters", kMostParams));
+      throw InputError(params.back().where, "more than {} parameters", kMostParams);
     }
   }
   return params;

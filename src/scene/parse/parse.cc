@@ -3,18 +3,24 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
+#include "src/base/core/error.h"
+#include "src/base/core/parallel.h"
+#include "src/base/core/suggest.h"
+#include "src/scene/parse/displace.h"
 #include "src/scene/parse/motion.h"
 #include "src/scene/parse/parse_state.h"
+#include "src/scene/parse/ply.h"
 
 namespace lanelight {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Camera rays through the centres of pixels and lens, as pbrt's disablepixeljitter: a box
-// that is as good as a point, since film coordinates in float32 are no finer.
+// Sends camera rays through the centres of pixels and lens, as pbrt's disablepixeljitter:
+// the box is smaller than the resolution of film coordinates in float32.
 void UsePixelCenters(SceneDescription& scene) {
   scene.filter = {};
   scene.filter.kind = FilterKind::kBox;
@@ -22,14 +28,93 @@ void UsePixelCenters(SceneDescription& scene) {
   scene.camera.lens_radius = 0;
 }
 
-// After the last directive: everything must be closed, and the scene is completed with
-// what depends on several directives.
+struct LoadedMesh {
+  const MeshRequest* first = nullptr;  // the first request for it
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<std::string> notes;
+};
+
+// Errors inside the file are reported at the scene's line, with the place in the file.
+PlyMesh Parse(const std::string& bytes, const MeshRequest& request) {
+  try {
+    return ParsePly(bytes, request.path);
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    const std::string_view label = ": error: ";
+    const std::size_t at = message.find(label);
+    if (at != message.npos) message.replace(at, label.size(), ": ");
+    throw InputError(request.where, message);
+  }
+}
+
+void Load(const ParseState& state, LoadedMesh* out) {
+  const MeshRequest& request = *out->first;
+  PlyMesh ply =
+      Parse(ReadSceneFile(state, request.path, request.where, "the mesh file"), request);
+  out->notes = PlyNotes(ply, request.path);
+  out->mesh = std::make_shared<const TriangleMesh>(std::move(ply.mesh));
+}
+
+void DisplaceMesh(ParseState& state, const MeshRequest& request, Shape* shape) {
+  const std::vector<Texture>& textures = state.scene.textures;
+  const std::string problem = HeightTexture::Problem(textures, request.displacement);
+  if (!problem.empty()) {
+    return state.AddImageNote(request.where, "this mesh is not displaced: " + problem);
+  }
+  if (shape->mesh->uvs.empty()) {
+    throw InputError(request.where,
+                     "{} has no texture coordinates, which displacement needs",
+                     Quoted(request.path));
+  }
+  const HeightTexture height(textures, request.displacement);
+  try {
+    shape->mesh = std::make_shared<const TriangleMesh>(
+        Displace(*shape->mesh, request.world_from_object, request.edge_length, height));
+  } catch (const InputError& error) {
+    throw InputError(request.where, WithoutPrefix(error));
+  }
+}
+
+// Reads every requested mesh, each file once, in parallel.
+void LoadMeshes(ParseState& state) {
+  std::map<std::string, std::size_t> position;
+  std::vector<LoadedMesh> files;
+  for (const MeshRequest& request : state.meshes) {
+    if (position.emplace(request.path, files.size()).second) {
+      files.push_back({&request, nullptr, {}});
+    }
+  }
+  // Errors are collected, so that the first one in the scene is reported on every run.
+  std::vector<std::optional<InputError>> failures(files.size());
+  ParallelFor(files.size(), [&](std::size_t i) {
+    try {
+      Load(state, &files[i]);
+    } catch (const InputError& error) {
+      failures[i] = error;
+    }
+  });
+  for (const auto& failure : failures) {
+    if (failure) throw *failure;
+  }
+  for (const LoadedMesh& file : files) {
+    for (const std::string& note : file.notes) state.AddNote(file.first->where, note);
+  }
+  for (const MeshRequest& request : state.meshes) {
+    std::vector<Shape>& shapes = request.object == kNone
+                                     ? state.scene.shapes
+                                     : state.scene.objects[request.object].shapes;
+    Shape& shape = shapes[request.shape];
+    shape.mesh = files[position[request.path]].mesh;
+    if (request.displacement != kNone) DisplaceMesh(state, request, &shape);
+  }
+}
+
+// Runs after the last directive: checks that all scopes are closed, and completes what
+// depends on several directives.
 SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.scopes.empty()) {
     const Scope& scope = state.scopes.back();
-    const char* name =
-        scope.kind == ScopeKind::kAttribute ? "AttributeBegin" : "ObjectBegin";
-    throw InputError(scope.where, fmt::format("this {} has no matching end", name));
+    throw InputError(scope.where, "this {} has no matching end", BeginName(scope.kind));
   }
   if (!state.in_world) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");

@@ -33,4 +33,7 @@ SceneDescription ParseSceneText(std::string_view text, const std::string& name,
                                 const std::string& directory,
                                 const ParseOptions& options = {});
 
+/// The document, put in when the library is built (CMakeLists.txt).
+std::string_view FormatDocument();
+
 }  // namespace lanelight

@@ -1,9 +1,8 @@
-// The parser's state: the scene so far, pbrt's graphics state, and defined names.
-// Directives (directives.cc) change it; interpreters (interpret.h) turn parameters into
-// objects of a SceneDescription.
+// State of the parser: the scene so far, pbrt's graphics state, and the names that have
+// been defined. Directives (directives.cc) change it; interpreters (interpret.h) turn
+// parameters into the objects of a SceneDescription.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -14,15 +13,14 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/core/suggest.h"
 #include "src/scene/parse/forward.h"
+#include "src/scene/parse/names.h"
 #include "src/scene/parse/params.h"
 #include "src/scene/parse/parse.h"
-#include "src/scene/parse/version3.h"
 
 namespace lanelight {
 
-/// The targets of an Attribute directive's defaults.
+/// Kinds of objects for which an Attribute directive sets defaults.
 enum class AttributeTarget { kShape, kLight, kMaterial, kMedium, kTexture };
 inline constexpr int kAttributeTargets = 5;
 
@@ -31,9 +29,8 @@ struct GraphicsState {
   Transform ctm, ctm_end;  // at the two times of TransformTimes
   bool start_active = true, end_active = true;
   bool reverse_orientation = false;
-  Index material = kNone;  // kNone: the default diffuse, or ...
-  std::shared_ptr<const NameUse>
-      later_material;  // ... this one, not yet defined; or null
+  Index material = kNone;  // kNone: later_material, or the default diffuse without one
+  std::shared_ptr<const NameUse> later_material;  // not yet defined; or null
   Index area_light = kNone;
   MediumInterface media;
   std::string color_space = "srgb";
@@ -43,14 +40,19 @@ struct GraphicsState {
 };
 
 enum class ScopeKind { kAttribute, kObject, kImport };
+/// Returns the directive that begins a scope.
+inline const char* BeginName(ScopeKind kind) {
+  constexpr const char* kNames[] = {"AttributeBegin", "ObjectBegin", "Import"};
+  return kNames[static_cast<int>(kind)];
+}
 struct Scope {
   ScopeKind kind;
   SourceLocation where;
   GraphicsState saved;
 };
 
-/// A mesh file to be read once the text is through, for shapes[shape] of the scene or of
-/// an object definition.
+/// A mesh file to be read after the text, for shapes[shape] of the scene or of an object
+/// definition.
 struct MeshRequest {
   std::string path;
   SourceLocation where;
@@ -61,7 +63,7 @@ struct MeshRequest {
   Transform world_from_object = {};  // to measure them
 };
 
-/// A scene file that has been read. Small ones are kept, to be included again.
+/// A scene file that has been read. Small ones stay in memory for repeated includes.
 struct SourceFile {
   std::string identity;  // canonical path, to detect cycles; empty for text
   std::string directory;
@@ -115,19 +117,32 @@ struct ParseState {
   bool pixel_centers = false;                  // Option "disablepixeljitter"
   std::set<std::string> noted;
 
-  void AddNote(const SourceLocation& where, const std::string& message,
-               bool changes_image = false) {
-    scene.notes.push_back({where, message, changes_image});
+  /// Adds a note; with further arguments, the message is a format string for them.
+  void AddNote(const SourceLocation& where, const std::string& message) {
+    scene.notes.push_back({where, message});
   }
-  /// Adds a warning: the file has a mistake, which pbrt-v4 lets pass too.
-  void AddWarning(const SourceLocation& where, const std::string& message) {
-    scene.notes.push_back({where, message, false, true});
+  template <class... Args>
+    requires(sizeof...(Args) > 0)
+  void AddNote(const SourceLocation& where, fmt::format_string<Args...> format,
+               Args&&... args) {
+    AddNote(where, fmt::format(format, std::forward<Args>(args)...));
+  }
+  /// Adds a warning: the file has a mistake, which pbrt-v4 accepts too.
+  template <class... Args>
+  void AddWarning(const SourceLocation& where, fmt::format_string<Args...> format,
+                  Args&&... args) {
+    scene.notes.push_back(
+        {where, fmt::format(format, std::forward<Args>(args)...), false, true});
+  }
+  /// Adds a note after which the image is visibly not what the file asks for.
+  void AddImageNote(const SourceLocation& where, const std::string& message) {
+    scene.notes.push_back({where, message, true});
   }
   /// Adds the note unless the same message was noted before.
   void AddNoteOnce(const SourceLocation& where, const std::string& message) {
     if (noted.insert(message).second) AddNote(where, message);
   }
-  /// A note if unsupported things are to be skipped, else an InputError.
+  /// Adds a note with skip_unsupported, else throws InputError.
   void Unsupported(const SourceLocation& where, const std::string& message);
 
   const std::shared_ptr<const ParamList>& Inherited(AttributeTarget target) const {
@@ -138,44 +153,26 @@ struct ParseState {
   }
 };
 
-/// The names of a table of pairs, for ThrowUnknown.
-template <typename Table>
-std::vector<std::string> Names(const Table& table) {
-  std::vector<std::string> names;
-  for (const auto& [name, meaning] : table) names.emplace_back(name);
-  return names;
+/// Appends a value and returns its index.
+template <typename T>
+Index Append(std::vector<T>& values, T value) {
+  values.push_back(std::move(value));
+  return static_cast<Index>(values.size()) - 1;
 }
 
-/// What `name` means in a table of pairs, or a map. InputError with all of its names if
-/// it is none: unknown <kind> "<name>".
-template <typename Table>
-const auto& Lookup(const Table& table, const std::string& name,
-                   const SourceLocation& where, std::string_view kind) {
-  const auto find = [&] {
-    if constexpr (requires { table.find(name); }) {
-      return table.find(name);
-    } else {
-      return std::find_if(std::begin(table), std::end(table),
-                          [&](const auto& entry) { return entry.first == name; });
-    }
-  };
-  const auto found = find();
-  if (found == std::end(table)) {
-    CheckVersion3(where, kind, name);
-    ThrowUnknown(where, kind, name, Names(table));
-  }
-  return found->second;
-}
-
-/// Path of a file named in the scene: relative to the main file's directory (as pbrt), or
-/// if there is none there, relative to the directory of the file that names it. Goes to
-/// ParseOptions::files.
+/// Returns the path of a file named in the scene: relative to the main file's directory
+/// (as pbrt), or if there is none there, relative to the directory of the file that names
+/// it. Adds it to ParseOptions::files.
 std::string ResolvePath(const ParseState& state, const std::string& name);
 
 /// Returns the whole content of a regular file, unpacked if it is compressed (gzip).
 /// InputError at `where` if it cannot be read or the options forbid access to files.
 std::string ReadSceneFile(const ParseState& state, const std::string& path,
                           const SourceLocation& where, std::string_view kind);
+
+/// Returns the numbers of such a file (ReadNumbers).
+std::vector<double> ReadNumberFile(const ParseState& state, const std::string& path,
+                                   const SourceLocation& where, std::string_view kind);
 
 /// The same without options, for callers outside the parser.
 std::string ReadWholeFile(const std::string& path, const SourceLocation& where,
@@ -186,8 +183,5 @@ void RunDirectives(ParseState& state);
 
 /// Include: the same for a file; checks cycles, depth and the bytes of all files.
 void RunFile(ParseState& state, const std::string& path, const SourceLocation& where);
-
-/// Reads every requested mesh, each file once, in parallel.
-void LoadMeshes(ParseState& state);
 
 }  // namespace lanelight

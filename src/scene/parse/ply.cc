@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "src/scene/parse/bilinear_patch.h"
 #include "src/scene/parse/ply_reader.h"
-#include "src/scene/parse/ply_repair.h"
-#include "src/scene/parse/quad.h"
 
 namespace lanelight {
 namespace {
 
-// The destination of a vertex property; others are skipped.
+// Targets of vertex properties; others are skipped.
 enum Slot { kX, kY, kZ, kNx, kNy, kNz, kU, kV, kSlots, kSkip = kSlots };
 
 struct VertexLayout {
@@ -35,7 +34,7 @@ int SlotOf(const PlyProperty& property) {
   return kSkip;
 }
 
-// A quad found among the faces: where its two triangles start in the index list.
+// Quads, by the position of their two triangles in the index list.
 struct Faces {
   std::vector<std::size_t> quads;
   std::size_t others = 0;  // of neither 3 nor 4 corners
@@ -63,30 +62,32 @@ class BodyReader {
   }
 
  private:
-  // Before anything is allocated: can the rest of the file hold that many?
+  template <class... Args>
+  [[noreturn]] void Fail(fmt::format_string<Args...> format, Args&&... args) const {
+    reader_.Fail(fmt::format(format, std::forward<Args>(args)...));
+  }
+
+  // Checks before anything is allocated whether the rest of the file can hold that many.
   void CheckCount(const PlyElement& element) {
     if (element.count == 0) return;
     if (element.properties.empty() ||
         element.count > std::numeric_limits<std::uint32_t>::max() ||
         element.count > reader_.Left(element.least_bytes())) {
-      reader_.Fail(
-          fmt::format("the PLY header promises {} of element {}, more than the "
-                      "rest of the file can hold",
-                      element.count, Quoted(element.name)));
+      Fail(
+          "the PLY header promises {} of element {}, more than the rest of the file can "
+          "hold",
+          element.count, Quoted(element.name));
     }
   }
 
   std::uint64_t ReadCount(const PlyProperty& list) {
     const double count = reader_.Read(list.count_type);
     if (!(count >= 0) || count != std::floor(count)) {
-      reader_.Fail(
-          fmt::format("{} is no length of the PLY list {}", count, Quoted(list.name)));
+      Fail("{} is no length of the PLY list {}", count, Quoted(list.name));
     }
     if (count > static_cast<double>(reader_.Left(PlySize(list.type)))) {
-      reader_.Fail(
-          fmt::format("the PLY list {} has {} values, more than the rest of the "
-                      "file holds",
-                      Quoted(list.name), count));
+      Fail("the PLY list {} has {} values, more than the rest of the file holds",
+           Quoted(list.name), count);
     }
     return static_cast<std::uint64_t>(count);
   }
@@ -109,13 +110,13 @@ class BodyReader {
       layout.slots.push_back(slot);
     }
     if (!layout.present[kX] || !layout.present[kY] || !layout.present[kZ]) {
-      reader_.Fail("the PLY element \"vertex\" needs the properties x, y and z");
+      Fail("the PLY element \"vertex\" needs the properties x, y and z");
     }
     return layout;
   }
 
   void ReadVertices(const PlyElement& element) {
-    if (!mesh_.positions.empty()) reader_.Fail("two PLY elements \"vertex\"");
+    if (!mesh_.positions.empty()) Fail("two PLY elements \"vertex\"");
     const VertexLayout layout = Layout(element);
     mesh_.positions.reserve(element.count);
     if (layout.has_normals()) mesh_.normals.reserve(element.count);
@@ -142,7 +143,7 @@ class BodyReader {
   }
 
   void ReadFaces(const PlyElement& element) {
-    if (faces_.found) reader_.Fail("two PLY elements \"face\"");
+    if (faces_.found) Fail("two PLY elements \"face\"");
     faces_.found = true;
     const PlyProperty* corners = nullptr;
     for (const PlyProperty& property : element.properties) {
@@ -151,7 +152,7 @@ class BodyReader {
       if (named && property.is_list && corners == nullptr) corners = &property;
     }
     if (corners == nullptr) {
-      reader_.Fail("the PLY element \"face\" needs the list vertex_indices");
+      Fail("the PLY element \"face\" needs the list vertex_indices");
     }
     mesh_.indices.reserve(element.count * 3);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -176,7 +177,7 @@ class BodyReader {
     for (std::uint64_t i = 0; i < n; ++i) {
       const double index = reader_.Read(list.type);
       if (!(index >= 0) || index != std::floor(index) || index > 4294967295.0) {
-        reader_.Fail(fmt::format("{} in PLY face {} is not an index", index, face));
+        Fail("{} in PLY face {} is not an index", index, face);
       }
       corner[i] = static_cast<std::uint32_t>(index);
     }
@@ -187,24 +188,21 @@ class BodyReader {
     }
   }
 
-  // Only now, because faces may stand before vertices.
+  // Runs last, because faces may precede vertices.
   void CheckIndices() {
-    if (mesh_.positions.empty()) reader_.Fail("the PLY file has no vertices");
+    if (mesh_.positions.empty()) Fail("the PLY file has no vertices");
     if (mesh_.indices.empty()) {
-      reader_.Fail("the PLY file has no faces of 3 or 4 corners");
+      Fail("the PLY file has no faces of 3 or 4 corners");
     }
     for (std::uint32_t index : mesh_.indices) {
       if (index < mesh_.positions.size()) continue;
-      reader_.Fail(
-          fmt::format("a PLY face has the vertex index {}, but there are {} "
-                      "vertices",
-                      index, mesh_.positions.size()));
+      Fail("a PLY face has the vertex index {}, but there are {} vertices", index,
+           mesh_.positions.size());
     }
   }
 
-  // Gives every face vertices of its own with the default uvs (0,0) (1,0) (1,1) (0,1).
-  // Triangles have these anyway; the two halves of a quad could not share their corners
-  // otherwise.
+  // Gives every face its own vertices with the default uvs (0,0) (1,0) (1,1) (0,1), so
+  // that the two halves of a quad share their corners.
   void Unshare() {
     static constexpr std::array<double, 2> kUv[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     TriangleMesh out;
@@ -246,7 +244,7 @@ class BodyReader {
     result.other_faces = faces_.others;
     RepairPly(&result);
     if (result.mesh.indices.empty()) {
-      reader_.Fail("no face of the PLY file has corners with finite coordinates");
+      Fail("no face of the PLY file has corners with finite coordinates");
     }
     return result;
   }

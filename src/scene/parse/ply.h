@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/scene/description/description.h"
 
@@ -19,8 +20,7 @@ struct PlyMesh {
   TriangleMesh mesh;  // quads are split in two; without uvs in the file, meshes that have
                       // quads get pbrt's default: the corners of the unit square
   std::size_t bent_quads = 0;  // quads that are not flat, where the split shows
-  // Counts of repairs by src/scene/parse/ply_repair.h: vertices, vertices, triangles,
-  // faces.
+  // What src/scene/parse/ply.h did: vertices, vertices, triangles, faces.
   std::size_t bad_normals = 0, bad_uvs = 0, lost_triangles = 0, other_faces = 0;
 };
 
@@ -28,5 +28,14 @@ struct PlyMesh {
 /// (header, ASCII) or byte offset (binary): malformed or truncated data, counts beyond
 /// what the file can hold, indices out of range, no face that can be used.
 PlyMesh ParsePly(std::string_view bytes, const std::string& name);
+
+/// Normals that are not finite become zero: there the faces' own normals count
+/// (src/scene/compile/mesh.h). Surface coordinates that are not finite become (0, 0).
+/// Triangles with a corner that is nowhere are left out. Counts all that in `ply`.
+void RepairPly(PlyMesh* ply);
+
+/// One sentence for each kind of thing that was repaired, left out or approximated in the
+/// file `path`.
+std::vector<std::string> PlyNotes(const PlyMesh& ply, const std::string& path);
 
 }  // namespace lanelight

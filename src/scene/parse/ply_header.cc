@@ -17,7 +17,6 @@ constexpr std::size_t kLongestLine = 4096;
 constexpr std::size_t kMostElements = 64;
 constexpr std::size_t kMostProperties = 256;
 
-// Walks through the header line by line.
 class HeaderReader {
  public:
   HeaderReader(std::string_view bytes, const std::string& name)
@@ -25,8 +24,9 @@ class HeaderReader {
         line_end_(LineEndOf(bytes)),
         file_(std::make_shared<const std::string>(name)) {}
 
-  [[noreturn]] void Fail(const std::string& message) const {
-    throw InputError({file_, line_, 1}, message);
+  template <class... Args>
+  [[noreturn]] void Fail(fmt::format_string<Args...> format, Args&&... args) const {
+    throw InputError({file_, line_, 1}, fmt::format(format, std::forward<Args>(args)...));
   }
 
   // The words of the next line that is not a comment.
@@ -36,8 +36,8 @@ class HeaderReader {
       const std::size_t length = rest.substr(0, kLongestLine).find(line_end_);
       ++line_;
       if (length == rest.npos) {
-        Fail(rest.size() > kLongestLine ? "a line of the PLY header is too long"
-                                        : "the PLY header ends without end_header");
+        Fail("{}", rest.size() > kLongestLine ? "a line of the PLY header is too long"
+                                              : "the PLY header ends without end_header");
       }
       offset_ += length + 1;
       std::vector<std::string_view> words = Words(rest.substr(0, length));
@@ -51,7 +51,7 @@ class HeaderReader {
   SourceLocation where() const { return {file_, line_, 1}; }
 
  private:
-  // The first line shows it: binary data may begin with any byte.
+  // Taken from the first line, because binary data may begin with any byte.
   static char LineEndOf(std::string_view bytes) {
     const std::size_t first = std::min(bytes.find_first_of("\r\n"), bytes.size());
     const bool old_mac =
@@ -102,11 +102,10 @@ PlyType ParseType(const HeaderReader& reader, std::string_view name) {
 PlyFormat ParseFormat(const HeaderReader& reader,
                       const std::vector<std::string_view>& words) {
   if (words.size() != 3 || words[0] != "format") {
-    reader.Fail(
-        fmt::format("found {} where the PLY format line should stand", Quoted(words[0])));
+    reader.Fail("found {} where the PLY format line should stand", Quoted(words[0]));
   }
   if (words[2] != "1.0") {
-    reader.Fail(fmt::format("PLY version {} is not supported; 1.0 is", Quoted(words[2])));
+    reader.Fail("PLY version {} is not supported; 1.0 is", Quoted(words[2]));
   }
   const std::vector<std::string> names = {"ascii", "binary_little_endian",
                                           "binary_big_endian"};
@@ -124,7 +123,7 @@ PlyElement ParseElement(const HeaderReader& reader,
   const char* end = words[2].data() + words[2].size();
   const auto result = std::from_chars(words[2].data(), end, element.count);
   if (result.ec != std::errc() || result.ptr != end) {
-    reader.Fail(fmt::format("{} is not a count of PLY elements", Quoted(words[2])));
+    reader.Fail("{} is not a count of PLY elements", Quoted(words[2]));
   }
   return element;
 }
@@ -135,8 +134,8 @@ PlyProperty ParseProperty(const HeaderReader& reader,
   property.is_list = words.size() == 5 && words[1] == "list";
   if (!property.is_list && words.size() != 3) {
     reader.Fail(
-        "a PLY property line is \"property TYPE NAME\" or \"property list "
-        "COUNT_TYPE TYPE NAME\"");
+        "a PLY property line is \"property TYPE NAME\" or \"property list COUNT_TYPE "
+        "TYPE NAME\"");
   }
   property.name = words.back();
   property.type = ParseType(reader, words[words.size() - 2]);
@@ -150,26 +149,12 @@ PlyProperty ParseProperty(const HeaderReader& reader,
 
 }  // namespace
 
-bool PlyElement::has_lists() const {
-  for (const PlyProperty& property : properties) {
-    if (property.is_list) return true;
-  }
-  return false;
-}
-
 std::size_t PlyElement::least_bytes() const {
   std::size_t bytes = 0;
   for (const PlyProperty& property : properties) {
     bytes += PlySize(property.is_list ? property.count_type : property.type);
   }
   return bytes;
-}
-
-const PlyElement* PlyHeader::Find(std::string_view name) const {
-  for (const PlyElement& element : elements) {
-    if (element.name == name) return &element;
-  }
-  return nullptr;
 }
 
 PlyHeader ParsePlyHeader(std::string_view bytes, const std::string& name) {

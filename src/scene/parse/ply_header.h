@@ -38,7 +38,6 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  bool has_lists() const;
   /// Bytes of one element in a binary file at least (lists: empty).
   std::size_t least_bytes() const;
 };
@@ -48,8 +47,6 @@ struct PlyHeader {
   std::vector<PlyElement> elements;
   std::size_t body = 0;  // offset of the first byte after the header
   int body_line = 1;     // its line
-
-  const PlyElement* Find(std::string_view name) const;
 };
 
 /// Throws InputError with name and line.

@@ -1,4 +1,4 @@
-#include "src/scene/parse/ply_repair.h"
+#include "src/scene/parse/ply.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ bool IsFinite(const std::array<double, 2>& uv) {
   return std::isfinite(uv[0]) && std::isfinite(uv[1]);
 }
 
-// Sets what is not finite to zero; returns how many.
+// Sets values that are not finite to zero; returns their number.
 template <typename T>
 std::size_t ZeroBad(std::vector<T>* values) {
   std::size_t bad = 0;
@@ -30,7 +30,7 @@ std::size_t ZeroBad(std::vector<T>* values) {
   return bad;
 }
 
-// Closes the gaps that triangles without a place leave; returns how many.
+// Removes triangles with corners that are not finite; returns their number.
 std::size_t DropNowhere(TriangleMesh* mesh) {
   std::vector<std::uint32_t>& indices = mesh->indices;
   std::vector<bool>& continues = mesh->continues;
@@ -72,8 +72,8 @@ std::vector<std::string> PlyNotes(const PlyMesh& ply, const std::string& path) {
       "{} vertices of {} have normals that are not finite; the normals of their faces "
       "count there");
   add(ply.bad_uvs,
-      "{} vertices of {} have texture coordinates that are not finite; they count as "
-      "(0, 0)");
+      "{} vertices of {} have texture coordinates that are not finite; they count as (0, "
+      "0)");
   add(ply.lost_triangles,
       "left out {} triangles of {} with corners whose coordinates are not finite");
   add(ply.other_faces,

@@ -1,4 +1,3 @@
-#include "src/base/core/error_text.h"
 
 #include <catch2/catch.hpp>
 #include <stdexcept>

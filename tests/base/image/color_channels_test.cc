@@ -1,6 +1,6 @@
 // What is read of images by the channels that they have: as lights, as textures, and by
 // `lanelight compare`.
-#include "src/base/image/color_channels.h"
+#include "src/base/image/image.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "src/base/image/exr.h"
 #include "src/scene/compile/light_texels.h"
 #include "src/scene/compile/texture_programs.h"
-#include "src/scene/parse/height_texture.h"
+#include "src/scene/parse/displace.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/cli/process.h"
 #include "tests/kernels/texture/texture_files.h"

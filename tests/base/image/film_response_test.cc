@@ -8,7 +8,6 @@
 #include "src/base/core/error.h"
 #include "src/base/image/color_spaces.h"
 #include "src/base/image/exr.h"
-#include "src/base/image/film_response.h"
 #include "src/base/image/spectrum.h"
 #include "tests/base/image/temporary_folder.h"
 

@@ -7,8 +7,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/image/atomic_file.h"
-#include "src/base/image/png.h"
-#include "src/base/image/stb.h"
+#include "src/base/image/decode.h"
 #include "tests/base/image/temporary_folder.h"
 
 namespace lanelight {

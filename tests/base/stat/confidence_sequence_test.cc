@@ -1,5 +1,5 @@
 // Intervals that hold at all looks: against random walks.
-#include "src/base/stat/confidence_sequence.h"
+#include "src/base/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

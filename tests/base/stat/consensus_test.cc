@@ -1,6 +1,6 @@
 // Who departs from whom, by simulation: no false alarms, also where variances lie, and
 // planted departures are found.
-#include "src/base/stat/consensus.h"
+#include "src/base/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Holm's procedure: its own example, and the family-wise error by simulation.
-#include "src/base/stat/multiple.h"
+#include "src/base/stat/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/core/error.h"
-#include "src/base/core/file_descriptor.h"
 #include "src/base/core/input_file.h"
 #include "src/base/state/seal.h"
 #include "tests/base/image/temporary_folder.h"

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/base/image/blackbody.h"
 #include "src/base/image/spectrum.h"
 #include "tests/agreement/spectral_reference.h"
 #include "tests/kernels/media/varying_scenes.h"

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/base/image/blackbody.h"
+#include "src/base/image/spectrum.h"
 #include "tests/agreement/agreement.h"
 #include "tests/kernels/media/varying_scenes.h"
 

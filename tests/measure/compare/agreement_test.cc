@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "src/base/image/variance_unit.h"
+#include "src/base/image/image.h"
 
 namespace lanelight {
 namespace {

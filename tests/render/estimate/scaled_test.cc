@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "src/base/image/variance_unit.h"
+#include "src/base/image/image.h"
 #include "src/measure/compare/metrics.h"
 #include "src/render/estimate/estimate.h"
 

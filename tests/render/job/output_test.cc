@@ -11,7 +11,7 @@
 #include "src/base/core/error.h"
 #include "src/base/image/atomic_file.h"
 #include "src/base/image/exr.h"
-#include "src/base/image/variance_unit.h"
+#include "src/base/image/image.h"
 #include "tests/cli/process.h"
 
 namespace lanelight {

@@ -1,6 +1,7 @@
 // Overrides of a scene and the limits of what is asked for.
 #include "src/render/job/settings.h"
-#include "src/scene/description/rendered_pixels.h"
+#include "src/scene/description/description.h"
+#include "src/scene/description/film.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/base/image/rgb_spectrum.h"
+#include "src/base/image/upsampling.h"
 
 namespace lanelight {
 

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "src/base/image/blackbody.h"
 #include "src/base/image/spectrum.h"
 #include "src/base/image/upsampling.h"
 #include "src/scene/compile/medium_emission.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "src/base/core/error.h"
+#include "src/base/image/decode.h"
 #include "src/base/image/image.h"
-#include "src/base/image/stb.h"
 #include "tests/kernels/texture/texture_files.h"
 
 namespace lanelight {

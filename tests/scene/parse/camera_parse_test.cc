@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/image/color_spaces.h"
-#include "src/scene/description/image_changes.h"
+#include "src/scene/description/note.h"
 #include "tests/scene/parse/parse_text.h"
 
 namespace lanelight {

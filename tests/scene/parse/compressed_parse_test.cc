@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "src/base/core/gunzip.h"
 #include "src/base/core/input_file.h"
 #include "src/render/job/job.h"
 #include "src/scene/parse/parse.h"

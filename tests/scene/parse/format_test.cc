@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/scene/parse/format.h"
+#include "src/scene/parse/parse.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/scene/parse/format_faults.h"
 

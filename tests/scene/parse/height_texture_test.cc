@@ -1,5 +1,5 @@
 // Textures as evaluated on the host when meshes are displaced.
-#include "src/scene/parse/height_texture.h"
+#include "src/scene/parse/displace.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

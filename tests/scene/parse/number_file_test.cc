@@ -1,6 +1,6 @@
 // Files of numbers, parted as pbrt-v4 parts them.
 #include "src/base/core/error.h"
-#include "src/scene/parse/number_file.h"
+#include "src/scene/parse/lex.h"
 
 #include <catch2/catch.hpp>
 

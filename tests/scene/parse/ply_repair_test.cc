@@ -1,5 +1,5 @@
 // One bad number in a mesh file costs what it stands for, and no more.
-#include "src/scene/parse/ply_repair.h"
+#include "src/scene/parse/ply.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Shapes whose data stands in the scene file.
 #include <catch2/catch.hpp>
 
-#include "src/scene/parse/quad.h"
+#include "src/scene/parse/bilinear_patch.h"
 #include "tests/scene/parse/parse_text.h"
 
 namespace lanelight {

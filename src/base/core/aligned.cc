@@ -1,4 +1,4 @@
-#include "src/base/core/huge_pages.h"
+#include "src/base/core/aligned.h"
 
 #include <sys/mman.h>
 
@@ -12,7 +12,7 @@ void AdviseHugePages(void* data, std::size_t bytes) {
   const auto begin = reinterpret_cast<std::uintptr_t>(data);
   const std::uintptr_t first = (begin + kPage - 1) / kPage * kPage;
   const std::uintptr_t end = (begin + bytes) / kPage * kPage;
-  // Whole large pages only: what else is on the others is not ours.
+  // Only whole large pages: others hold memory of other owners.
   if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 #endif
 }
