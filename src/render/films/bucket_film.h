@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/base/core/check.h"
+#include "src/base/core/aligned.h"
 #include "src/base/core/column.h"
 #include "src/base/image/spectral_buckets.h"
 
