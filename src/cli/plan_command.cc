@@ -15,7 +15,7 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 #include "src/scene/description/image_changes.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 namespace {

@@ -14,7 +14,7 @@
 #include "src/render/job/identity.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/run_content.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {

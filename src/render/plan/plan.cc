@@ -10,7 +10,7 @@
 #include "src/base/core/error.h"
 #include "src/render/plan/check_strategy.h"
 #include "src/render/plan/plan_features.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 

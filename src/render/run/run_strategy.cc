@@ -12,7 +12,7 @@
 #include "src/render/wave/stop_watcher.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/rendered_pixels.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "src/base/core/check.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 #include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {

@@ -22,7 +22,7 @@ struct Progress {
 /// Most samples per pixel.
 inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
 /// Sample indices in kernels have 32 bits: so many later they begin again, under another
-/// seed. Whole turns of the longest randomisations (src/scene/prepare/groups.h).
+/// seed. Whole turns of the longest randomisations (src/scene/prepare/parameters.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
 /// What a profile gathers beside the times of stages.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "src/base/core/hash.h"
+#include "src/scene/accel/tree_report.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {
@@ -26,5 +28,30 @@ inline constexpr int LeafTrianglesFor(int lanes) {
 /// Builds everything that `geometry` needs. The result does not depend on the number of
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
+
+struct AccelOptions;  // src/scene/accel/build.h
+struct Geometry;      // src/scene/geometry/geometry.h
+
+using TreeKey = Hash128;
+
+/// XXH3 (128 bits) of everything that BuildAccel reads: places of shapes, groups,
+/// instances and options. Materials, lights, normals and texture coordinates are not in
+/// it.
+TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options);
+
+struct KnownTree {
+  TreeKey key;
+  Accel accel;
+};
+
+struct FoundTree {
+  Accel accel;
+  TreeReport report;
+};
+
+/// Returns the tree of `known`, which may be null, if it is of the same shapes; else
+/// BuildAccel's.
+FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
+                   const KnownTree* known);
 
 }  // namespace lanelight

@@ -1,12 +1,11 @@
-#include "src/scene/accel/collapse.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/blocker_order.h"
-#include "src/scene/accel/grow.h"
+#include "src/scene/accel/shape_items.h"
 
 namespace lanelight {
 namespace {
@@ -15,10 +14,9 @@ namespace {
 // docs/intersect.md.
 constexpr float kWideNodeCost = 22, kLeafCost = 30;
 
-// Subtrees of at most so many items are written by one thread.
 constexpr std::uint32_t kSubtree = 8192;
 
-// A part of the wide tree: references count from its own nodes and leaves.
+// A part of the wide tree; references are relative to its own nodes and leaves.
 struct Part {
   AlignedVector<WideNode> nodes;
   std::vector<LeafRange> leaves;
@@ -93,7 +91,7 @@ class Collapser {
             child.cost[0] / half};
   }
 
-  // The planned forest of `roots` trees below an inner node.
+  // Lists the roots of the planned forest of `roots` trees below an inner node.
   void Divide(std::uint32_t at, int roots, std::uint32_t child[kBvhWidth],
               int& count) const {
     const BinaryNode& n = tree_[at];
@@ -164,7 +162,6 @@ class Collapser {
 struct Place {
   std::size_t node = 0, leaf = 0;
 
-  // A reference that counted from the beginning of the part.
   std::uint32_t Of(std::uint32_t ref, bool single) const {
     if (ref == kEmptyRef || (single && (ref & kLeafBit))) return ref;
     return ref + static_cast<std::uint32_t>(ref & kLeafBit ? leaf : node);

@@ -1,4 +1,4 @@
-// Sorting items to the two sides of a split.
+// Sorts and measures many items with several threads.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "src/base/core/parallel.h"
 #include "src/scene/accel/builder.h"
+#include "src/scene/accel/wide_box.h"
 
 namespace lanelight {
 
@@ -87,6 +88,43 @@ std::uint32_t PartitionItems(BuildItem* items, std::uint32_t count, IsFirst&& is
     r += b == b_end;
   }
   return middle;
+}
+
+/// The box of some items, and that of twice their centres.
+struct Extents {
+  WideBox all, middles;
+
+  void Extend(const Extents& e) {
+    all.Extend(e.all);
+    middles.Extend(e.middles);
+  }
+};
+
+inline Extents ExtentsOf(const BuildItem* items, std::uint32_t count) {
+  Extents e;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Float4 lo = LowOf(items[i]), hi = HighOf(items[i]);
+    e.all.Extend(lo, hi);
+    e.middles.Extend(lo + hi);
+  }
+  return e;
+}
+
+inline void MeasureItems(const BuildItem* items, std::uint32_t count, AccelBox& box,
+                         AccelBox& centers) {
+  Extents e;
+  if (count < 2 * kPart) {
+    e = ExtentsOf(items, count);
+  } else {
+    std::vector<Extents> parts((count + kPart - 1) / kPart);
+    ParallelFor(parts.size(), [&](std::size_t i) {
+      const std::uint32_t begin = static_cast<std::uint32_t>(i) * kPart;
+      parts[i] = ExtentsOf(items + begin, std::min(kPart, count - begin));
+    });
+    for (const Extents& part : parts) e.Extend(part);
+  }
+  box = e.all.Box();
+  centers = e.middles.Box();
 }
 
 }  // namespace lanelight

@@ -1,11 +1,10 @@
-#include "src/scene/accel/reinsert.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <algorithm>
 #include <queue>
 #include <vector>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/collapse.h"
 
 namespace lanelight {
 namespace {
@@ -19,7 +18,6 @@ constexpr std::size_t kOneIn = 64, kAndAlso = 512, kAmong = 4;
 constexpr int kLooks = 4096;
 // Moves keep to this depth, which a tree fresh from the builder may exceed by little.
 constexpr int kMaxDepth = 64;
-// Subtrees whose places one task looks for.
 constexpr std::size_t kSearchGrain = 64;
 // The owner of pairs that a round does not reach.
 constexpr std::uint32_t kUnknown = 0xffffffffu;
@@ -29,7 +27,7 @@ AccelBox Join(AccelBox a, const AccelBox& b) {
   return a;
 }
 
-// A subtree, and beside which one it is better placed.
+// A subtree and its better sibling.
 struct Move {
   float gain = 0;
   std::size_t rank = 0;  // of the subtree by its size
@@ -54,7 +52,7 @@ class Reinserter {
         owner_(tree.size() / 2, kUnknown),
         large_(FindLarge()) {}
 
-  // Makes the moves that gain most; returns how many.
+  // Makes the moves that gain most; returns their number.
   std::size_t Round() {
     std::vector<Move> moves(large_.size());
     ParallelForRange(moves.size(), kSearchGrain, [&](std::size_t begin, std::size_t end) {
@@ -205,7 +203,7 @@ class Reinserter {
     }
   }
 
-  // Less is rounding.
+  // Smaller gains are rounding errors.
   static constexpr float kLeastGain = 1e-6f;
 
   BinaryTree& tree_;

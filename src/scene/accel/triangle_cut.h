@@ -1,8 +1,12 @@
-// Boxes of the parts of a triangle between two planes across an axis.
+// Decides which triangles a build cuts, and bounds their parts.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
+#include "src/scene/accel/builder.h"
 #include "src/scene/accel/wide_box.h"
 #include "src/scene/geometry/geometry.h"
 
@@ -19,7 +23,6 @@ class SortedTriangle {
     if (p_[1][axis] < p_[0][axis]) std::swap(p_[0], p_[1]);
   }
 
-  /// Corners `k` in [0, 3).
   Float4 corner(int k) const { return p_[k]; }
 
   /// Box of what lies at coordinate `x` of the axis, up to rounding: empty beyond the
@@ -53,5 +56,23 @@ bool IsEmpty(const AccelBox& box);
 /// `axis` is `x`, rounded outwards: every point of the triangle in `box` lies in one.
 CutBoxes CutTriangle(const TriangleRecord& triangle, const AccelBox& box, int axis,
                      float x);
+
+struct CutPlan {
+  std::uint32_t room = 0;  // items that may be added
+  /// Items of the smallest range that may be cut.
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  /// A plane is taken if it costs less than this times the best split without cuts: in
+  /// ranges of kLargeRange items and more, and in smaller ones.
+  float gain = 0, small_gain = 0;
+
+  float Gain(std::uint32_t count) const {
+    return count < kLargeRange ? small_gain : gain;
+  }
+  static constexpr std::uint32_t kLargeRange = 128;
+};
+
+/// A plan for a mesh, by how much of the boxes of its triangles is empty. `items`, not
+/// none of them, are whole triangles.
+CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* triangles);
 
 }  // namespace lanelight

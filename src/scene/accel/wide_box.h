@@ -24,7 +24,6 @@ static_assert(offsetof(AccelBox, hi) == 12 && offsetof(BuildItem, id) == 24);
 inline Float4 LowOf(const BuildItem& item) { return Load4(&item.box.lo.x); }
 inline Float4 HighOf(const BuildItem& item) { return Load4(&item.box.hi.x); }
 
-/// A box as it grows.
 struct WideBox {
   Float4 lo{INFINITY, INFINITY, INFINITY, INFINITY};
   Float4 hi{-INFINITY, -INFINITY, -INFINITY, -INFINITY};

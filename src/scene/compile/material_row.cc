@@ -1,4 +1,4 @@
-#include "src/scene/compile/material_row.h"
+#include "src/scene/compile/materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/coat_color.h"
-#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/coat.h"
 
 namespace lanelight {
 namespace {
@@ -19,7 +18,6 @@ float RoughAlpha(const MaterialRow& row, double alpha) {
   return static_cast<float>(std::max(alpha, kMinAlpha));
 }
 
-// The spectra of its colours and of its index.
 void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
                         MaterialTable& table) {
   const bool metal = HasTrait(row.kind, kMetallic);
@@ -107,7 +105,7 @@ void SetBaseColor(MaterialTable& table, std::size_t i, int bounces) {
 
 namespace {
 
-// Where a coat varies, the colour of its base is corrected for this node of the roughness
+// If a coat varies, the colour of its base is corrected for this node of the roughness
 // (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
 constexpr int kTypicalAlpha = 6;
 

@@ -1,4 +1,4 @@
-#include "src/scene/compile/medium_grid.h"
+#include "src/scene/compile/media.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,8 @@
 #include <cstring>
 
 #include "src/base/core/sparse_grid.h"
-#include "src/scene/compile/medium_emission.h"
-#include "src/scene/compile/range.h"
-#include "src/scene/compile/store.h"
-#include "src/scene/compile/voxel_spectra.h"
+#include "src/scene/compile/focus.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
@@ -99,15 +97,11 @@ double BoundOf(const MediumGrid& grid, Transport transport, const int cell[3]) {
 }
 
 void SetMajorants(Transport transport, MediumGrid& grid) {
-  grid.majorants.reserve(kMajorantCells * kMajorantCells * kMajorantCells);
-  for (int z = 0; z < kMajorantCells; ++z) {
-    for (int y = 0; y < kMajorantCells; ++y) {
-      for (int x = 0; x < kMajorantCells; ++x) {
-        const int cell[3] = {x, y, z};
-        grid.majorants.push_back(
-            static_cast<float>(BoundOf(grid, transport, cell) * kSlack));
-      }
-    }
+  constexpr int n = kMajorantCells;
+  for (int i = 0; i < n * n * n; ++i) {
+    const int cell[3] = {i % n, i / n % n, i / (n * n)};
+    const double bound = BoundOf(grid, transport, cell);
+    grid.majorants.push_back(static_cast<float>(bound * kSlack));
   }
 }
 

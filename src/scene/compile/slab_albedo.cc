@@ -192,8 +192,8 @@ SlabAlbedos::SlabAlbedos(double g, double eta) : reflectances_(kAlbedos) {
 }
 
 double SlabAlbedos::Of(double reflectance) const {
-  const auto below = std::find_if(reflectances_.begin(), reflectances_.end(),
-                                  [&](double r) { return r <= reflectance; });
+  const auto below =
+      std::ranges::find_if(reflectances_, [&](double r) { return r <= reflectance; });
   if (below == reflectances_.begin()) return 1;
   if (below == reflectances_.end()) return 0;
   // A cubic through the four nodes around it: s as a function of the reflectance.

@@ -14,7 +14,7 @@ constexpr double kLongest = 64;
 constexpr double kMostRows = 256;
 // Around poles and centres, where a triangle's u is off by half of its own.
 constexpr int kLeastColumns = 64;
-// What hand-written matrices are forgiven, relatively.
+// Relative tolerance for hand-written matrices.
 constexpr double kRoundTolerance = 1e-5;
 
 bool IsCircle(const Transform& t) {

@@ -1,4 +1,4 @@
-#include "src/scene/compile/texture_images.h"
+#include "src/scene/compile/texture_programs.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,6 @@
 #include "src/base/core/parallel.h"
 #include "src/base/image/color_channels.h"
 #include "src/base/image/repair.h"
-#include "src/scene/compile/mip_levels.h"
-#include "src/scene/compile/texture_programs.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -90,7 +88,7 @@ TextureImage PackImage(const Image& image, const ImageKey& key, int decode) {
   return out;
 }
 
-// Adds the place of the texture to what the file's reader says.
+// Adds the texture's location to errors of the image reader.
 template <class F>
 void AtPlace(const Texture& texture, F&& f) {
   try {

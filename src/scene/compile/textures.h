@@ -1,9 +1,14 @@
 // Properties of textures that compiling needs before they are compiled.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "src/scene/compiled/materials.h"
+#include "src/scene/compiled/texture_table.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -35,5 +40,38 @@ class TextureConstants {
 /// its file is not read. Indices stay what they are.
 std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
                                       const std::vector<Index>& used);
+
+/// The effect of a material on the shading normal: at most one of the two textures.
+struct Relief {
+  Index displacement = kNone, normal_map = kNone;
+};
+
+/// Finds the relief of materials. Normal maps are files: each becomes a texture of its
+/// own in `derived`, which are numbered after those of the description.
+class Reliefs {
+ public:
+  Reliefs(const std::vector<Texture>& textures, std::vector<Texture>& derived)
+      : first_(textures.size()), derived_(derived) {}
+
+  /// A constant height has no slope and is left out. A normal map goes before a height,
+  /// as in pbrt-v4.
+  Relief Of(const Material& material, const TextureConstants& constants);
+
+ private:
+  std::size_t first_;
+  std::map<std::string, Index> index_;
+  std::vector<Texture>& derived_;
+};
+
+/// Empties the columns that no material uses.
+void DropUnusedReliefs(MaterialTable& table);
+
+/// Returns whether this texture itself, operands aside, depends on the place or the
+/// normal.
+bool UsesPlace(const Texture& texture);
+
+/// Sets what the kernels need of mappings and patterns; nothing where !UsesPlace.
+void SetPlace(const Texture& texture, const Transform& world_from_scene,
+              TextureNode& node);
 
 }  // namespace lanelight

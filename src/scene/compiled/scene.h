@@ -10,7 +10,6 @@
 
 #include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
-#include "src/scene/compiled/alpha.h"
 #include "src/scene/compiled/camera.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/materials.h"
@@ -46,8 +45,24 @@ struct CompiledScene {
 };
 
 /// What kernels read of a scene, seen so. Refers to its arguments.
-SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
-                   const LightChances* chances);
+inline SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
+                          const LightChances* chances) {
+  return {.geometry = &scene.geometry,
+          .ranges = &scene.geometry.ranges,
+          .accel = &scene.accel,
+          .materials = &scene.materials,
+          .textures = &scene.textures,
+          .spectra = &scene.spectra,
+          .alpha = &scene.alpha,
+          .media = &scene.media,
+          .lights = &scene.lights,
+          .filter = &scene.filter,
+          .camera = &view.camera,
+          .footprint = &view.footprint,
+          .gbuffer = &view.gbuffer,
+          .chances = chances,
+          .scale = scene.scale};
+}
 
 /// Returns whether alpha cuts an emitting shape.
 inline bool IsCut(const CompiledScene& scene, const LightRecord& light) {

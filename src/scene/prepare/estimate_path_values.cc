@@ -9,9 +9,9 @@
 namespace lanelight {
 namespace {
 
-// Side of a coarse cell in cells.
+// Cells per side of a coarse cell.
 constexpr std::int32_t kCoarse = 4;
-// Records of the coarser cell that count as much as the finer cell's own.
+// Weight, in records, of the coarser cell in the estimate of a finer one.
 constexpr double kBorrowed = 8;
 // Of the mean of all cells, what a cell is worth at least: a short training pass may have
 // missed what lights it.
@@ -23,7 +23,7 @@ CellGrid Coarser(const CellGrid& fine) {
   return coarse;
 }
 
-// Calls body(cell, coarse cell) for all cells, in their order.
+// Calls body(cell, coarse cell) for all cells in ascending order.
 template <class Body>
 void ForCells(const CellGrid& fine, const CellGrid& coarse, const Body& body) {
   std::uint32_t cell = 0;
@@ -78,8 +78,8 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
 
 CellRecords::Sums CellRecords::Sorted() const {
   Sums sorted = sums_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(sorted,
+                    [](const auto& a, const auto& b) { return a.first < b.first; });
   return sorted;
 }
 
