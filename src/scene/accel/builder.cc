@@ -92,20 +92,15 @@ class TreeBuilder {
       if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
-      const std::uint32_t middle = Cut(range, box, cuts_.Gain(count) * split.cost, block);
-      if (middle != range.begin && middle != range.end) return middle;
+      const SpatialSplit cut =
+          FindSpatialSplit(items_, range, box, limit_.triangles, block);
+      if (cut.cost < cuts_.Gain(count) * split.cost) {
+        const std::uint32_t middle =
+            CutAndPartition(items_, range, cut, limit_.triangles);
+        if (middle != range.begin && middle != range.end) return middle;
+      }
     }
     return range.begin + Partition(items, count, centers, split);
-  }
-
-  // Cuts `range` by a plane that costs less than `cost`; returns where the second side
-  // begins, or an end of `range` if there is no such plane.
-  std::uint32_t Cut(ItemRange& range, const AccelBox& box, float cost,
-                    std::uint32_t block) {
-    const SpatialSplit split =
-        FindSpatialSplit(items_, range, box, limit_.triangles, block);
-    if (!(split.cost < cost)) return range.begin;
-    return CutAndPartition(items_, range, split, limit_.triangles);
   }
 
   // Returns the area of the triangles; a cut one counts in proportion to its box.

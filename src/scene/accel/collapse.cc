@@ -58,7 +58,11 @@ class Collapser {
     ChildOdds odds[kBvhWidth];
     for (int c = 0; c < kBvhWidth; ++c) {
       const int from = slot[c];
-      SetChild(node, c, from >= 0 ? tree_[child[from]].box : AccelBox());
+      const AccelBox box = from >= 0 ? tree_[child[from]].box : AccelBox();
+      for (int a = 0; a < 3; ++a) {
+        node.bounds[a][0][c] = box.lo[a];
+        node.bounds[a][1][c] = box.hi[a];
+      }
       node.child[c] = kEmptyRef;
       if (from < 0) continue;
       odds[c] = OddsOf(tree_[child[from]], tree_[at]);
@@ -139,13 +143,6 @@ class Collapser {
       }
       slot[best_s] = best_c;
       open &= ~(1u << best_c);
-    }
-  }
-
-  static void SetChild(WideNode& node, int c, const AccelBox& box) {
-    for (int a = 0; a < 3; ++a) {
-      node.bounds[a][0][c] = box.lo[a];
-      node.bounds[a][1][c] = box.hi[a];
     }
   }
 

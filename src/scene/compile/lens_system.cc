@@ -140,14 +140,6 @@ struct Bounds {
   }
 };
 
-// Stops as circles that hold all that the picture of the aperture lets through.
-void HoldPicture(const LensSystem& lenses, std::vector<LensElement>& elements) {
-  const double reach = ApertureReach(lenses);
-  for (LensElement& e : elements) {
-    if (e.radius == 0) e.aperture *= reach;
-  }
-}
-
 // Points of a grid over `within` that rays from the ring's film points come through.
 Bounds Passing(const std::vector<LensElement>& elements, double r0, double r1,
                const Bounds& within) {
@@ -191,7 +183,10 @@ LensSystem CompileLenses(const Camera& camera, double unit) {
                             static_cast<float>(e.aperture)});
   }
   StoreAperture(camera, out);
-  HoldPicture(out, elements);
+  // Stops become circles around all that the image of the aperture transmits.
+  for (LensElement& e : elements) {
+    if (e.radius == 0) e.aperture *= ApertureReach(out);
+  }
   const double ring = camera.film_diagonal / 2 / kRings;
   out.pupils.resize(kRings);
   ParallelFor(kRings, [&](std::size_t i) {

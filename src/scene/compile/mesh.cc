@@ -51,7 +51,8 @@ class MeshCompiler {
   bool Compile(std::size_t i) const {
     Corners c = {Fetch(i, 0), Fetch(i, 1), Fetch(i, 2)};
     Vec3d cross = Cross(c[1].p - c[0].p, c[2].p - c[0].p);
-    if (IsTurned(c, cross)) {
+    const double side = Dot(c[0].n + c[1].n + c[2].n, cross);
+    if (side != 0 ? side < 0 : turned_) {
       std::swap(c[1], c[2]);
       cross = -cross;
     }
@@ -86,12 +87,6 @@ class MeshCompiler {
       if (IsFinite(n)) corner.n = reverse_ ? -n : n;
     }
     return corner;
-  }
-
-  // True if the cross product of the edges is to be turned round.
-  bool IsTurned(const Corners& c, Vec3d cross) const {
-    const double side = Dot(c[0].n + c[1].n + c[2].n, cross);
-    return side != 0 ? side < 0 : turned_;
   }
 
   bool StoreNormals(std::size_t i, const Corners& c, Vec3d face) const {

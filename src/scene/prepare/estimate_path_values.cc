@@ -62,14 +62,13 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
   constexpr double kRecords = 12, kLongest = 48;
   const double side =
       std::clamp(std::sqrt(double(vertices) / (6 * kRecords)), 1.0, kLongest);
-  const float lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
   float longest = 0;
-  for (int a = 0; a < 3; ++a) longest = std::max(longest, highs[a] - lows[a]);
+  for (int a = 0; a < 3; ++a) longest = std::max(longest, high[a] - low[a]);
   CellGrid grid;
   if (!(longest > 0) || !std::isfinite(longest)) return grid;
   for (int a = 0; a < 3; ++a) {
-    const double share = double(highs[a] - lows[a]) / longest;
-    grid.low[a] = lows[a];
+    const double share = double(high[a] - low[a]) / longest;
+    grid.low[a] = low[a];
     grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(share * side)));
     grid.per_unit[a] = static_cast<float>(side / longest);
   }
@@ -125,9 +124,8 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
   const std::size_t per_pixel = samples.size() / pixels.size();
   LL_CHECK_EQ(per_pixel * pixels.size(), samples.size());
   for (const Vec3f& v : samples) {
-    const float color[3] = {v.x, v.y, v.z};
     for (int c = 0; c < 3; ++c) {
-      mean_[c] += std::max(color[c], 0.0f) / static_cast<double>(samples.size());
+      mean_[c] += std::max(v[c], 0.0f) / static_cast<double>(samples.size());
     }
   }
   std::vector<Sum> sums(std::size_t{columns_} * rows_);
@@ -135,9 +133,8 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
     const std::uint32_t pixel = pixels[i / per_pixel];
     Sum& sum =
         sums[std::size_t{pixel / width_ / kTile} * columns_ + pixel % width_ / kTile];
-    const float color[3] = {samples[i].x, samples[i].y, samples[i].z};
     for (int c = 0; c < 3; ++c) {
-      sum.color[c] += std::clamp<double>(color[c], 0, kClamp * mean_[c]);
+      sum.color[c] += std::clamp<double>(samples[i][c], 0, kClamp * mean_[c]);
     }
     sum.count += 1;
   }
