@@ -89,7 +89,7 @@ Bvh Collapse(const BinaryTree& tree, const std::vector<BuildItem>& items, bool s
 /// Changed nodes are planned anew.
 void ReinsertSubtrees(BinaryTree& tree);
 
-/// What is known of a child of a wide node, by its slot. All 0 for an unused slot.
+/// Statistics of a child of a wide node, by slot. All 0 for an unused slot.
 struct ChildOdds {
   float entered = 0;  // probability that a line through the node enters it
   float blocks = 0;   // that what is in it blocks a line that enters it

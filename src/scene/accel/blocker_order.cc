@@ -6,8 +6,8 @@
 namespace lanelight {
 namespace {
 
-// Less than this part of the cost is not worth leaving the order along rays, in which
-// the rays of a packet stay together longest.
+// Least relative gain that justifies leaving the order along rays, which keeps the rays
+// of a packet together longest.
 constexpr float kLeastGain = 0.005f;
 
 // Returns the expected cost of visiting slots 0 ^ first, 1 ^ first, ...

@@ -143,8 +143,8 @@ std::vector<AccelBox> InstanceBoxes(const Geometry& geometry,
   return boxes;
 }
 
-// How much lengths grow at most on the ways to the scene and back, and what is added to
-// coordinates on the way to the object.
+// Largest growth of lengths by the maps to scene and object, and the largest translation
+// of the map to the object.
 struct Growth {
   float to_scene, to_object, translation;
 };

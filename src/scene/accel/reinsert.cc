@@ -14,7 +14,7 @@ namespace {
 // rounds or larger parts gain less than 1 %.
 constexpr int kRounds = 3;
 constexpr std::size_t kOneIn = 64, kAndAlso = 512, kAmong = 4;
-// Nodes looked at for one subtree: where most boxes overlap a search would see them all.
+// Largest number of nodes visited per subtree; without it, overlapping boxes need all.
 constexpr int kLooks = 4096;
 // Moves keep to this depth, which a tree fresh from the builder may exceed by little.
 constexpr int kMaxDepth = 64;
@@ -45,7 +45,7 @@ struct Open {
 // changes what lies at four of them.
 class Reinserter {
  public:
-  // Notes in `changed` the places whose subtrees do not stay as they are.
+  // Appends to `changed` the places whose subtrees change.
   Reinserter(BinaryTree& tree, std::vector<std::uint32_t>& changed)
       : tree_(tree),
         changed_(changed),
@@ -187,7 +187,7 @@ class Reinserter {
     changed_.push_back(at);  // as the place may be where it was
   }
 
-  // What nodes know of their children, from one up; returns how the sum of areas changes.
+  // Updates a node and its ancestors; returns the change of the sum of areas.
   double Refit(std::uint32_t at) {
     for (double change = 0;; at = Parent(at)) {
       BinaryNode& n = tree_[at];

@@ -33,8 +33,8 @@ class KeyText {
     text_.append(reinterpret_cast<const char*>(&value), sizeof(value));
   }
 
-  // Of `floats` floats for each of `records`, which take(record, to) copies. Hashed in
-  // parts of a fixed size, so that the number of threads does not matter.
+  // Adds `floats` floats of each record, copied by take(record, to). Parts of a fixed
+  // size are hashed, so that the result does not depend on the number of threads.
   template <typename Records, typename Take>
   void AddFloats(const Records& records, std::size_t floats, const Take& take) {
     constexpr std::size_t kPart = 8192;

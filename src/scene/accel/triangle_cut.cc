@@ -97,7 +97,7 @@ float Waste(const std::vector<BuildItem>& items, const TriangleRecord* triangles
 
 CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* triangles) {
   const auto count = static_cast<std::uint32_t>(items.size());
-  // Without overlap the levels below gain, too, so that a plane may cost more at first.
+  // Lower levels gain from less overlap too, so a plane may cost more at first.
   if (Waste(items, triangles) > kWaste) {
     return {.room = count / 4 * 3, .least = CutPlan::kLargeRange, .gain = 1.1f};
   }

@@ -59,7 +59,7 @@ CutBoxes CutTriangle(const TriangleRecord& triangle, const AccelBox& box, int ax
 
 struct CutPlan {
   std::uint32_t room = 0;  // items that may be added
-  /// Items of the smallest range that may be cut.
+  /// Smallest number of items of a range that may be cut.
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   /// A plane is taken if it costs less than this times the best split without cuts: in
   /// ranges of kLargeRange items and more, and in smaller ones.

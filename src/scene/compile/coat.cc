@@ -76,8 +76,8 @@ void AddMicrofacet(const CoatSide& s, const Vec3d& wo, const Vec3d& m, double we
   }
 }
 
-// Integral over the normals visible from mu, through the spherical cap that they are
-// uniform over when stretched (Dupuy and Benyoub 2023). Midpoints: periodic in phi.
+// Integrates over the normals visible from mu, which are uniform over a stretched
+// spherical cap (Dupuy and Benyoub 2023), at midpoints, since phi is periodic.
 Fluxes Rough(const CoatSide& s, double mu, int rings, int spokes) {
   const double x = std::sqrt(1 - mu * mu);
   const double length = std::hypot(s.alpha * x, mu);

@@ -51,8 +51,8 @@ Rgb EffectiveCoatBase(Rgb rgb, const Spectrum& base, double internal, int bounce
 /// found once, with the first table.
 class CoatFits {
  public:
-  /// For a coat of that internal reflectance, with `bounces` off the base; both in range
-  /// for EffectiveCoatBase.
+  /// Returns the table of a coat with this internal reflectance and `bounces` off the
+  /// base, both in range for EffectiveCoatBase.
   std::vector<float> Table(double internal, int bounces);
 
  private:

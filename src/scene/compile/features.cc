@@ -76,7 +76,7 @@ bool FiltersTextures(const TextureTable& textures) {
   });
 }
 
-// By CameraKind.
+// Features by CameraKind.
 constexpr Feature kCameraFeature[] = {Feature::kPerspective, Feature::kOrthographic,
                                       Feature::kSphericalCamera,
                                       Feature::kRealisticCamera};
@@ -119,7 +119,7 @@ bool HasNonSpecular(const MaterialTable& materials) {
   });
 }
 
-// One kind of material instead of all that surfaces have; its colour is by path.
+// Replaces the kinds of all surfaces by one, whose colour varies by path.
 void ForceDiffuse(const MaterialTable& materials, FeatureSet& features) {
   for (int k = 0; k < kNumShadeKinds; ++k) {
     const auto kind = static_cast<ShadeKind>(k);

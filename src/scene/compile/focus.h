@@ -1,4 +1,4 @@
-// Which part of a scene float32 is to resolve best: what the camera sees up close.
+// Places the frame so that float32 resolves best what the camera sees up close.
 //
 // A coordinate is rounded in proportion to its distance from the frame's origin, and
 // distant things look small. If sizes span more than kFocusRange, the frame's origin is

@@ -207,7 +207,8 @@ void MakeQuadrics(const Placement& placement,
   g.ranges.end = g.ranges.curves + count(g.curves);
 }
 
-// One ulp wider than the double-precision bounds, so that rounded positions lie inside.
+// Makes bounds one ulp wider than in double precision, so that rounded positions lie
+// inside.
 void MakeBounds(const Placement& placement, Geometry& g) {
   const Vec3d lo = placement.frame.Point(placement.bounds.min);
   const Vec3d hi = placement.frame.Point(placement.bounds.max);

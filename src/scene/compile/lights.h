@@ -44,8 +44,8 @@ struct LightList {
   }
 };
 
-/// Where a light with a place stands, in scene coordinates. Throws InputError if that is
-/// beyond them.
+/// Returns a light's position in scene coordinates. Throws InputError if it is out of
+/// their range.
 inline Vec3d PositionOf(const Light& light, const WorldFrame& frame) {
   const Vec3d position = frame.Point(light.world_from_light.Point(light.from));
   RequireInScene(position, light.where, "light");

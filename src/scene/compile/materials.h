@@ -41,7 +41,7 @@ double AlphaOfRoughness(double roughness, bool remap);
 /// along one axis only).
 inline constexpr double kMinAlpha = 1e-4;
 
-/// One row of MaterialTable, in double precision.
+/// A row of MaterialTable in double precision.
 struct MaterialRow {
   ShadeKind kind = ShadeKind::kDiffuse;
   ColorValue color0, color1;

@@ -111,12 +111,12 @@ class MediumBuilder {
     }
   }
 
-  // What SetCoefficients and SetAlbedo say of three colours, for each bin of wavelengths.
+  // Does for each bin of wavelengths what SetCoefficients and SetAlbedo do for RGB.
   void AddSpectra(const Medium& m, MediumRecord& record) {
     std::vector<float> t = BinValues(UpsampledColor(m.sigma_a));
     std::vector<float> s = BinValues(UpsampledColor(m.sigma_s));
     std::vector<float> e = EmissionOf(m);
-    // What the record was scaled by, where the file's numbers are not beyond float32.
+    // The scale of the record, if the file's numbers are in the range of float32.
     const Rgb extinction = m.sigma_a + m.sigma_s;
     int most = 0;
     for (int c = 1; c < 3; ++c) {

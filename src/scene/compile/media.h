@@ -31,8 +31,8 @@ PlacedSparseGrid PlaceSparseGrid(std::shared_ptr<const SparseGrid> grid,
 VoxelSpectrum SpectrumOfVoxel(Rgb color);
 void AppendSpectrum(Rgb color, AlignedVector<float>& values);
 
-/// At no wavelength of a bin is it larger, as kernels evaluate it in float32, but for the
-/// rounding of a few operations. Of a grey: its value.
+/// Returns an upper bound over all bins, including the float32 rounding of kernels. For a
+/// grey it is its value.
 double LargestOf(const VoxelSpectrum& spectrum);
 
 /// Collisions, real and null ones, beyond which a medium is noted.

@@ -180,7 +180,8 @@ Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
   return all;
 }
 
-// Nothing but infinite planes: what the camera has to do with them sets the size.
+// Returns a box for scenes of infinite planes only, from the camera and its distance to
+// them.
 Box FallbackBox(const SceneDescription& d, const Placement& placement) {
   Box box;
   const Vec3d eye = d.camera.world_from_camera.Point({0, 0, 0});

@@ -27,7 +27,7 @@ void NoteSmall(const SourceLocation& where, const char* what, Index area_light,
   notes.push_back({where, message});
 }
 
-// Of a sphere, whose transform scales uniformly, or of a disk: what is left in float32.
+// Returns whether a sphere or disk has a positive size in float32.
 bool HasSize(const PlacedShape& placed, double scale) {
   const Shape& shape = *placed.shape;
   const double unit = Length(placed.transform.Vector({1, 0, 0})) * scale;

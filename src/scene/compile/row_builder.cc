@@ -109,7 +109,7 @@ void RowBuilder::Diffuse(const Material& m, MaterialRow& row) {
   row.color0 = Reflectance(m.reflectance);
 }
 
-// Index and extinction relative to `eta_above`.
+// Sets index and extinction relative to `eta_above`.
 void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
   row.by_reflectance = m.has_reflectance;
   if (m.has_reflectance) {

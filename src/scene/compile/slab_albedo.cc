@@ -79,7 +79,7 @@ void AddGauss(double low, double high, Streams& d) {
   }
 }
 
-// Of unpolarised light, from within a material of index eta.
+// Returns the Fresnel reflectance of unpolarised light within a material of index eta.
 double ReflectedInside(double mu, double eta) {
   const double sine2 = eta * eta * (1 - mu * mu);
   if (sine2 >= 1) return 1;

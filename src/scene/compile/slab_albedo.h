@@ -14,7 +14,7 @@ namespace lanelight {
 /// Wiscombe 1977). Absolute error below 1e-3 for |g| <= 0.9.
 double SlabReflectance(double albedo, double g, double eta);
 
-/// Its inverse, for all reflectances in [0, 1]: a table, computed once.
+/// The inverse of SlabReflectance, for all reflectances in [0, 1], as a table.
 class SlabAlbedos {
  public:
   SlabAlbedos(double g, double eta);

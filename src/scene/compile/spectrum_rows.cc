@@ -33,7 +33,7 @@ std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
     const Spectrum d65 = DaylightD65();
     values = BinMeans([&](double nm) { return (*spectrum)(nm) / d65(nm); });
   }
-  // What the fit misses of the luminance, and the unit of the spectrum.
+  // Divides out the unit of the spectrum and the error of the fit.
   const double luminance = Luminance(ColorOfBins(values));
   if (!(luminance > 0)) {
     throw InputError(fmt::format(

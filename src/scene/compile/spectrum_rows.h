@@ -45,7 +45,7 @@ class SpectrumRows {
   std::map<std::vector<float>, std::int32_t> rows_;
 };
 
-/// What a spectrum, or an index by wavelength, is the look of.
+/// A material, light or medium with a spectrum or an index by wavelength.
 struct SpectrumUser {
   SourceLocation where;
   std::string what;  // "the metal \"spoon\""
@@ -58,8 +58,7 @@ struct SpectrumUser {
 std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
                                          const std::vector<Index>& used);
 
-/// Of paths that carry red, green and blue: the first used glass whose index is taken at
-/// one wavelength.
+/// Adds a note, for RGB transport, about the first used glass that disperses.
 void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,
                     std::vector<Note>& notes);
 

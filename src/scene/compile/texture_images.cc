@@ -44,7 +44,7 @@ ChannelChoice ChooseChannels(const Image& image, const ImageKey& key) {
   return {*rgb, key.is_float && color};
 }
 
-// Bytes stay bytes, four to a word, unless a mean must be formed.
+// Packs four bytes into a word.
 TextureImage PackBytes(const Image& image, const ChannelChoice& channel, int decode) {
   TextureImage out;
   out.decode = decode;

@@ -88,7 +88,7 @@ Motion InFrames(const Motion& motion, const WorldFrame& scene, const WorldFrame&
   framed.way = motion.way * scene.scale;
   framed.pivot = object.center * object.scale;
   if (motion.angle != 0) return framed;
-  // Nothing turns about the origin of the object, which may lie far off.
+  // Without rotation, the pivot (the object's origin, perhaps far away) is not needed.
   framed.from += Times(framed.linear, framed.pivot);
   framed.way += Times(framed.change, framed.pivot);
   framed.pivot = {};

@@ -56,12 +56,12 @@ inline void Store(const Transform& t, float out[12]) {
   for (int i = 0; i < 12; ++i) out[i] = static_cast<float>(t(i / 4, i % 4));
 }
 
-/// From an object's frame to that of the scene, of a motion from its coordinates to the
-/// world's.
+/// Returns the motion from an object's frame to the scene's, given the one from object to
+/// world coordinates.
 Motion InFrames(const Motion& motion, const WorldFrame& scene, const WorldFrame& object);
 
-/// What takes the scene as a camera sees it at the start to the scene as it sees it
-/// later, in the scene's frame; `motion` is that of the camera, to the world.
+/// Returns the motion of the scene relative to a camera, in the scene's frame, given the
+/// camera's motion in the world.
 Motion OfCamera(const Motion& motion, const WorldFrame& scene);
 
 }  // namespace lanelight

@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-/// Slices of a bilinear function, in MeasuredTable::values.
+/// Slices of a bilinear function, stored in MeasuredTable::values.
 struct MeasuredGrid {
   std::int32_t at;  // of the first number
   std::int32_t width, height;
@@ -58,7 +58,7 @@ inline constexpr int kCoatTableSize = 64;
 inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
 inline constexpr float kRoughestCoat = 1e4f;
 
-/// Of the phase function of a coat's medium, at most.
+/// Largest asymmetry of the phase function of a coat's medium.
 inline constexpr float kMostCoatAsymmetry = 0.9999f;
 
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the

@@ -1,8 +1,7 @@
-// The owner of all that kernels read of a scene: flat float32 arrays, recentred and
-// scaled by a power of two (p_scene = (p_world - center) * scale), built once by
-// CompileScene (src/scene/compile/compile.h) and shared by all that render it, with
-// whatever strategy (src/scene/prepare/prepared_scene.h). Kernels include the tables that
-// they read instead (SceneParts), so that a change of one rebuilds few of them.
+// Owner of the scene data that kernels read: flat float32 arrays, recentred and scaled by
+// a power of two (p_scene = (p_world - center) * scale). CompileScene builds it once; all
+// renders share it. Kernels include the tables that they read instead (SceneParts), so
+// that a change of one table rebuilds few kernels.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +43,7 @@ struct CompiledScene {
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
-/// What kernels read of a scene, seen so. Refers to its arguments.
+/// Returns pointers into the arguments, for kernels.
 inline SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
                           const LightChances* chances) {
   return {.geometry = &scene.geometry,

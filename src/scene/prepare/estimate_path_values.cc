@@ -13,8 +13,8 @@ namespace {
 constexpr std::int32_t kCoarse = 4;
 // Weight, in records, of the coarser cell in the estimate of a finer one.
 constexpr double kBorrowed = 8;
-// Of the mean of all cells, what a cell is worth at least: a short training pass may have
-// missed what lights it.
+// Least value of a cell relative to the mean of all cells: a short training pass may have
+// missed its light.
 constexpr double kLeastValue = 0.1;
 
 CellGrid Coarser(const CellGrid& fine) {

@@ -27,7 +27,7 @@ struct LightBounds {
   Vec3d Center() const { return 0.5 * (low + high); }
   /// Returns the area of the box's surface.
   double Area() const;
-  /// Solid angle into which the lights shine, weighted by the cosine beyond the cone.
+  /// Returns the solid angle of emission, weighted by the cosine beyond the cone.
   double Orientation() const;
 };
 
