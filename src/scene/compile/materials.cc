@@ -19,7 +19,7 @@ class Builder {
         reliefs_(d.textures, build_.derived()),
         index_(d.materials.size(), -1) {}
 
-  // Depth first and without recursion: mixes may be nested as deep as a file likes.
+  // Depth first and without recursion, since mixes may be nested deeply.
   void Add(Index material) {
     std::vector<Index> open = {material};
     while (!open.empty()) {
@@ -119,8 +119,8 @@ class Builder {
     table.forced = static_cast<std::uint32_t>(Push(std::move(row)));
   }
 
-  // Behind the rows of the scene those that stand for them where paths are to meet
-  // rougher surfaces.
+  // Appends the rougher rows that replace those of the scene behind bounces that
+  // are not specular.
   void Regularize(MaterialTable& table) {
     const std::size_t count = rows_.size();
     for (std::size_t i = 0; i < count; ++i) {

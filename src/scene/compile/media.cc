@@ -24,8 +24,8 @@ std::int32_t PhaseFunction(const Medium& medium, CompiledMaterials& materials) {
   return static_cast<std::int32_t>(materials.table.size()) - 1;
 }
 
-// Per unit of scene length. Where an extinction is beyond float32, light gets nowhere,
-// and nowhere either with the largest one that kernels can square.
+// Sets coefficients per unit of scene length. An extinction beyond float32 is replaced by
+// the largest one that kernels can square, which transmits no light either.
 void SetCoefficients(const Medium& m, double scale, MediumRecord& record) {
   const Rgb extinction = m.sigma_a + m.sigma_s;
   for (int c = 0; c < 3; ++c) {
@@ -47,7 +47,7 @@ std::vector<float> EmissionOf(const Medium& m) {
   return values;
 }
 
-// The same of the densities of a grid, which are factors on the extinction.
+// Limits extinction times the densities of a grid to what kernels can square.
 void LimitDensity(const MediumGrid& grid, MediumRecord& record) {
   double largest = 0;
   for (const float majorant : grid.majorants)

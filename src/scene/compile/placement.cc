@@ -144,8 +144,8 @@ bool IsTooFar(Vec3d p) {
                   what, kFarthest));
 }
 
-// The box of a mesh; nothing if it reaches too far. Vertices that are no numbers to begin
-// with make degenerate triangles, which are left out; so are vertices of no triangle.
+// Returns the box of a mesh, or nothing if it reaches too far. Vertices that are not
+// finite (of degenerate triangles) and those of no triangle are left out.
 std::optional<Box> MeshBox(const PlacedShape& placed) {
   const TriangleMesh& mesh = *placed.mesh;
   // Most vertices are shared by six triangles, and placed once.
@@ -197,10 +197,6 @@ Box FallbackBox(const SceneDescription& d, const Placement& placement) {
   return box;
 }
 
-const ObjectDefinition& ObjectOf(const SceneDescription& d, const Instance& instance) {
-  return d.objects[static_cast<std::size_t>(instance.object)];
-}
-
 // An object definition: how often it is placed, and what of it can be instanced.
 struct ObjectUse {
   std::uint64_t count = 0;
@@ -221,7 +217,7 @@ struct ObjectUse {
 // copied.
 void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
                    const Instance& instance, const ObjectUse& use, Placement& placement) {
-  for (const Shape& shape : ObjectOf(d, instance).shapes) {
+  for (const Shape& shape : d.objects[static_cast<std::size_t>(instance.object)].shapes) {
     if (!use.copied && StaysInObject(d, shape, use.moves)) continue;
     if (const auto p = Place(d, constants, shape, &instance.world_from_object)) {
       AddToWorld(d, *p, placement);
