@@ -21,17 +21,16 @@ struct BinaryNode {
   std::uint32_t capacity = 0;        // as in LeafRange, if it is a leaf
   int height = 0;                    // levels below
   float area = 0;                    // of its triangles; 0 for other shapes
-  /// What the subtree costs as at most i + 1 wide nodes and leaves side by side, and how
-  /// the children share them then: see PlanCollapse.
+  /// Cost of the subtree as at most i + 1 wide nodes and leaves side by side, and the
+  /// number of these in the left child: see PlanCollapse.
   float cost[kBvhWidth];
   std::uint8_t left[kBvhWidth];
 
   bool IsLeaf() const { return child == 0; }
 };
 
-/// Nodes, added in pairs by any thread, children behind their parents. They stay where
-/// they are: chunks are added as they are needed, since most trees need far fewer nodes
-/// than the 2n that they may have.
+/// Nodes, added in pairs by any thread, children behind their parents. Chunks are added
+/// on demand and stay in place; most trees need far fewer nodes than the possible 2n.
 class BinaryTree {
  public:
   explicit BinaryTree(std::size_t items)
@@ -96,7 +95,7 @@ struct ChildOdds {
   float cost = 0;     // of following such a line through it
 };
 
-/// The probability that triangles of so much `area` in a box block a line that enters it.
+/// Returns the probability that triangles of total `area` block a line that enters a box.
 /// A line crosses surfaces in a convex body 2 area / (surface of the body) times on
 /// average (Cauchy and Crofton: Santalo 1976, chapter 14), taken to be independent.
 float BlockingOdds(float area, float half_area_of_box);

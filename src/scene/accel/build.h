@@ -11,8 +11,7 @@ namespace lanelight {
 
 struct Geometry;  // src/scene/geometry/geometry.h
 
-/// Options of the build; rendering uses the defaults. Tests and bench change what counts
-/// as few.
+/// Options of the build. Tests and benchmarks change the limits of `few_*`.
 struct AccelOptions {
   std::uint32_t few_triangles = kFewTriangles;
   std::uint32_t few_round = kFewRound;
@@ -29,14 +28,10 @@ inline constexpr int LeafTrianglesFor(int lanes) {
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
 
-struct AccelOptions;  // src/scene/accel/build.h
-struct Geometry;      // src/scene/geometry/geometry.h
-
 using TreeKey = Hash128;
 
-/// XXH3 (128 bits) of everything that BuildAccel reads: places of shapes, groups,
-/// instances and options. Materials, lights, normals and texture coordinates are not in
-/// it.
+/// Returns XXH3 (128 bits) of everything that BuildAccel reads: positions of shapes,
+/// groups, instances and options.
 TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options);
 
 struct KnownTree {
@@ -49,8 +44,7 @@ struct FoundTree {
   TreeReport report;
 };
 
-/// Returns the tree of `known`, which may be null, if it is of the same shapes; else
-/// BuildAccel's.
+/// Returns the tree of `known` (or null) if its shapes are equal; else builds one.
 FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
                    const KnownTree* known);
 

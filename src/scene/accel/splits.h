@@ -22,15 +22,15 @@ inline float Blocks(std::uint32_t count, std::uint32_t leaf_size) {
   return static_cast<float>((count + leaf_size - 1) / leaf_size);
 }
 
-/// Parameters of the search: splits into leaves of `leaf_size` items along all axes, or
-/// only along the one on which centres are farthest apart; and ObjectSplit::overlap.
+/// Parameters of the search: leaves of `leaf_size` items, all axes or only the one with
+/// the largest extent of centres, and whether ObjectSplit::overlap is needed.
 struct SplitSearch {
   std::uint32_t leaf_size = 1;
   bool overlap = false, one_axis = false;
 };
 
-/// The split of `count` items with the least sum of half area times blocks. `centers`
-/// holds twice their centres.
+/// Returns the split with the least sum of half area times blocks. `centers` bounds twice
+/// the centres of the items.
 ObjectSplit FindObjectSplit(const BuildItem* items, std::uint32_t count,
                             const AccelBox& centers, const SplitSearch& search);
 
@@ -40,8 +40,8 @@ std::uint32_t Partition(BuildItem* items, std::uint32_t count, const AccelBox& c
 
 struct TriangleRecord;  // src/scene/geometry/geometry.h
 
-/// A plane across `axis` at `x`, and the two sides of it: boxes and numbers of the parts
-/// of triangles there.
+/// A plane across `axis` at `x`, with boxes and numbers of the triangle parts on its
+/// sides.
 struct SpatialSplit {
   int axis = -1;  // -1: none
   float x = 0;
@@ -58,17 +58,15 @@ struct ItemRange {
   std::uint32_t room() const { return limit - end; }
 };
 
-/// The best of some planes for the items in `range`, whose union is `box`, that makes no
-/// more items than there is room for. An item is what lies in its box of triangle `id`.
+/// Returns the best of several planes that make no more items than there is room for. An
+/// item is the part of triangle `id` in its box; `box` is the union of all.
 SpatialSplit FindSpatialSplit(const BuildItem* items, ItemRange range,
                               const AccelBox& box, const TriangleRecord* triangles,
                               std::uint32_t leaf_size);
 
-/// Sorts the items to the sides of `split`, those of the second behind those of the
-/// first, and returns where the second side begins. Cuts items that lie on both sides,
-/// or leaves them whole on one side, where that costs less or there is no room; parts are
-/// appended to `range`. No side has an item twice. One side may be empty: then no item
-/// has changed.
+/// Sorts the items to the sides of `split` and returns where the second side begins.
+/// Items on both sides are cut, or kept whole on one side if that costs less or there is
+/// no room; parts are appended to `range`. If one side is empty, no item has changed.
 std::uint32_t CutAndPartition(BuildItem* items, ItemRange& range,
                               const SpatialSplit& split, const TriangleRecord* triangles);
 

@@ -13,33 +13,32 @@ namespace lanelight {
 CompiledCamera CompileCamera(const Camera& camera, const Film& film,
                              const WorldFrame& frame);
 
-/// Focused as a thick lens on what lies `focal_distance` camera units in front of the
-/// film, and with the exit pupil bounded for a film of that diagonal. Lengths of a lens
-/// file are millimetres, of which a camera unit has 1000; `unit`: scene lengths of a
-/// camera unit. Throws InputError at the camera: lenses that let no light through, or
-/// that cannot be focused at so short a distance; a picture of an aperture that cannot be
-/// used.
+/// Returns the lenses, focused as a thick lens at `focal_distance` camera units in front
+/// of the film, with bounds of the exit pupil. Lens files are in millimetres, 1000 per
+/// camera unit; `unit` is a camera unit in scene lengths. Throws InputError at the camera
+/// for lenses that transmit no light or cannot be focused, and for unusable aperture
+/// images.
 LensSystem CompileLenses(const Camera& camera, double unit);
 
 /// Stores the camera's aperture unless it is a circle, scaled to the brightness of one.
 /// Throws InputError at the camera for a file that is not a square image or is black.
 void StoreAperture(const Camera& camera, LensSystem& lenses);
 
-/// Distance from the axis beyond which the picture, looked up bilinearly, is black; in
-/// units of the stop's radius. 1 without a picture.
+/// Returns the distance from the axis, in radii of the stop, beyond which the aperture's
+/// image is black; 1 without an image.
 double ApertureReach(const LensSystem& lenses);
 
-/// `samples`: `pixelsamples` of the scene's Sampler, at least 1.
+/// Returns the footprint of a pixel. `samples` is `pixelsamples` of the scene's Sampler.
 PixelFootprint CompileFootprint(const CompiledCamera& compiled, const Camera& camera,
                                 const Film& film, int samples);
 
-/// Nothing without a g-buffer. The camera's space is pbrt's: x to the right, y up, z
-/// forward, in the units of its transform.
+/// Returns the space of the g-buffer, if there is one. As in pbrt, camera space has x to
+/// the right, y up, z forward, in the units of its transform.
 GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
                                  const WorldFrame& frame);
 
-/// One axis of a filter at distance x from its centre, as pbrt-v4 defines it; 0 outside
-/// the radius.
+/// Returns the value of one axis of a filter at distance x from its centre, as in
+/// pbrt-v4.
 double EvaluateFilter(const Filter& filter, double radius, double x);
 
 /// Throws InputError if the filter has no positive integral or a radius that is not

@@ -19,12 +19,12 @@ struct CoatTable {
   float internal_reflectance = 0;
 };
 
-/// Fluxes of a GGX interface of roughness `alpha` (below 1e-3: smooth; anisotropic
-/// interfaces: sqrt(ax ay)) and index `eta` > 0 relative to the outside, over a medium
-/// that absorbs exp(-thickness / cos) per crossing (pbrt-v4's coats, whose medium has
-/// unit extinction). Both include the losses of single-scattering GGX: light scattered to
-/// the wrong side and masked light is gone. Quadrature in double precision, absolute
-/// error below 2e-3 (smooth: 1e-6). Throws CheckFailure for values out of range.
+/// Returns the fluxes of a GGX interface of roughness `alpha` (below 1e-3: smooth;
+/// anisotropic interfaces: sqrt(ax ay)) and index `eta` > 0 relative to the outside, over
+/// a medium that absorbs exp(-thickness / cos) per crossing (pbrt-v4's coats, whose
+/// medium has unit extinction). Both include the losses of single-scattering GGX: light
+/// scattered to the wrong side and masked light is gone. Quadrature in double precision,
+/// absolute error below 2e-3 (smooth: 1e-6). Throws CheckFailure for values out of range.
 CoatTable ComputeCoatTable(double alpha, double eta, double thickness);
 
 // Colour of the base of a coat. Light bounces between base and coat, so what leaves is a
@@ -33,12 +33,13 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness);
 // are corrected when they are compiled (material_row.cc), textured ones by a table
 // (CoatFits).
 
-/// rho (1 + x + ... + x^(bounces-1)), x = rho * internal: what a coated base returns per
-/// unit of light that reaches it. rho and internal in [0, 1].
+/// Returns rho (1 + x + ... + x^(bounces-1)), x = rho * internal: the reflected fraction
+/// of the light that reaches a coated base. rho and internal are in [0, 1].
 double CoatedResponse(double rho, double internal, int bounces);
 
-/// RGB reflectance whose response per channel equals the colour, under D65, of the
-/// response of the spectrum of `rgb`. Equal to `rgb` for greys, and for one bounce.
+/// Returns the RGB reflectance whose response per channel equals the colour, under D65,
+/// of the response of the spectrum of `rgb`. Equal to `rgb` for greys, and for one
+/// bounce.
 Rgb EffectiveCoatBase(Rgb rgb, double internal, int bounces);
 /// The same with the spectrum of `rgb` (ReflectanceOfRgb), for a colour that is no grey.
 Rgb EffectiveCoatBase(Rgb rgb, const Spectrum& base, double internal, int bounces);

@@ -17,7 +17,7 @@ namespace lanelight {
 /// the centre of its box, with all spheres in the ordinary form.
 inline constexpr double kFocusRange = 64;
 
-/// The point of the sphere that is nearest to `eye`, and how far off that is.
+/// Point of a sphere that is nearest to `eye`, and its distance.
 struct Foot {
   Vec3d point;
   double distance = 0;
@@ -47,8 +47,8 @@ WorldFrame FocusFrame(const Placement& placement);
 
 inline constexpr double kFarthestInScene = 0x1p62, kSmallestInScene = 0x1p-62;
 
-/// For the camera, lights and planes, which are not in the bounds that make the frame:
-/// `p`, in scene coordinates. Throws InputError: "this <what> lies too far off ...".
+/// Throws InputError if `p`, in scene coordinates, is out of range. For the camera,
+/// lights and planes, which do not count for the frame.
 void RequireInScene(Vec3d p, const SourceLocation& where, const char* what);
 
 /// Removes the spheres, disks and instances that are too small or too flat.

@@ -43,7 +43,7 @@ class LightImageTable {
       : table_(table), notes_(notes) {}
 
   enum class Use { kColor, kGrey };  // kGrey: the mean of the channels
-  /// The image of a file, its axes left at 0. Throws InputError at the light.
+  /// Returns the image of a file, with axes 0. Throws InputError at the light.
   LightImage Load(const LightFile& file, Use use);
   std::uint32_t Add(const LightImage& image);
 

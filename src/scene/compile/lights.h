@@ -61,8 +61,8 @@ inline LightRecord EmptyRecord(LightShape shape) {
   return record;
 }
 
-/// The linear part of the way from the scene to the light. Throws InputError at the light
-/// if there is none in float32.
+/// Returns the linear map from the scene to the light. Throws InputError at the light if
+/// float32 cannot represent it.
 Transform LightFromScene(const Light& light);
 
 /// Sets axes of `image` so that dot(x_axis, w) is dot(x, LightFromScene(w)), and so on.
@@ -77,12 +77,12 @@ struct LightCone {
   double versine = 0;  // 1 - cos of its angle
 };
 
-/// The cone about the image of `axis` that holds those of `edge`, the rays along the edge
-/// of a convex cone.
+/// Returns the cone about the image of `axis` that contains the images of `edge`, rays
+/// along the edge of a convex cone.
 LightCone ConeAround(const Light& light, Vec3d axis, const std::vector<Vec3d>& edge);
 
-/// The cone about the image of the unit vector `axis` that holds all at most `degrees`
-/// from it.
+/// Returns the cone about the image of the unit vector `axis` that contains the images of
+/// all directions within `degrees` of it.
 LightCone StretchedCone(const Light& light, Vec3d axis, double degrees);
 
 /// Adds a light for each emitting triangle, rectangle of two triangles, sphere and disk,
@@ -108,9 +108,8 @@ void AddProjection(const Light& light, const WorldFrame& frame, LightImageTable&
 void AddPortalLight(const Light& light, const WorldFrame& frame, std::vector<Note>& notes,
                     LightList& lights);
 
-/// The portal of a light with four corners, and what of `environment` is seen through it:
-/// the map, bilinearly, at the middle of each texel, of which there are as many as the
-/// map has.
+/// Returns the portal of a light with four corners, with as many texels as the map: each
+/// is the map of `environment`, interpolated bilinearly at the texel's centre.
 Portal CompilePortal(const Light& light, const WorldFrame& frame,
                      const Environment& environment);
 

@@ -20,7 +20,7 @@ namespace lanelight {
 struct CompiledMaterials {
   MaterialTable table;              // only materials that are used
   std::vector<std::int32_t> index;  // of each described material in it; -1 = unused
-  std::vector<Index> textures;      // that the table refers to
+  std::vector<Index> textures;      // used by the table
   std::vector<Texture> derived;     // made for it; their indices follow the description's
   SpectrumRows* spectra = nullptr;  // of its colours; null: paths carry RGB
 };
@@ -71,8 +71,7 @@ struct Coat {
   friend auto operator<=>(const Coat&, const Coat&) = default;
 };
 
-/// Appends the row to every column, its spectra where there are some, and its textures to
-/// the list of those in use.
+/// Appends the row to every column, with its spectra, and lists its textures as used.
 void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out);
 
 /// Computes the tables of all coats in parallel and completes the rows that have one.
@@ -125,9 +124,8 @@ class RowBuilder {
 /// Returns the reflected fraction of light that arrives along the normal.
 Rgb HeadOnAlbedo(const MeasuredReflectance& measured);
 
-/// Adds the tables that rows refer to, each once; none do: nothing. Of paths that carry
-/// wavelengths spectra instead of colours, which are read from their files; throws
-/// InputError as ReadMeasuredSpectra().
+/// Adds the measured tables of the rows, each once; with spectral transport their
+/// spectra, read from files. Throws InputError as ReadMeasuredSpectra().
 void AddMeasured(const std::vector<MaterialRow>& rows, MeasuredTable& table,
                  Transport transport = Transport::kRgb);
 

@@ -14,20 +14,20 @@
 
 namespace lanelight {
 
-/// The grid of a medium that has one, in scene units, for paths of this kind.
+/// Returns the grid of a medium that has one, in scene units.
 MediumGrid CompileMediumGrid(const Medium& medium, const WorldFrame& frame,
                              Transport transport = Transport::kRgb);
 
-/// Scales, colours and temperatures of the description, and the black bodies' colours;
-/// of paths that carry wavelengths spectra of the colours at voxels.
+/// Returns the emission of a medium: scales, colours (spectral transport: spectra) and
+/// temperatures at voxels, and the colours of black bodies.
 MediumEmission CompileMediumEmission(const Medium& medium, Transport transport);
 
 /// Places a NanoVDB grid of the medium by its box.
 PlacedSparseGrid PlaceSparseGrid(std::shared_ptr<const SparseGrid> grid,
                                  const Medium& medium);
 
-/// The spectrum of a colour without bound, no channel below 0, as UpsampledColor has it,
-/// but by the table: looked up, not fitted. Greys are constant to the last bit.
+/// Returns the spectrum of a colour that is not negative, as UpsampledColor does, but
+/// from a table. Greys are exactly constant.
 VoxelSpectrum SpectrumOfVoxel(Rgb color);
 void AppendSpectrum(Rgb color, AlignedVector<float>& values);
 
@@ -35,24 +35,24 @@ void AppendSpectrum(Rgb color, AlignedVector<float>& values);
 /// grey it is its value.
 double LargestOf(const VoxelSpectrum& spectrum);
 
-/// Collisions, real and null ones, beyond which a medium is noted.
+/// Media with more real and null collisions per path get a note.
 inline constexpr double kManyCollisions = 3000;
 
-/// Mean number of collisions of a path of each channel in a body of volume V and surface
-/// S, the largest of all channels. A path that enters anywhere goes 4 V / S on average,
-/// however it scatters, unless `max_depth` or absorption ends it. Media that vary have
-/// null collisions besides.
+/// Returns the mean number of collisions of a path in a body of volume V and surface S,
+/// for the channel with the most. A path travels 4 V / S on average, however it scatters,
+/// unless `max_depth` or absorption ends it. Media that vary add null collisions.
 double MeanCollisions(const MediumRecord& medium, const MediumGrid* grid,
                       double mean_chord, int max_depth);
 
-/// A note for each medium, `at` its record or kVacuum, with more than kManyCollisions.
+/// Adds a note for each medium with more than kManyCollisions. `at[i]` is the record of
+/// medium i, or kVacuum.
 void NoteDenseMedia(const SceneDescription& description, const Placement& placement,
                     const MediumTable& table, const std::vector<std::int32_t>& at,
                     std::vector<Note>& notes);
 
-/// The media that the camera stands in or that a placed shape bounds, with a phase
-/// function for each appended to `materials`; nothing if there are none. Lists the sides
-/// of each shape that bounds a medium, but not yet by primitive. Notes dense media.
+/// Returns the media around the camera and those that placed shapes bound, and appends
+/// their phase functions to `materials`. Lists the sides of each shape that bounds a
+/// medium, but not yet by primitive. Notes dense media.
 MediumTable CompileMedia(const SceneDescription& description, const Placement& placement,
                          CompiledMaterials& materials, std::vector<Note>& notes);
 

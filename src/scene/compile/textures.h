@@ -1,4 +1,4 @@
-// Properties of textures that compiling needs before they are compiled.
+// Properties of textures: constants, use, bump and normal maps, positions.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,17 @@
 
 namespace lanelight {
 
-/// Which textures are the same everywhere: constants, and scale and mix of constants.
-/// Checkerboards, images and what is built on them depend on uv. Textures refer to
-/// earlier ones only, so one pass finds them all, however they are nested.
+/// Finds the constant textures: constants, and scale and mix of constants. Textures refer
+/// to earlier ones only, so one pass finds them all.
 class TextureConstants {
  public:
   explicit TextureConstants(const std::vector<Texture>& textures);
 
-  /// The value of a texture that is the same everywhere.
+  /// Returns the value of a constant texture.
   const std::optional<Rgb>& Of(Index texture) const {
     return constants_.at(static_cast<std::size_t>(texture));
   }
-  /// The same value, with a constant texture replaced by its constant.
+  /// Replaces a constant texture by its constant.
   ColorValue Fold(const ColorValue& value) const;
   FloatValue Fold(const FloatValue& value) const;
 
@@ -36,8 +35,8 @@ class TextureConstants {
   std::vector<std::optional<Rgb>> constants_;
 };
 
-/// A copy in which every texture that none of `used` needs is a black constant, so that
-/// its file is not read. Indices stay what they are.
+/// Returns a copy in which textures that no texture in `used` needs are black constants,
+/// so that their files are not read. Indices stay the same.
 std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
                                       const std::vector<Index>& used);
 
@@ -66,11 +65,10 @@ class Reliefs {
 /// Empties the columns that no material uses.
 void DropUnusedReliefs(MaterialTable& table);
 
-/// Returns whether this texture itself, operands aside, depends on the place or the
-/// normal.
+/// Returns whether the texture itself, without operands, depends on position or normal.
 bool UsesPlace(const Texture& texture);
 
-/// Sets what the kernels need of mappings and patterns; nothing where !UsesPlace.
+/// Sets the node's mapping and pattern if UsesPlace.
 void SetPlace(const Texture& texture, const Transform& world_from_scene,
               TextureNode& node);
 

@@ -14,16 +14,17 @@ PointsParameters MakePointsParameters(Points points);
 PairParameters MakePairParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
-/// Light samples of which a plan with these features keeps one.
+/// Returns the number of light samples of which a plan with these features keeps one.
 std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features);
 
-/// log2 of the points of one randomisation; what follows is randomised anew.
+/// Returns log2 of the number of points of one randomisation.
 std::uint32_t LogSequence(Points points);
 
 /// Returns the groups that count as one observation.
 SampleGroups GroupsOf(const Strategy& strategy);
 
-/// "sobol, 4 randomisations of 16 points", ... for reports; spp = 0: unknown.
+/// Returns text for reports, such as "sobol, 4 randomisations of 16 points"; spp = 0:
+/// unknown.
 std::string PointsText(const Strategy& strategy, std::uint64_t spp);
 
 }  // namespace lanelight

@@ -1,5 +1,5 @@
 // Tables that some strategies need, estimated by training passes and read by kernels.
-// They steer probabilities and numbers of copies, and never enter the image.
+// They steer probabilities and numbers of split paths, and never enter the image.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,8 @@
 
 namespace lanelight {
 
-// What a path is worth, for the roulettes that split: a coarse cache over space and
-// orientation, and the brightness of the pixels, both estimated by training passes
-// (src/render/train/train_path_values.cc). The values steer the number of copies and
-// never enter the image.
+class ImageGuess;      // src/scene/prepare/estimate_path_values.h
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// Cells of a box, times the six dominant directions of the normal.
 struct CellGrid {
@@ -23,7 +21,8 @@ struct CellGrid {
   }
 };
 
-/// Read by the kernels. A cell of which nothing is known has a negative `survive`.
+/// Values of paths, for roulettes that split: a coarse cache over space and orientation,
+/// and the brightness of pixels. Cells without records have a negative `survive`.
 struct PathValues {
   CellGrid grid;
   /// Brightness is sum_c channel[c] c: all channels count alike in the mean of the image,
@@ -37,10 +36,9 @@ struct PathValues {
   float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
 };
 
-class ImageGuess;  // src/scene/prepare/estimate_path_values.h
-
-/// Read by the kernel. The root of the sum over the channels of the squares of what a ray
-/// carries times `inverse`, at least `floor`, is the probability with which it is traced.
+/// For shadow-roulette=contribution. The root of the sum over the channels of the squares
+/// of what a ray carries times `inverse`, at least `floor`, is the probability with which
+/// it is traced.
 struct ShadowWorth {
   float floor = 0.1f;            // least probability, in (0, 1]
   AlignedVector<float> inverse;  // 3 per pixel of the full image; empty = all are traced
@@ -58,14 +56,12 @@ struct ShadowWorth {
 AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,
                                         double relative, double exposure);
 
-struct PreparedScene;  // src/scene/prepare/prepared_scene.h
-
 struct StrategyTables {
   PathValues path_values;    // adjoint, efficiency: set by the training passes
   ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a training pass
 };
 
-/// What the strategy of the scene needs, and nothing else.
+/// Returns the tables that the scene's strategy needs, before training.
 StrategyTables MakeStrategyTables(const PreparedScene& scene);
 
 }  // namespace lanelight
