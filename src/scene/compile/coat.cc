@@ -103,6 +103,24 @@ Fluxes At(const CoatSide& s, double mu, int rings, int spokes) {
   return s.alpha < kSmoothCoatAlpha ? Smooth(s, mu) : Rough(s, mu, rings, spokes);
 }
 
+// Returns the rho in [0, 1] of a response, by bisection of an increasing function.
+double InvertResponse(double response, double internal, int bounces) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (CoatedResponse(middle, internal, bounces) < response ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+constexpr std::size_t kFitNodes = kCoatFitNodes * kCoatFitNodes * kCoatFitNodes;
+
+Rgb ColorOfNode(std::size_t i) {
+  constexpr std::size_t n = kCoatFitNodes;
+  const auto level = [](std::size_t at) { return at / (n - 1.0); };
+  return {level(i % n), level(i / n % n), level(i / n / n)};
+}
+
 }  // namespace
 
 CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
@@ -129,20 +147,6 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
   table.internal_reflectance = static_cast<float>(sum / nodes);
   return table;
 }
-
-namespace {
-
-// Returns the rho in [0, 1] of a response, by bisection of an increasing function.
-double InvertResponse(double response, double internal, int bounces) {
-  double low = 0, high = 1;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (CoatedResponse(middle, internal, bounces) < response ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
-}  // namespace
 
 double CoatedResponse(double rho, double internal, int bounces) {
   const double q = rho * internal;
@@ -172,18 +176,6 @@ Rgb EffectiveCoatBase(Rgb rgb, const Spectrum& base, double internal, int bounce
   }
   return effective;
 }
-
-namespace {
-
-constexpr std::size_t kFitNodes = kCoatFitNodes * kCoatFitNodes * kCoatFitNodes;
-
-Rgb ColorOfNode(std::size_t i) {
-  constexpr std::size_t n = kCoatFitNodes;
-  const auto level = [](std::size_t at) { return at / (n - 1.0); };
-  return {level(i % n), level(i / n % n), level(i / n / n)};
-}
-
-}  // namespace
 
 std::vector<float> CoatFits::Table(double internal, int bounces) {
   if (bases_.empty()) {

@@ -29,6 +29,26 @@ double RatioOfAxes(const Transform& t) {
   return std::pow(std::max({a, b, c}), 3) / volume;
 }
 
+// The flux of an intensity image: its weighted mean over a domain of some size.
+struct ImageFlux {
+  Rgb mean;
+  double size;
+};
+
+// Adds the light whose power is that of its image times its intensity, scaled to the
+// power that is asked for.
+void AddWithPower(const Light& light, const WorldFrame& frame, const ImageFlux& flux,
+                  LightRecord& record, LightList& lights) {
+  const auto& [mean, size] = flux;
+  const double unit_power = size * Luminance(mean);
+  Rgb intensity = light.emission;
+  if (light.power > 0) intensity *= light.power / unit_power;
+  intensity *= frame.scale * frame.scale;
+  Store(intensity, record.radiance);
+  Store(PositionOf(light, frame), record.position);
+  lights.Push(record, Luminance(intensity * mean) * size, light);
+}
+
 }  // namespace
 
 Transform LightFromScene(const Light& light) {
@@ -79,30 +99,6 @@ LightCone StretchedCone(const Light& light, Vec3d axis, double degrees) {
   cone.versine = std::min(cone.versine * kEdgeMargin, 2.0);
   return cone;
 }
-
-namespace {
-
-// The flux of an intensity image: its weighted mean over a domain of some size.
-struct ImageFlux {
-  Rgb mean;
-  double size;
-};
-
-// Adds the light whose power is that of its image times its intensity, scaled to the
-// power that is asked for.
-void AddWithPower(const Light& light, const WorldFrame& frame, const ImageFlux& flux,
-                  LightRecord& record, LightList& lights) {
-  const auto& [mean, size] = flux;
-  const double unit_power = size * Luminance(mean);
-  Rgb intensity = light.emission;
-  if (light.power > 0) intensity *= light.power / unit_power;
-  intensity *= frame.scale * frame.scale;
-  Store(intensity, record.radiance);
-  Store(PositionOf(light, frame), record.position);
-  lights.Push(record, Luminance(intensity * mean) * size, light);
-}
-
-}  // namespace
 
 void AddGoniometric(const Light& light, const WorldFrame& frame, LightImageTable& images,
                     LightList& lights) {

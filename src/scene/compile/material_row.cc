@@ -40,6 +40,50 @@ void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
       row.dispersion == nullptr ? -1 : spectra.OfIndex(*row.dispersion));
 }
 
+// If a coat varies, the colour of its base is corrected for this node of the roughness
+// (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
+constexpr int kTypicalAlpha = 6;
+
+// Roughnesses of the tables of a coat, and thicknesses; see kCoatAlphas.
+std::vector<double> Alphas(const Coat& coat) {
+  if (coat.alpha) return {*coat.alpha};
+  std::vector<double> alphas;
+  for (int i = 0; i + 1 < kCoatAlphas; ++i) {
+    const double part = i / (kCoatAlphas - 1.0);
+    alphas.push_back(part / (1 - part));
+  }
+  alphas.push_back(kRoughestCoat);
+  return alphas;
+}
+
+std::vector<double> Thicknesses(const Coat& coat) {
+  if (coat.thickness) return {*coat.thickness};
+  std::vector<double> thicknesses;
+  for (int i = 0; i + 1 < kCoatDepths; ++i) {
+    const double part = i / (kCoatDepths - 1.0);
+    thicknesses.push_back(-std::log1p(-part * part));
+  }
+  thicknesses.push_back(1e3);  // nothing passes
+  return thicknesses;
+}
+
+struct PlannedTable {
+  double alpha, eta, thickness;
+};
+
+// The first table of every coat; appends its tables to the list.
+std::vector<std::size_t> PlanTables(const std::map<Coat, std::int32_t>& coats,
+                                    std::vector<PlannedTable>& tables) {
+  std::vector<std::size_t> first(coats.size());
+  for (const auto& [coat, at] : coats) {
+    first[static_cast<std::size_t>(at)] = tables.size();
+    for (double thickness : Thicknesses(coat)) {
+      for (double alpha : Alphas(coat)) tables.push_back({alpha, coat.eta, thickness});
+    }
+  }
+  return first;
+}
+
 }  // namespace
 
 void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
@@ -102,54 +146,6 @@ void SetBaseColor(MaterialTable& table, std::size_t i, int bounces) {
   table.color0_g[i] = static_cast<float>(base.y);
   table.color0_b[i] = static_cast<float>(base.z);
 }
-
-namespace {
-
-// If a coat varies, the colour of its base is corrected for this node of the roughness
-// (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
-constexpr int kTypicalAlpha = 6;
-
-// Roughnesses of the tables of a coat, and thicknesses; see kCoatAlphas.
-std::vector<double> Alphas(const Coat& coat) {
-  if (coat.alpha) return {*coat.alpha};
-  std::vector<double> alphas;
-  for (int i = 0; i + 1 < kCoatAlphas; ++i) {
-    const double part = i / (kCoatAlphas - 1.0);
-    alphas.push_back(part / (1 - part));
-  }
-  alphas.push_back(kRoughestCoat);
-  return alphas;
-}
-
-std::vector<double> Thicknesses(const Coat& coat) {
-  if (coat.thickness) return {*coat.thickness};
-  std::vector<double> thicknesses;
-  for (int i = 0; i + 1 < kCoatDepths; ++i) {
-    const double part = i / (kCoatDepths - 1.0);
-    thicknesses.push_back(-std::log1p(-part * part));
-  }
-  thicknesses.push_back(1e3);  // nothing passes
-  return thicknesses;
-}
-
-struct PlannedTable {
-  double alpha, eta, thickness;
-};
-
-// The first table of every coat; appends its tables to the list.
-std::vector<std::size_t> PlanTables(const std::map<Coat, std::int32_t>& coats,
-                                    std::vector<PlannedTable>& tables) {
-  std::vector<std::size_t> first(coats.size());
-  for (const auto& [coat, at] : coats) {
-    first[static_cast<std::size_t>(at)] = tables.size();
-    for (double thickness : Thicknesses(coat)) {
-      for (double alpha : Alphas(coat)) tables.push_back({alpha, coat.eta, thickness});
-    }
-  }
-  return first;
-}
-
-}  // namespace
 
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   std::vector<PlannedTable> planned;

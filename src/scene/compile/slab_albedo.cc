@@ -154,6 +154,13 @@ Matrix Deep(Layer layer) {
   return layer.r;
 }
 
+// The root of 1 - albedo, in which the reflectance is nearly linear, of an entry: close
+// together where that falls steeply.
+double NodeOf(std::size_t entry) {
+  const double t = static_cast<double>(entry) / (kAlbedos - 1);
+  return t * t;
+}
+
 }  // namespace
 
 double SlabReflectance(double albedo, double g, double eta) {
@@ -172,17 +179,6 @@ double SlabReflectance(double albedo, double g, double eta) {
   }
   return Solve(OneMinus(inside), lit)[n - 1][0];
 }
-
-namespace {
-
-// The root of 1 - albedo, in which the reflectance is nearly linear, of an entry: close
-// together where that falls steeply.
-double NodeOf(std::size_t entry) {
-  const double t = static_cast<double>(entry) / (kAlbedos - 1);
-  return t * t;
-}
-
-}  // namespace
 
 SlabAlbedos::SlabAlbedos(double g, double eta) : reflectances_(kAlbedos) {
   ParallelFor(reflectances_.size(), [&](std::size_t i) {

@@ -23,6 +23,58 @@ std::vector<float> Values(const ColorValue& color, ColorBound bound) {
   return values;
 }
 
+// Returns whether the light that a medium emits has a spectrum.
+bool HasSpectrum(const Medium& m) {
+  return m.emission != Rgb{} &&
+         (m.emission_spectrum != nullptr || !m.temperature.empty() ||
+          m.sparse_temperature != nullptr);
+}
+
+// Returns the media that shapes bound, and the camera's.
+std::vector<Index> MediaOf(const SceneDescription& d) {
+  std::vector<Index> media = {d.camera.medium};
+  const auto add = [&](const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) {
+      media.insert(media.end(), {shape.media.inside, shape.media.outside});
+    }
+  };
+  add(d.shapes);
+  for (const ObjectDefinition& object : d.objects) add(object.shapes);
+  std::erase(media, kNone);
+  return media;
+}
+
+// Visits the used materials and those that they mix. Mixes may be nested deeply.
+template <class Visit>
+void ForEachUsed(const SceneDescription& d, std::vector<Index> open, const Visit& visit) {
+  std::vector<bool> seen(d.materials.size());
+  while (!open.empty()) {
+    const auto at = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    if (seen[at]) continue;
+    seen[at] = true;
+    const Material& m = d.materials[at];
+    visit(m);
+    if (m.kind == MaterialKind::kMix) open.insert(open.end(), m.mix, m.mix + 2);
+  }
+}
+
+std::string NameOf(const Material& m) {
+  const std::string kind = m.dispersion != nullptr          ? "glass"
+                           : m.eta.spectrum || m.k.spectrum ? "metal"
+                                                            : "material";
+  return "the " + kind + (m.name.empty() ? "" : " \"" + m.name + "\"");
+}
+
+bool HasSpectrum(const Material& m) {
+  const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
+                                      &m.coat_albedo};
+  return m.dispersion != nullptr || m.measured != nullptr ||
+         m.sigma_a_spectrum != nullptr ||
+         std::ranges::any_of(colors,
+                             [](const ColorValue* c) { return c->spectrum != nullptr; });
+}
+
 }  // namespace
 
 std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
@@ -96,62 +148,6 @@ void SpectrumRows::NeedSigmoids() {
   const std::vector<float>& sigmoids = UpsamplingTable();
   table_.sigmoids.assign(sigmoids.begin(), sigmoids.end());
 }
-
-namespace {
-
-// Returns whether the light that a medium emits has a spectrum.
-bool HasSpectrum(const Medium& m) {
-  return m.emission != Rgb{} &&
-         (m.emission_spectrum != nullptr || !m.temperature.empty() ||
-          m.sparse_temperature != nullptr);
-}
-
-// Returns the media that shapes bound, and the camera's.
-std::vector<Index> MediaOf(const SceneDescription& d) {
-  std::vector<Index> media = {d.camera.medium};
-  const auto add = [&](const std::vector<Shape>& shapes) {
-    for (const Shape& shape : shapes) {
-      media.insert(media.end(), {shape.media.inside, shape.media.outside});
-    }
-  };
-  add(d.shapes);
-  for (const ObjectDefinition& object : d.objects) add(object.shapes);
-  std::erase(media, kNone);
-  return media;
-}
-
-// Visits the used materials and those that they mix. Mixes may be nested deeply.
-template <class Visit>
-void ForEachUsed(const SceneDescription& d, std::vector<Index> open, const Visit& visit) {
-  std::vector<bool> seen(d.materials.size());
-  while (!open.empty()) {
-    const auto at = static_cast<std::size_t>(open.back());
-    open.pop_back();
-    if (seen[at]) continue;
-    seen[at] = true;
-    const Material& m = d.materials[at];
-    visit(m);
-    if (m.kind == MaterialKind::kMix) open.insert(open.end(), m.mix, m.mix + 2);
-  }
-}
-
-std::string NameOf(const Material& m) {
-  const std::string kind = m.dispersion != nullptr          ? "glass"
-                           : m.eta.spectrum || m.k.spectrum ? "metal"
-                                                            : "material";
-  return "the " + kind + (m.name.empty() ? "" : " \"" + m.name + "\"");
-}
-
-bool HasSpectrum(const Material& m) {
-  const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
-                                      &m.coat_albedo};
-  return m.dispersion != nullptr || m.measured != nullptr ||
-         m.sigma_a_spectrum != nullptr ||
-         std::ranges::any_of(colors,
-                             [](const ColorValue* c) { return c->spectrum != nullptr; });
-}
-
-}  // namespace
 
 std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
                                          const std::vector<Index>& used) {

@@ -19,6 +19,44 @@ void MarkOperands(const std::vector<Texture>& textures, std::size_t i,
   }
 }
 
+Texture NormalMap(const Material& material) {
+  Texture texture;
+  texture.kind = TextureKind::kImage;
+  texture.name = "normalmap of " + (material.name.empty() ? "a material" : material.name);
+  texture.where = material.where;
+  texture.path = material.normal_map;
+  texture.encoding = Encoding::kLinear;
+  return texture;
+}
+
+void DropUnused(AlignedVector<std::int32_t>& textures) {
+  const auto is_used = [](std::int32_t t) { return t >= 0; };
+  if (std::ranges::none_of(textures, is_used)) textures = {};
+}
+
+bool IsPattern(TextureKind kind) {
+  return kind == TextureKind::kFbm || kind == TextureKind::kWrinkled ||
+         kind == TextureKind::kWindy || kind == TextureKind::kMarble;
+}
+
+bool HasMapping(const Texture& t) {
+  return t.kind == TextureKind::kImage || t.kind == TextureKind::kDots ||
+         t.kind == TextureKind::kBilinear ||
+         (t.kind == TextureKind::kCheckerboard && t.dimension == 2);
+}
+
+bool IsSolid(const Texture& t) {
+  return t.kind == TextureKind::kCheckerboard && t.dimension == 3;
+}
+
+// Row i of the node's map = the combination of the transform's rows by `weights`.
+void SetRow(const Transform& m, Vec3d weights, double delta, float row[4]) {
+  for (int c = 0; c < 4; ++c) {
+    const double sum = weights.x * m(0, c) + weights.y * m(1, c) + weights.z * m(2, c);
+    row[c] = static_cast<float>(sum + (c == 3 ? delta : 0));
+  }
+}
+
 }  // namespace
 
 TextureConstants::TextureConstants(const std::vector<Texture>& textures) {
@@ -92,25 +130,6 @@ std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
   return kept;
 }
 
-namespace {
-
-Texture NormalMap(const Material& material) {
-  Texture texture;
-  texture.kind = TextureKind::kImage;
-  texture.name = "normalmap of " + (material.name.empty() ? "a material" : material.name);
-  texture.where = material.where;
-  texture.path = material.normal_map;
-  texture.encoding = Encoding::kLinear;
-  return texture;
-}
-
-void DropUnused(AlignedVector<std::int32_t>& textures) {
-  const auto is_used = [](std::int32_t t) { return t >= 0; };
-  if (std::ranges::none_of(textures, is_used)) textures = {};
-}
-
-}  // namespace
-
 Relief Reliefs::Of(const Material& material, const TextureConstants& constants) {
   if (material.normal_map.empty()) {
     return {constants.Fold(material.displacement).texture, kNone};
@@ -125,33 +144,6 @@ void DropUnusedReliefs(MaterialTable& table) {
   DropUnused(table.displacement_texture);
   DropUnused(table.normal_map_texture);
 }
-
-namespace {
-
-bool IsPattern(TextureKind kind) {
-  return kind == TextureKind::kFbm || kind == TextureKind::kWrinkled ||
-         kind == TextureKind::kWindy || kind == TextureKind::kMarble;
-}
-
-bool HasMapping(const Texture& t) {
-  return t.kind == TextureKind::kImage || t.kind == TextureKind::kDots ||
-         t.kind == TextureKind::kBilinear ||
-         (t.kind == TextureKind::kCheckerboard && t.dimension == 2);
-}
-
-bool IsSolid(const Texture& t) {
-  return t.kind == TextureKind::kCheckerboard && t.dimension == 3;
-}
-
-// Row i of the node's map = the combination of the transform's rows by `weights`.
-void SetRow(const Transform& m, Vec3d weights, double delta, float row[4]) {
-  for (int c = 0; c < 4; ++c) {
-    const double sum = weights.x * m(0, c) + weights.y * m(1, c) + weights.z * m(2, c);
-    row[c] = static_cast<float>(sum + (c == 3 ? delta : 0));
-  }
-}
-
-}  // namespace
 
 bool UsesPlace(const Texture& t) {
   return IsPattern(t.kind) || IsSolid(t) || t.kind == TextureKind::kDirectionMix ||

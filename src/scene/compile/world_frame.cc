@@ -9,6 +9,12 @@ namespace {
 // Keeps scale and scale^2 finite and normal for any input.
 constexpr int kMaxExponent = 400;
 
+using Matrix3 = Motion::Matrix3;
+
+Vec3d Times(const Matrix3& m, Vec3d v) {
+  return {Dot(m[0], v), Dot(m[1], v), Dot(m[2], v)};
+}
+
 }  // namespace
 
 void Box::Add(Vec3d p) {
@@ -65,16 +71,6 @@ WorldFrame FrameOf(const Box& box) {
   }
   return frame;
 }
-
-namespace {
-
-using Matrix3 = Motion::Matrix3;
-
-Vec3d Times(const Matrix3& m, Vec3d v) {
-  return {Dot(m[0], v), Dot(m[1], v), Dot(m[2], v)};
-}
-
-}  // namespace
 
 // scene = (from + s way + R(s) L(s) p - centre) * scale, p = object / scale' + centre'.
 Motion InFrames(const Motion& motion, const WorldFrame& scene, const WorldFrame& object) {

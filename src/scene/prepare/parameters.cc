@@ -14,6 +14,38 @@ constexpr std::uint64_t Bit(Dimension d) {
   return std::uint64_t{1} << static_cast<std::uint32_t>(d);
 }
 
+// Errors of two pixels have no more in common than the share of samples in which they are
+// in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same
+// neighbours again and again, but no more than N.
+double Dependents(const Strategy& strategy) {
+  if (strategy.reuse == Reuse::kNone) return 1;
+  const double n = strategy.reused_paths;
+  if (strategy.block_layout != BlockLayout::kRandom) return n;
+  return 1 + (n - 1) * (n - 1) / (kReuseTile * kReuseTile - 1);
+}
+
+// Points (or pairs) of one replicate, of `units` samples or pairs that take turns.
+std::string SizeText(const Strategy& strategy, std::uint64_t units) {
+  const bool pairs = strategy.pairs == Pairs::kAntithetic;
+  const char* const what = pairs ? "pairs" : "points";
+  const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
+  const std::uint64_t most = std::uint64_t{1} << LogSequence(strategy.points);
+  if (own + (rest > 0) > most) {
+    const std::uint64_t turn = most * kReplicates;
+    const std::uint64_t rounds = (units + turn - 1) / turn;
+    return fmt::format(", {} randomisations of up to {} {}, the most that it stratifies",
+                       rounds * kReplicates, most, what);
+  }
+  std::string text = fmt::format(", {} randomisations of {}", kReplicates, own);
+  if (rest > 0) text += fmt::format(" or {}", own + 1);
+  text += fmt::format(" {}", what);
+  if (rest > 0 || !std::has_single_bit(own)) {
+    const std::uint64_t better = std::bit_floor(own) * kReplicates * (pairs ? 2 : 1);
+    text += fmt::format(" ({} or {} samples are better stratified)", better, 2 * better);
+  }
+  return text;
+}
+
 }  // namespace
 
 PointsParameters MakePointsParameters(Points points) {
@@ -79,20 +111,6 @@ std::uint32_t LogSequence(Points points) {
   return 0;
 }
 
-namespace {
-
-// Errors of two pixels have no more in common than the share of samples in which they are
-// in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same
-// neighbours again and again, but no more than N.
-double Dependents(const Strategy& strategy) {
-  if (strategy.reuse == Reuse::kNone) return 1;
-  const double n = strategy.reused_paths;
-  if (strategy.block_layout != BlockLayout::kRandom) return n;
-  return 1 + (n - 1) * (n - 1) / (kReuseTile * kReuseTile - 1);
-}
-
-}  // namespace
-
 SampleGroups GroupsOf(const Strategy& strategy) {
   SampleGroups groups;
   groups.unit = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
@@ -103,32 +121,6 @@ SampleGroups GroupsOf(const Strategy& strategy) {
   groups.dependents = Dependents(strategy);
   return groups;
 }
-
-namespace {
-
-// Points (or pairs) of one replicate, of `units` samples or pairs that take turns.
-std::string SizeText(const Strategy& strategy, std::uint64_t units) {
-  const bool pairs = strategy.pairs == Pairs::kAntithetic;
-  const char* const what = pairs ? "pairs" : "points";
-  const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
-  const std::uint64_t most = std::uint64_t{1} << LogSequence(strategy.points);
-  if (own + (rest > 0) > most) {
-    const std::uint64_t turn = most * kReplicates;
-    const std::uint64_t rounds = (units + turn - 1) / turn;
-    return fmt::format(", {} randomisations of up to {} {}, the most that it stratifies",
-                       rounds * kReplicates, most, what);
-  }
-  std::string text = fmt::format(", {} randomisations of {}", kReplicates, own);
-  if (rest > 0) text += fmt::format(" or {}", own + 1);
-  text += fmt::format(" {}", what);
-  if (rest > 0 || !std::has_single_bit(own)) {
-    const std::uint64_t better = std::bit_floor(own) * kReplicates * (pairs ? 2 : 1);
-    text += fmt::format(" ({} or {} samples are better stratified)", better, 2 * better);
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
