@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "src/scene/accel/wide_box.h"
+#include "src/scene/accel/partition.h"
 
 namespace lanelight {
 

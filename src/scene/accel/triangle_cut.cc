@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/scene/accel/wide_box.h"
+#include "src/scene/accel/partition.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

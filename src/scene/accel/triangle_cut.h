@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/scene/accel/builder.h"
-#include "src/scene/accel/wide_box.h"
+#include "src/scene/accel/partition.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {

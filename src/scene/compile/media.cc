@@ -8,7 +8,6 @@
 #include "src/base/image/blackbody.h"
 #include "src/scene/compile/focus.h"
 #include "src/scene/compile/materials.h"
-#include "src/scene/compile/slab_albedo.h"
 #include "src/scene/compile/textures.h"
 #include "src/scene/compile/world_frame.h"
 

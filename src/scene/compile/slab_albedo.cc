@@ -1,4 +1,4 @@
-#include "src/scene/compile/slab_albedo.h"
+#include "src/scene/compile/media.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
