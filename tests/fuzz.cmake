@@ -26,7 +26,7 @@ file(GLOB FUZZ_LIBRARY_SOURCES CONFIGURE_DEPENDS
   ${CMAKE_SOURCE_DIR}/src/base/core/*.cc ${CMAKE_SOURCE_DIR}/src/scene/parse/*.cc
   ${CMAKE_SOURCE_DIR}/src/base/image/*.cc ${CMAKE_SOURCE_DIR}/src/vocabulary/strategy/*.cc
   ${CMAKE_SOURCE_DIR}/src/vocabulary/path/*.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/medium_*.cc
-  ${CMAKE_SOURCE_DIR}/src/scene/compile/world_frame.cc ${CMAKE_SOURCE_DIR}/src/scene/compile/voxel_spectra.cc
+  ${CMAKE_SOURCE_DIR}/src/scene/compile/world_frame.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/base/image/sparse_grid_file.cc
   ${CMAKE_CURRENT_SOURCE_DIR}/reference/measured.cc)
 # It needs what the build writes of the version.

@@ -5,8 +5,6 @@
 #include "kernels/queue/filter-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
 #include "src/scene/compiled/camera.h"
-#include "src/scene/compiled/footprint.h"
-#include "src/scene/compiled/gbuffer.h"
 #include "src/vocabulary/path/scene_kinds.h"
 
 LANELIGHT_BEGIN_KERNELS

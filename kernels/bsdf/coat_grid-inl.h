@@ -1,5 +1,5 @@
 // Tables of coats whose roughness or thickness is textured: a grid of the tables of
-// src/scene/compile/coat_table.h, interpolated per path.
+// src/scene/compile/coat.h, interpolated per path.
 #ifndef LANELIGHT_BSDF_COAT_GRID_INL_H_
 #define LANELIGHT_BSDF_COAT_GRID_INL_H_
 

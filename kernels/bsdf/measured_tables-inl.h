@@ -1,4 +1,4 @@
-// Bilinear functions of measured reflectance (src/scene/compiled/measured.h). Also the
+// Bilinear functions of measured reflectance (src/scene/compiled/materials.h). Also the
 // maps of the unit square to itself that invert their integrals, linear between the
 // slices around a known direction.
 #ifndef LANELIGHT_BSDF_MEASURED_TABLES_INL_H_
@@ -6,7 +6,7 @@
 
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
-#include "src/scene/compiled/measured.h"
+#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 

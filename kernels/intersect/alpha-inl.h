@@ -7,7 +7,6 @@
 
 #include "kernels/texture/alpha-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled/alpha.h"
 #include "src/scene/compiled/texture_table.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_parts.h"

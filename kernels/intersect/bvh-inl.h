@@ -2,9 +2,9 @@
 //
 // Boxes are grown by delta = margin + slack |o| (src/scene/geometry/accel.h), beyond what
 // the builder grew them by in proportion to the coordinates of each shape
-// (src/scene/accel/grow.h), so that a node is never culled by rounding if it holds a hit
-// nearer than, or as near as, the best one: then the hit found does not depend on the
-// order of traversal. In parameters of the ray that growth is delta / |d|, so it goes
+// (src/scene/accel/shape_items.h), so that a node is never culled by rounding if it holds
+// a hit nearer than, or as near as, the best one: then the hit found does not depend on
+// the order of traversal. In parameters of the ray that growth is delta / |d|, so it goes
 // into the constant term of the slab test and costs nothing: near = lower / d - (o / d +
 // delta / |d|). Compared with Ize 2013, "Robust BVH Ray Traversal", whose growth is
 // relative to t, this also covers the rounding of the shape tests, which is relative to

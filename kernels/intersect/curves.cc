@@ -9,7 +9,6 @@
 #include "kernels/intersect/rays-inl.h"
 #include "src/scene/geometry/accel.h"
 #include "src/scene/geometry/geometry.h"
-#include "src/scene/geometry/ribbon.h"
 #include "src/vocabulary/path/scene_kinds.h"
 #include "src/vocabulary/path/wave.h"
 

@@ -8,7 +8,7 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/sampled_points-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled/alpha.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,11 +1,11 @@
-// Cells of the cache of path values (src/scene/prepare/path_values.h), and what its pilot
+// Cells of the cache of path values (src/scene/prepare/tables.h), and what its pilot
 // passes have in common.
 #ifndef LANELIGHT_ROULETTE_CELL_INL_H_
 #define LANELIGHT_ROULETTE_CELL_INL_H_
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 

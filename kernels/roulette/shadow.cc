@@ -2,7 +2,7 @@
 // s = min(1, max(floor, what it carries / what its pixel asks for)).
 //   estimator   sh V / s with probability s, else 0: E = sh V
 //   density     of tracing: s, a function of what the ray carries and of its pixel, which
-//               a training pass has seen (src/scene/prepare/shadow_worth.h)
+//               a training pass has seen (src/scene/prepare/tables.h)
 //   unbiased    s >= floor > 0; s is known before the ray is traced
 //   variance    grows by E[sh^2 V (1/s - 1)] per ray. What a survivor carries is at most
 //               what its pixel asks for, so no fireflies

@@ -1,4 +1,4 @@
-// Finds the points one pixel beside a point (src/scene/compiled/footprint.h), in the
+// Finds the points one pixel beside a point (src/scene/compiled/camera.h), in the
 // camera's view and in the tangent plane.
 #ifndef LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
 #define LANELIGHT_SURFACE_PIXEL_STEPS_INL_H_
@@ -6,7 +6,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/motion-inl.h"
 #include "src/scene/compiled/camera.h"
-#include "src/scene/compiled/footprint.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -18,7 +18,7 @@ LANELIGHT_INLINE V3 MetalExtinction(V3 r) {
 }
 
 /// The colour as it acts below a coat, by the table at `fit`
-/// (src/scene/compile/coat_fit.h). Components are clamped to [0, 1].
+/// (src/scene/compile/coat.h). Components are clamped to [0, 1].
 inline HWY_NOINLINE V3 CoatedBaseColor(const float* fit, V3 color) {
   const VF zero = hn::Zero(DF()), one = Splat(1.0f);
   const V3 bounded = {hn::Clamp(color.x, zero, one), hn::Clamp(color.y, zero, one),

@@ -14,7 +14,7 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 #include "src/scene/description/note.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 namespace {

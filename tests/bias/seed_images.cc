@@ -5,7 +5,7 @@
 #include "src/base/core/source_location.h"
 #include "src/render/run/run.h"
 #include "src/scene/compiled/scene.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {

@@ -14,7 +14,7 @@
 #include "src/base/core/error.h"
 #include "src/base/image/nanovdb_file.h"
 #include "src/base/image/sparse_grid.h"
-#include "src/scene/compile/medium_grid.h"
+#include "src/scene/compile/media.h"
 #include "tests/base/image/sparse_grid_file.h"
 #include "tests/base/image/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "src/scene/parse/parse.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/render/run/render_fixture.h"
 

@@ -16,7 +16,7 @@ inline constexpr int kFirstCarriedNm = 380, kLastCarriedNm = 780;
 inline constexpr int kUpsamplingNodes = 17;
 inline constexpr double kLeastUpsampled = 2e-4;
 
-/// Nodes per axis of the tables of CoatFits (src/scene/compile/coat_fit.h).
+/// Nodes per axis of the tables of CoatFits (src/scene/compile/coat.h).
 inline constexpr int kCoatFitNodes = 9;
 
 /// Of a black body, in nm kelvin: h c / k; and that over the product of the temperature

@@ -5,8 +5,6 @@
 
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/compile/camera.h"
-#include "src/scene/compile/footprint.h"
-#include "src/scene/compile/gbuffer.h"
 #include "src/scene/description/film.h"
 
 namespace lanelight::live {

@@ -5,7 +5,7 @@
 
 #include "src/measure/compare/tile_test.h"
 #include "src/measure/study/study_images.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 namespace {

@@ -8,7 +8,7 @@
 #include "src/measure/study/cell_store.h"
 #include "src/measure/study/options.h"
 #include "src/measure/study/reference.h"
-#include "src/scene/accel/tree_source.h"
+#include "src/scene/accel/build.h"
 
 namespace lanelight {
 

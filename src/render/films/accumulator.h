@@ -33,7 +33,7 @@ class FilmAccumulator {
   const SampleGroups& groups() const { return groups_; }
   /// Sets SampleGroups::dependents: a trial run may have chosen path reuse.
   void set_dependents(double dependents) { groups_.dependents = dependents; }
-  /// See ChanceOfLight (src/scene/prepare/chance_of_light.h).
+  /// Of ChanceOfLight (src/scene/prepare/prepared_scene.h).
   double chance_of_light() const { return chance_of_light_; }
   void set_chance_of_light(double chance) { chance_of_light_ = chance; }
   bool has_aov() const { return !aov_.empty(); }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/base/core/check.h"
 #include "src/base/core/aligned.h"
+#include "src/base/core/check.h"
 #include "src/base/core/column.h"
 #include "src/base/image/spectral_buckets.h"
 

@@ -11,8 +11,8 @@
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/film.h"
 #include "src/scene/parse/parse.h"
-#include "src/scene/prepare/chance_of_light.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {

@@ -12,7 +12,7 @@
 #include "src/render/job/checkpoint.h"
 #include "src/render/job/identity.h"
 #include "src/render/job/machine_json.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {

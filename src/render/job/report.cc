@@ -8,8 +8,8 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
 #include "src/scene/description/note.h"
-#include "src/scene/prepare/chance_of_light.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {

@@ -17,7 +17,7 @@ namespace lanelight {
 
 struct CompileOptions;    // src/scene/compile/compile.h
 struct Film;              // src/scene/description/film.h
-struct KnownTree;         // src/scene/accel/tree_source.h
+struct KnownTree;         // src/scene/accel/build.h
 struct SceneDescription;  // src/scene/description/description.h
 
 /// True if decide=pilot is the default of a render that is asked for no strategy, neither

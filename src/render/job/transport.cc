@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/base/image/wavelengths.h"
-#include "src/scene/compile/transport.h"
+#include "src/scene/compile/spectrum_rows.h"
 
 namespace lanelight {
 namespace {

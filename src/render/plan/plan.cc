@@ -9,7 +9,7 @@
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 namespace {

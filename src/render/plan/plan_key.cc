@@ -4,7 +4,6 @@
 #include "src/base/core/hash.h"
 #include "src/render/plan/plan_features.h"
 #include "src/scene/compiled/lights.h"
-#include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 

@@ -14,7 +14,7 @@
 #include "src/render/run/run_watch.h"
 #include "src/render/wave/profile.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {

@@ -9,9 +9,9 @@
 
 namespace lanelight {
 
-/// Renders into `film`, which has no samples (or those that options.keeper restores). Its
-/// size must match the crop window of the scene, or the strip of options.windows; its
-/// groups the strategy (src/scene/prepare/groups.h).
+/// Renders into `film`, without samples but those that options.keeper goes on from: its
+/// size must match the crop window of the scene, or the strip of options.windows, its
+/// groups the strategy (src/scene/prepare/parameters.h).
 RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);
 

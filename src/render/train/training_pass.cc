@@ -15,7 +15,7 @@
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/film.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
 

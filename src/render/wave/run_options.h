@@ -21,8 +21,8 @@ struct Progress {
 
 /// Most samples per pixel.
 inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
-/// Samples after which kernels, whose indices have 32 bits, begin again with another
-/// seed. A multiple of the longest randomisations (src/scene/prepare/groups.h).
+/// Sample indices in kernels have 32 bits: so many later they begin again, under another
+/// seed. Whole turns of the longest randomisations (src/scene/prepare/parameters.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
 /// What a profile gathers beside the times of stages.

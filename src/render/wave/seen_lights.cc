@@ -9,7 +9,7 @@
 #include "src/render/wave/task_runner.h"
 #include "src/render/wave/tiles.h"
 #include "src/scene/compiled/scene.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/strategy/choices.h"
 

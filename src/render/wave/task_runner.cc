@@ -10,8 +10,8 @@
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/view.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {

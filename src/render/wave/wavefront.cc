@@ -7,8 +7,8 @@
 #include "src/render/plan/plan_features.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/parameters.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
+#include "src/scene/prepare/tables.h"
 #include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {

@@ -1,4 +1,4 @@
-#include "src/scene/accel/blocker_order.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 namespace lanelight {
 namespace {
 
-// Less than this part of the cost is not worth leaving the order along rays, in which
-// the rays of a packet stay together longest.
+// Least relative gain that justifies leaving the order along rays, which keeps the rays
+// of a packet together longest.
 constexpr float kLeastGain = 0.005f;
 
-// Of visiting slots 0 ^ first, 1 ^ first, ...
+// Returns the expected cost of visiting slots 0 ^ first, 1 ^ first, ...
 float CostFrom(std::uint32_t first, const ChildOdds (&odds)[kBvhWidth]) {
   float open = 1, cost = 0;
   for (std::uint32_t k = 0; k < kBvhWidth; ++k) {
@@ -37,7 +37,7 @@ void SetBlockerOrder(const ChildOdds (&odds)[kBvhWidth], WideNode& node) {
     along_rays += cost / kBvhWidth;
     if (cost < least) least = cost, best = first;
   }
-  // Not so where areas overflow, either.
+  // The negation also catches areas that overflow.
   if (!(least < (1 - kLeastGain) * along_rays)) return;
   node.shadow_octants = 0;
   node.shadow_first = best;

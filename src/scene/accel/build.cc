@@ -11,17 +11,13 @@
 #include "src/base/core/parallel.h"
 #include "src/scene/accel/builder.h"
 #include "src/scene/accel/curve_pieces.h"
-#include "src/scene/accel/grow.h"
-#include "src/scene/accel/instances.h"
-#include "src/scene/accel/round_blocks.h"
+#include "src/scene/accel/leaf_blocks.h"
 #include "src/scene/accel/shape_items.h"
-#include "src/scene/accel/triangle_blocks.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
 namespace {
 
-// Leaves that one thread fills at a time.
 constexpr std::size_t kGrain = 512;
 
 // Builds the tree over `items` and appends its leaves to `blocks`.
@@ -109,27 +105,20 @@ Accel BuildAccel(const Geometry& geometry, const AccelOptions& options) {
   AlignedVector<SphereBlock> sphere_blocks;
   AlignedVector<DiskBlock> disk_blocks;
   BuildTriangles(geometry, options, accel, nodes);
-  const auto spheres = static_cast<std::uint32_t>(geometry.spheres.size());
-  if (spheres > options.few_round) {
-    const std::uint32_t first = geometry.ranges.spheres;
-    accel.spheres = BuildShapes(
-        ItemsOf(geometry.spheres, 0, spheres, first), LeafLimit(), options.quality,
-        RoundBlocks(sphere_blocks, geometry.spheres, first), nodes);
-  }
-  const auto disks = static_cast<std::uint32_t>(geometry.disks.size());
-  if (disks > options.few_round) {
-    const std::uint32_t first = geometry.ranges.disks;
-    accel.disks = BuildShapes(ItemsOf(geometry.disks, 0, disks, first), LeafLimit(),
-                              options.quality,
-                              RoundBlocks(disk_blocks, geometry.disks, first), nodes);
-  }
+  // Builds the tree over all records, unless there are at most `few` of them.
+  const auto build = [&](const auto& records, std::uint32_t first, std::uint32_t few,
+                         auto& blocks) {
+    const auto count = static_cast<std::uint32_t>(records.size());
+    if (count <= few) return Bvh();
+    return BuildShapes(ItemsOf(records, 0, count, first), LeafLimit(), options.quality,
+                       RoundBlocks(blocks, records, first), nodes);
+  };
+  accel.spheres =
+      build(geometry.spheres, geometry.ranges.spheres, options.few_round, sphere_blocks);
+  accel.disks =
+      build(geometry.disks, geometry.ranges.disks, options.few_round, disk_blocks);
   AlignedVector<CurveBlock> curve_blocks;
-  const std::vector<CurvePiece> pieces = PiecesOf(geometry, geometry.ranges.curves);
-  if (!pieces.empty()) {
-    const auto count = static_cast<std::uint32_t>(pieces.size());
-    accel.curves = BuildShapes(ItemsOf(pieces, 0, count, 0), LeafLimit(), options.quality,
-                               RoundBlocks(curve_blocks, pieces, 0), nodes);
-  }
+  accel.curves = build(PiecesOf(geometry, geometry.ranges.curves), 0, 0, curve_blocks);
   accel.nodes = std::move(nodes);
   accel.curve_blocks = std::move(curve_blocks);
   accel.sphere_blocks = std::move(sphere_blocks);

@@ -3,14 +3,15 @@
 
 #include <cstdint>
 
+#include "src/base/core/hash.h"
+#include "src/scene/accel/tree_report.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {
 
 struct Geometry;  // src/scene/geometry/geometry.h
 
-/// Options of the build; rendering uses the defaults. Tests and bench change what counts
-/// as few.
+/// Options of the build. Tests and benchmarks change the limits of `few_*`.
 struct AccelOptions {
   std::uint32_t few_triangles = kFewTriangles;
   std::uint32_t few_round = kFewRound;
@@ -26,5 +27,25 @@ inline constexpr int LeafTrianglesFor(int lanes) {
 /// Builds everything that `geometry` needs. The result does not depend on the number of
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
+
+using TreeKey = Hash128;
+
+/// Returns XXH3 (128 bits) of everything that BuildAccel reads: positions of shapes,
+/// groups, instances and options.
+TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options);
+
+struct KnownTree {
+  TreeKey key;
+  Accel accel;
+};
+
+struct FoundTree {
+  Accel accel;
+  TreeReport report;
+};
+
+/// Returns the tree of `known` (or null) if its shapes are equal; else builds one.
+FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
+                   const KnownTree* known);
 
 }  // namespace lanelight

@@ -7,20 +7,18 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/collapse.h"
-#include "src/scene/accel/cut_plan.h"
-#include "src/scene/accel/extents.h"
-#include "src/scene/accel/object_split.h"
-#include "src/scene/accel/reinsert.h"
+#include "src/scene/accel/binary_tree.h"
+#include "src/scene/accel/partition.h"
 #include "src/scene/accel/shape_items.h"
-#include "src/scene/accel/spatial_split.h"
+#include "src/scene/accel/splits.h"
+#include "src/scene/accel/triangle_cut.h"
 
 namespace lanelight {
 namespace {
 
 // Ranges smaller than this are built by one thread.
 constexpr std::uint32_t kSerial = 2048;
-// Ranges of at most so many items are looked at for how many of them a leaf holds.
+// Below this size of a range the number of items per leaf is estimated.
 constexpr std::uint32_t kSerialItems = 64;
 // Below this depth ranges are halved instead, which bounds the depth of any tree.
 constexpr int kMaxSahDepth = 40;
@@ -39,8 +37,8 @@ class TreeBuilder {
         one_axis_(one_axis),
         tree_(items.size()) {}
 
-  // Fills the subtree rooted at `node` over the items of `range`. `leaf`: items that a
-  // leaf holds, 0 if it is not known yet.
+  // Fills the subtree at `node` over the items of `range`. `leaf` is the number of items
+  // per leaf, or 0 if it is not known yet.
   void Build(std::uint32_t node, ItemRange range, std::uint32_t leaf, int depth) {
     BinaryNode& n = tree_[node];
     if (leaf == 0 && range.count() <= kSerialItems) {
@@ -94,23 +92,18 @@ class TreeBuilder {
       if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
-      const std::uint32_t middle = Cut(range, box, cuts_.Gain(count) * split.cost, block);
-      if (middle != range.begin && middle != range.end) return middle;
+      const SpatialSplit cut =
+          FindSpatialSplit(items_, range, box, limit_.triangles, block);
+      if (cut.cost < cuts_.Gain(count) * split.cost) {
+        const std::uint32_t middle =
+            CutAndPartition(items_, range, cut, limit_.triangles);
+        if (middle != range.begin && middle != range.end) return middle;
+      }
     }
     return range.begin + Partition(items, count, centers, split);
   }
 
-  // Cuts `range` by a plane that costs less than `cost`; returns where the second side
-  // begins, or an end of `range` if there is no such plane.
-  std::uint32_t Cut(ItemRange& range, const AccelBox& box, float cost,
-                    std::uint32_t block) {
-    const SpatialSplit split =
-        FindSpatialSplit(items_, range, box, limit_.triangles, block);
-    if (!(split.cost < cost)) return range.begin;
-    return CutAndPartition(items_, range, split, limit_.triangles);
-  }
-
-  // Area of the triangles, of which a cut one counts in proportion to its box.
+  // Returns the area of the triangles; a cut one counts in proportion to its box.
   float SurfaceOf(ItemRange range) const {
     float area = 0;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -122,7 +115,6 @@ class TreeBuilder {
     return area;
   }
 
-  // Sum of half areas.
   double AreaOf(ItemRange range) const {
     double area = 0;
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
@@ -156,7 +148,7 @@ class TreeBuilder {
   BinaryTree tree_;
 };
 
-// The ids of the items of leaf after leaf, which is what `leaves` refer to then.
+// Returns the ids of all items, leaf by leaf, and makes `leaves` refer to them.
 std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
                                    std::vector<LeafRange>& leaves) {
   std::vector<std::uint32_t> ids;

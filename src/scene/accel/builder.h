@@ -72,4 +72,10 @@ struct LeafLimit {
 BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
                     BuildQuality quality, AlignedVector<WideNode>& nodes);
 
+/// Appends its nodes to `nodes`. `group_boxes` bound the triangles of each group,
+/// `groups` are their trees. The depth of the result counts the nodes below instances
+/// too.
+Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
+             const std::vector<Bvh>& groups, AlignedVector<WideNode>& nodes);
+
 }  // namespace lanelight

@@ -1,12 +1,11 @@
-#include "src/scene/accel/collapse.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/blocker_order.h"
-#include "src/scene/accel/grow.h"
+#include "src/scene/accel/shape_items.h"
 
 namespace lanelight {
 namespace {
@@ -15,10 +14,9 @@ namespace {
 // docs/intersect.md.
 constexpr float kWideNodeCost = 22, kLeafCost = 30;
 
-// Subtrees of at most so many items are written by one thread.
 constexpr std::uint32_t kSubtree = 8192;
 
-// A part of the wide tree: references count from its own nodes and leaves.
+// A part of the wide tree; references are relative to its own nodes and leaves.
 struct Part {
   AlignedVector<WideNode> nodes;
   std::vector<LeafRange> leaves;
@@ -60,7 +58,11 @@ class Collapser {
     ChildOdds odds[kBvhWidth];
     for (int c = 0; c < kBvhWidth; ++c) {
       const int from = slot[c];
-      SetChild(node, c, from >= 0 ? tree_[child[from]].box : AccelBox());
+      const AccelBox box = from >= 0 ? tree_[child[from]].box : AccelBox();
+      for (int a = 0; a < 3; ++a) {
+        node.bounds[a][0][c] = box.lo[a];
+        node.bounds[a][1][c] = box.hi[a];
+      }
       node.child[c] = kEmptyRef;
       if (from < 0) continue;
       odds[c] = OddsOf(tree_[child[from]], tree_[at]);
@@ -93,7 +95,7 @@ class Collapser {
             child.cost[0] / half};
   }
 
-  // The planned forest of `roots` trees below an inner node.
+  // Lists the roots of the planned forest of `roots` trees below an inner node.
   void Divide(std::uint32_t at, int roots, std::uint32_t child[kBvhWidth],
               int& count) const {
     const BinaryNode& n = tree_[at];
@@ -144,13 +146,6 @@ class Collapser {
     }
   }
 
-  static void SetChild(WideNode& node, int c, const AccelBox& box) {
-    for (int a = 0; a < 3; ++a) {
-      node.bounds[a][0][c] = box.lo[a];
-      node.bounds[a][1][c] = box.hi[a];
-    }
-  }
-
   const BinaryTree& tree_;
   const std::vector<BuildItem>& items_;
   bool single_;
@@ -164,7 +159,6 @@ class Collapser {
 struct Place {
   std::size_t node = 0, leaf = 0;
 
-  // A reference that counted from the beginning of the part.
   std::uint32_t Of(std::uint32_t ref, bool single) const {
     if (ref == kEmptyRef || (single && (ref & kLeafBit))) return ref;
     return ref + static_cast<std::uint32_t>(ref & kLeafBit ? leaf : node);

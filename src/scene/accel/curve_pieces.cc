@@ -20,7 +20,7 @@ Vec3d PointOf(const CurveRecord& curve, int k) {
   return {curve.p[k][0], curve.p[k][1], curve.p[k][2]};
 }
 
-// The curve in the space where it is met, but for a shift.
+// Returns the curve in the space of its intersection test, up to a translation.
 CurveRecord InOwnSpace(const Geometry& g, std::size_t index) {
   CurveRecord curve = g.curves[index];
   if (g.curve_spaces.empty()) return curve;
@@ -32,7 +32,7 @@ CurveRecord InOwnSpace(const Geometry& g, std::size_t index) {
   return curve;
 }
 
-// Half the extent along each axis of the scene of a ball around a point of the piece.
+// Sets half the extent, along the scene's axes, of a ball around a point of the piece.
 void SetReach(const Geometry& g, std::size_t index, CurvePiece& piece) {
   const float radius = std::max(piece.radius[0], piece.radius[1]);
   for (int a = 0; a < 3; ++a) {
@@ -43,7 +43,7 @@ void SetReach(const Geometry& g, std::size_t index, CurvePiece& piece) {
   }
 }
 
-// Pieces are 2^this.
+// Returns the base-2 logarithm of the number of pieces.
 int HalvingsOf(const CurveRecord& curve) {
   double length = 0, bend = 0;
   for (int k = 0; k < 3; ++k) length += Length(PointOf(curve, k + 1) - PointOf(curve, k));
@@ -80,7 +80,7 @@ void StorePoint(Vec3d p, float out[3]) {
   for (int a = 0; a < 3; ++a) out[a] = static_cast<float>(p[a]);
 }
 
-// Neighbours share the point between them to the last bit.
+// Adjacent pieces share their common point bit for bit.
 CurvePiece PieceOf(const CurveRecord& curve, std::uint32_t k, int halvings) {
   const double pieces = 1u << halvings, u[2] = {k / pieces, (k + 1) / pieces};
   CurvePiece piece;

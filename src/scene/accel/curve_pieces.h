@@ -22,10 +22,10 @@ struct CurvePiece {
 /// left out.
 std::vector<CurvePiece> PiecesOf(const Geometry& geometry, std::uint32_t first_id);
 
-/// The box of its points, widened on all sides and rounded outwards.
+/// Returns the box of the points, widened on all sides and rounded outwards.
 AccelBox BoxOf(const CurvePiece& piece);
 
-/// For RoundBlocks, which has set `prim` to the number of the piece.
+/// Functions for RoundBlocks, which has set `prim` to the index of the piece.
 void SetLane(CurveBlock& block, std::uint32_t lane, const CurvePiece& piece);
 void ClearLane(CurveBlock& block, std::uint32_t lane);
 

@@ -1,4 +1,4 @@
-#include "src/scene/accel/instances.h"
+#include "src/scene/accel/builder.h"
 
 #include <algorithm>
 #include <array>
@@ -6,14 +6,12 @@
 #include <utility>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/builder.h"
-#include "src/scene/accel/grow.h"
 #include "src/scene/accel/shape_items.h"
 
 namespace lanelight {
 namespace {
 
-// Largest sum of |entries| of a row of the linear part of a 3x4 map.
+// Returns the largest sum of |entries| over the rows of the linear part of a 3x4 map.
 float RowNorm(const float* m) {
   float norm = 0;
   for (int r = 0; r < 3; ++r) {
@@ -27,10 +25,9 @@ float RowNorm(const float* m) {
 using Hull = std::vector<AccelBox>;
 // Boxes in a hull, and maps of boxes of all instances together, at most.
 constexpr std::size_t kHullBoxes = 384, kHullMaps = std::size_t{1} << 26;
-// Instances that one thread bounds at a time.
 constexpr std::size_t kInstanceGrain = 256;
 
-// The corners of the triangles, as boxes that are points.
+// Returns the corners of the triangles as boxes without extent.
 Hull Corners(const Geometry& geometry, Geometry::TriangleGroup group) {
   Hull hull;
   for (std::uint32_t id = group.begin; id < group.end; ++id) {
@@ -43,7 +40,7 @@ Hull Corners(const Geometry& geometry, Geometry::TriangleGroup group) {
   return hull;
 }
 
-// Boxes of the tree, as deep as they are at most `limit`, which is at least one.
+// Returns the boxes of the deepest levels of the tree that have at most `limit` boxes.
 Hull TreeBoxes(const Bvh& bvh, const AccelBox& box, std::size_t limit,
                const AlignedVector<WideNode>& nodes) {
   std::vector<std::pair<std::uint32_t, AccelBox>> open = {{bvh.root, box}};
@@ -82,7 +79,7 @@ Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
   return TreeBoxes(bvh, box, limit, nodes);
 }
 
-// Box of the transformed boxes, rounded outwards.
+// Returns the box of the transformed boxes, rounded outwards.
 template <typename Number>
 AccelBox Transformed(const Number* m, const Hull& hull) {
   AccelBox result;
@@ -105,7 +102,6 @@ AccelBox Transformed(const Number* m, const Hull& hull) {
   return result;
 }
 
-// 3x4 map of a motion, row by row.
 std::array<double, 12> MapAt(const Motion& motion, double s) {
   const Transform t = motion.At(s);
   std::array<double, 12> m;
@@ -113,7 +109,7 @@ std::array<double, 12> MapAt(const Motion& motion, double s) {
   return m;
 }
 
-// Box of the boxes on all their way.
+// Returns the box of the boxes during the whole motion.
 AccelBox Swept(const Motion& motion, const Hull& hull) {
   AccelBox box;
   float reach = 0;
@@ -147,8 +143,8 @@ std::vector<AccelBox> InstanceBoxes(const Geometry& geometry,
   return boxes;
 }
 
-// How much lengths grow at most on the ways to the scene and back, and what is added to
-// coordinates on the way to the object.
+// Largest growth of lengths by the maps to scene and object, and the largest translation
+// of the map to the object.
 struct Growth {
   float to_scene, to_object, translation;
 };
@@ -159,8 +155,8 @@ Growth GrowthOf(const InstanceRecord& record) {
           std::max({std::abs(m[3]), std::abs(m[7]), std::abs(m[11])})};
 }
 
-// Stretching is never more than at one of the ends. Maps that kernels make for a time are
-// rounded more often than ones made before: twice the norms.
+// The stretch is largest at one of the ends. Maps that kernels interpolate in time are
+// rounded more often than precomputed ones, hence twice the norms.
 Growth GrowthOf(const Motion& motion) {
   const auto norm = [](const Transform& t) {
     double sum = 0;
@@ -208,7 +204,7 @@ Bvh BuildTop(const Geometry& geometry, const std::vector<AccelBox>& group_boxes,
                       {.items = 0, .fits = {}, .typical = {}, .triangles = nullptr},
                       BuildQuality::kHigh, nodes)
                 .bvh;
-  // Rays go on into the instances.
+  // Traversal continues in the trees of the instances.
   top.depth += deepest;
   if (top.reach > 0) top.slack = 2 * kShapeSlack * (2 * linear + constant / top.reach);
   top.margin = top.slack * top.reach;

@@ -1,4 +1,4 @@
-#include "src/scene/accel/object_split.h"
+#include "src/scene/accel/splits.h"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,6 @@ float OverlapOf(const std::array<Bin, kCount>& bins, int middle) {
 template <int kCount, int kAxes>
 using AxisBins = std::array<std::array<Bin, kCount>, kAxes>;
 
-// Bins along all three axes, or along one.
 template <int kCount, int kAxes>
 void Fill(const BuildItem* items, std::uint32_t count, const Binning& binning, int axis,
           AxisBins<kCount, kAxes>& bins) {

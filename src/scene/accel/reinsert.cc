@@ -1,11 +1,10 @@
-#include "src/scene/accel/reinsert.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <algorithm>
 #include <queue>
 #include <vector>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/collapse.h"
 
 namespace lanelight {
 namespace {
@@ -15,11 +14,10 @@ namespace {
 // rounds or larger parts gain less than 1 %.
 constexpr int kRounds = 3;
 constexpr std::size_t kOneIn = 64, kAndAlso = 512, kAmong = 4;
-// Nodes looked at for one subtree: where most boxes overlap a search would see them all.
+// Largest number of nodes visited per subtree; without it, overlapping boxes need all.
 constexpr int kLooks = 4096;
 // Moves keep to this depth, which a tree fresh from the builder may exceed by little.
 constexpr int kMaxDepth = 64;
-// Subtrees whose places one task looks for.
 constexpr std::size_t kSearchGrain = 64;
 // The owner of pairs that a round does not reach.
 constexpr std::uint32_t kUnknown = 0xffffffffu;
@@ -29,7 +27,7 @@ AccelBox Join(AccelBox a, const AccelBox& b) {
   return a;
 }
 
-// A subtree, and beside which one it is better placed.
+// A subtree and its better sibling.
 struct Move {
   float gain = 0;
   std::size_t rank = 0;  // of the subtree by its size
@@ -47,14 +45,14 @@ struct Open {
 // changes what lies at four of them.
 class Reinserter {
  public:
-  // Notes in `changed` the places whose subtrees do not stay as they are.
+  // Appends to `changed` the places whose subtrees change.
   Reinserter(BinaryTree& tree, std::vector<std::uint32_t>& changed)
       : tree_(tree),
         changed_(changed),
         owner_(tree.size() / 2, kUnknown),
         large_(FindLarge()) {}
 
-  // Makes the moves that gain most; returns how many.
+  // Makes the moves that gain most; returns their number.
   std::size_t Round() {
     std::vector<Move> moves(large_.size());
     ParallelForRange(moves.size(), kSearchGrain, [&](std::size_t begin, std::size_t end) {
@@ -189,7 +187,7 @@ class Reinserter {
     changed_.push_back(at);  // as the place may be where it was
   }
 
-  // What nodes know of their children, from one up; returns how the sum of areas changes.
+  // Updates a node and its ancestors; returns the change of the sum of areas.
   double Refit(std::uint32_t at) {
     for (double change = 0;; at = Parent(at)) {
       BinaryNode& n = tree_[at];
@@ -205,7 +203,7 @@ class Reinserter {
     }
   }
 
-  // Less is rounding.
+  // Smaller gains are rounding errors.
   static constexpr float kLeastGain = 1e-6f;
 
   BinaryTree& tree_;

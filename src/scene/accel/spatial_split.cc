@@ -1,10 +1,9 @@
-#include "src/scene/accel/spatial_split.h"
+#include "src/scene/accel/splits.h"
 
 #include <algorithm>
 #include <array>
 
-#include "src/scene/accel/grow.h"
-#include "src/scene/accel/object_split.h"
+#include "src/scene/accel/shape_items.h"
 #include "src/scene/accel/triangle_cut.h"
 
 namespace lanelight {
@@ -30,7 +29,6 @@ class Slabs {
   int Of(float x) const {
     return std::clamp(static_cast<int>((x - lo_) * scale_), 0, kSlabs - 1);
   }
-  // The lower end of slab i.
   float Plane(int i) const { return lo_ + static_cast<float>(i) * width_; }
 
   void Add(const BuildItem& item, const TriangleRecord* triangles,
@@ -93,7 +91,7 @@ void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs,
   }
 }
 
-// CutTriangle for an item, both parts grown as the whole was.
+// Cuts an item with CutTriangle and grows both parts as the whole was grown.
 CutBoxes CutItem(const BuildItem& item, const SpatialSplit& split,
                  const TriangleRecord& triangle) {
   CutBoxes cut = CutTriangle(triangle, item.box, split.axis, split.x);
@@ -108,13 +106,13 @@ CutBoxes CutItem(const BuildItem& item, const SpatialSplit& split,
   return cut;
 }
 
-// Half area of a box if it grows to hold another.
+// Returns the half area of a box extended by an item.
 float AreaWith(WideBox box, const BuildItem& item) {
   box.Extend(LowOf(item), HighOf(item));
   return box.HalfArea();
 }
 
-// The sides of a plane as items are given to them.
+// The two sides of a plane while items are assigned to them.
 class Sides {
  public:
   explicit Sides(const SpatialSplit& split) {

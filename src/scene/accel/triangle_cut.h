@@ -1,9 +1,13 @@
-// Boxes of the parts of a triangle between two planes across an axis.
+// Decides which triangles a build cuts, and bounds their parts.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
 
-#include "src/scene/accel/wide_box.h"
+#include "src/scene/accel/builder.h"
+#include "src/scene/accel/partition.h"
 #include "src/scene/geometry/geometry.h"
 
 namespace lanelight {
@@ -19,11 +23,10 @@ class SortedTriangle {
     if (p_[1][axis] < p_[0][axis]) std::swap(p_[0], p_[1]);
   }
 
-  /// Corners `k` in [0, 3).
   Float4 corner(int k) const { return p_[k]; }
 
-  /// Box of what lies at coordinate `x` of the axis, up to rounding: empty beyond the
-  /// corners, the corner itself at the first and the last.
+  /// Returns the box of the section at coordinate `x` of the axis, up to rounding; empty
+  /// beyond the corners.
   WideBox Section(float x) const {
     WideBox box;
     if (x < p_[0][axis_] || x > p_[2][axis_]) return box;
@@ -49,9 +52,27 @@ struct CutBoxes {
 
 bool IsEmpty(const AccelBox& box);
 
-/// Boxes of the parts of `triangle` in `box` on both sides of the plane where coordinate
-/// `axis` is `x`, rounded outwards: every point of the triangle in `box` lies in one.
+/// Returns the boxes, rounded outwards, of the parts of `triangle` in `box` on both sides
+/// of the plane where coordinate `axis` is `x`.
 CutBoxes CutTriangle(const TriangleRecord& triangle, const AccelBox& box, int axis,
                      float x);
+
+struct CutPlan {
+  std::uint32_t room = 0;  // items that may be added
+  /// Smallest number of items of a range that may be cut.
+  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  /// A plane is used if it costs less than this times the best split without cuts, in
+  /// ranges of at least kLargeRange items and in smaller ones.
+  float gain = 0, small_gain = 0;
+
+  float Gain(std::uint32_t count) const {
+    return count < kLargeRange ? small_gain : gain;
+  }
+  static constexpr std::uint32_t kLargeRange = 128;
+};
+
+/// Returns a plan for a mesh, by the empty part of the boxes of its triangles. `items`
+/// are whole triangles, at least one.
+CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* triangles);
 
 }  // namespace lanelight

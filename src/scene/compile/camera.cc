@@ -6,9 +6,8 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/scene/compile/lens_system.h"
-#include "src/scene/compile/motion.h"
-#include "src/scene/compile/range.h"
+#include "src/scene/compile/focus.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
@@ -17,7 +16,7 @@ struct Window {
   double x0, x1, y0, y1;
 };
 
-// pbrt: the shorter axis of the screen spans [-1, 1].
+// As in pbrt, the shorter axis of the screen spans [-1, 1].
 Window ScreenWindow(const Camera& camera, const Film& film) {
   const double* w = camera.screen_window;
   if (w[0] != 0 || w[1] != 0 || w[2] != 0 || w[3] != 0) return {w[0], w[1], w[2], w[3]};
@@ -97,7 +96,7 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film,
   SetMotion(camera, frame, out);
   CheckExtent(camera, camera.lens_radius * unit);
   out.lens_radius = static_cast<float>(camera.lens_radius * unit);
-  // So far away, all rays of a pixel are parallel.
+  // At this distance all rays of a pixel are parallel.
   out.focal_distance =
       static_cast<float>(std::min(camera.focal_distance * unit, kFarthestInScene));
 
@@ -108,7 +107,7 @@ CompiledCamera CompileCamera(const Camera& camera, const Film& film,
     return out;
   }
   if (camera.kind == CameraKind::kRealistic) {
-    // The lenses turn the image over.
+    // The lenses invert the image.
     const double aspect = static_cast<double>(film.height) / film.width;
     const double x = camera.film_diagonal / std::hypot(1, aspect), y = aspect * x;
     out.base = ToFloat({x / 2, -y / 2, 0});

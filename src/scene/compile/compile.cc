@@ -9,24 +9,18 @@
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/scene/accel/build.h"
-#include "src/scene/accel/tree_source.h"
 #include "src/scene/compile/camera.h"
 #include "src/scene/compile/features.h"
-#include "src/scene/compile/filter.h"
 #include "src/scene/compile/focus.h"
-#include "src/scene/compile/footprint.h"
-#include "src/scene/compile/gbuffer.h"
 #include "src/scene/compile/geometry.h"
 #include "src/scene/compile/lights.h"
 #include "src/scene/compile/materials.h"
 #include "src/scene/compile/media.h"
 #include "src/scene/compile/placement.h"
-#include "src/scene/compile/quadrics.h"
-#include "src/scene/compile/range.h"
+#include "src/scene/compile/shape_records.h"
 #include "src/scene/compile/spectrum_rows.h"
 #include "src/scene/compile/texture_programs.h"
 #include "src/scene/compile/textures.h"
-#include "src/scene/compile/transport.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {
@@ -37,7 +31,7 @@ std::vector<Index> UsedMaterials(const Placement& placement) {
   ForEachPlaced(placement, [&](const PlacedShape& placed) {
     used.push_back(placed.shape->material);
   });
-  std::sort(used.begin(), used.end());
+  std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());
   return used;
 }
@@ -102,8 +96,9 @@ void NoteDropped(const std::vector<PlacedShape>& shapes,
 }
 
 bool HasEmissionImages(const SceneDescription& description) {
-  return std::any_of(description.area_lights.begin(), description.area_lights.end(),
-                     [](const AreaLight& light) { return !light.image_path.empty(); });
+  return std::ranges::any_of(description.area_lights, [](const AreaLight& light) {
+    return !light.image_path.empty();
+  });
 }
 
 // A render of nothing is a black image, or one of the environment, but seldom what was
@@ -180,11 +175,10 @@ CompiledScene CompileScene(const SceneDescription& description,
       CompileMaterials(description, UsedMaterials(placement), options, spectra);
   scene.media = CompileMedia(description, placement, materials, scene.notes);
   scene.features = MaterialFeatures(materials.table, placement);
-  const GeometryOptions geometry_options = {
-      .uvs = scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
-             HasEmissionImages(description) ||
-             description.film.gbuffer != Gbuffer::kNone ||
-             description.integrator.force_diffuse};
+  const bool keep_uvs =
+      (scene.features.HasAny({Feature::kUv, Feature::kTangents}) ||
+       HasEmissionImages(description) || description.film.gbuffer != Gbuffer::kNone ||
+       description.integrator.force_diffuse);
 
   CompiledGeometry compiled;
   ParallelInvoke(
@@ -198,11 +192,11 @@ CompiledScene CompileScene(const SceneDescription& description,
                 Transform::Scale(Vec3d{1, 1, 1} / scene.scale),
             &scene.notes);
       },
-      [&] { compiled = CompileGeometry(placement, materials.index, geometry_options); });
+      [&] { compiled = CompileGeometry(placement, materials.index, keep_uvs); });
 
   const auto& programs = scene.textures.programs;
-  if (std::any_of(programs.begin(), programs.end(),
-                  [](const TextureProgram& p) { return p.uses_place; })) {
+  if (std::ranges::any_of(programs,
+                          [](const TextureProgram& p) { return p.uses_place; })) {
     scene.features.Add(Feature::kTexturePlaces);
     RequireUvAlpha(description, placement, scene.textures);
   }

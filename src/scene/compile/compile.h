@@ -10,7 +10,7 @@
 namespace lanelight {
 
 struct CompiledScene;     // src/scene/compiled/scene.h
-struct KnownTree;         // src/scene/accel/tree_source.h
+struct KnownTree;         // src/scene/accel/build.h
 struct SceneDescription;  // src/scene/description/description.h
 struct TreeReport;        // src/scene/accel/tree_report.h
 

@@ -1,4 +1,4 @@
-#include "src/scene/compile/curves.h"
+#include "src/scene/compile/shape_records.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "src/base/core/error.h"
-#include "src/scene/compile/store.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
@@ -59,11 +59,11 @@ CurveSpace SpaceOf(const Shape& shape, const Transform& transform) {
 }
 
 bool HasRibbon(const std::vector<Curve>& curves) {
-  return std::any_of(curves.begin(), curves.end(),
-                     [](const Curve& c) { return c.type == CurveType::kRibbon; });
+  return std::ranges::any_of(curves,
+                             [](const Curve& c) { return c.type == CurveType::kRibbon; });
 }
 
-// Below this angle the sines of a turn are those of a line.
+// Below this angle (radians) spherical and linear interpolation of normals are equal.
 constexpr double kLeastTurn = 1e-3;
 
 RibbonRecord RibbonOf(const PlacedShape& placed, const Curve& curve) {
@@ -84,7 +84,7 @@ RibbonRecord RibbonOf(const PlacedShape& placed, const Curve& curve) {
   return record;
 }
 
-// For the `count` curves that are added next.
+// Stores the space of the `count` curves that are added next.
 void AddSpaces(const CurveSpace& space, std::size_t count, Geometry& geometry) {
   const CurveSpace identity = SpaceOf({}, Transform());
   const bool same = std::memcmp(&space, &identity, sizeof(space)) == 0;

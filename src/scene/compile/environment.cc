@@ -1,27 +1,19 @@
 #include "src/scene/compile/environment.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "src/base/core/error.h"
 #include "src/base/image/octahedral.h"
-#include "src/scene/compile/environment_table.h"
-#include "src/scene/compile/light_axes.h"
 #include "src/scene/compile/light_texels.h"
+#include "src/scene/compile/lights.h"
 
 namespace lanelight {
 namespace {
 
 LightFile FileOf(const Light& light) {
   return {light.where, "environment image", light.image_path};
-}
-
-[[noreturn]] void Fail(const Light& light, const std::string& message) {
-  FailAtLight(FileOf(light), message);
 }
 
 double TexelLuminance(const AlignedVector<float>& rgb, std::size_t i) {
@@ -70,34 +62,24 @@ void StoreTransforms(const Light& light, Environment& environment) {
 }  // namespace
 
 Environment CompileEnvironment(const Light& light, std::vector<Note>* notes) {
-  Image image;
-  try {
-    image = ReadImage(light.image_path);
-  } catch (const InputError& e) {
-    throw InputError(light.where, "infinite light: " + WithoutPrefix(e));
-  }
-  return CompileEnvironment(light, image, notes);
+  return CompileEnvironment(light, ReadLightImage(FileOf(light)), notes);
 }
 
 Environment CompileEnvironment(const Light& light, const Image& image,
                                std::vector<Note>* notes) {
-  if (image.width != image.height || image.width <= 0) {
-    Fail(light, fmt::format("{} x {} pixels; supported are square equal-area octahedral "
-                            "maps (pbrt-v4: \"imgtool makeequiarea\" converts a "
-                            "latitude-longitude map)",
-                            image.width, image.height));
-  }
+  const LightFile file = FileOf(light);
+  RequireSquareMap(file, image.width, image.height);
   Environment environment;
   environment.size = image.width;
-  environment.rgb = LightTexels(FileOf(light), image, notes);
+  environment.rgb = LightTexels(file, image, notes);
   StoreTransforms(light, environment);
   double scale = light.image_scale;
   if (light.illuminance > 0) {
     const double map = PbrtIlluminance(environment.rgb, image.width);
     if (!(map > 0)) {
-      Fail(light,
-           "black in its upper hemisphere, so it cannot be scaled to the given "
-           "\"illuminance\"");
+      FailAtLight(file,
+                  "black in its upper hemisphere, so it cannot be scaled to the given "
+                  "\"illuminance\"");
     }
     scale *= light.illuminance / map;
   }

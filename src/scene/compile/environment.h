@@ -2,6 +2,7 @@
 #pragma once
 
 #include "src/base/image/image.h"
+#include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/description/description.h"
 
@@ -17,7 +18,14 @@ Environment CompileEnvironment(const Light& light, std::vector<Note>* notes);
 Environment CompileEnvironment(const Light& light, const Image& image,
                                std::vector<Note>* notes = nullptr);
 
-/// Mean radiance over the sphere.
 Rgb MeanRadiance(const Environment& environment);
+
+/// Makes the table by which texels of `environment` are sampled: in proportion to their
+/// luminance, or with `compensated` to its excess over the mean. BSDF samples then find
+/// the rest (Karlik, Sik, Vevoda, Skrivan and Krivanek 2019, "MIS Compensation:
+/// Optimizing Sampling Techniques in Multiple Importance Sampling"). A constant image has
+/// no excess and keeps the plain table. The table of a black image is empty.
+std::shared_ptr<const EnvironmentTable> MakeEnvironmentTable(
+    bool compensated, const Environment& environment);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// environment-image tables: a texel by its row, then by its column in that row.
+// Tables of environment images sample a texel by its row, then by its column in that row.
 //   density     pdf_sa = P(texel) * texels / (4 pi); all texels fill the same solid angle
 // compensated P ~ max(0, L - mean L). With two techniques of equal sample counts and the
 // balance heuristic, the sum of densities is sampled. This P brings p_light + p_bsdf
@@ -6,14 +6,14 @@
 //   unbiased    scattered rays must find what has no probability any more: with
 //               directions=mis only, where their weight is 1 there
 //   variance    falls where the sky is much dimmer than a sun; at most slightly higher
-//   for
-//               narrow lobes, which find little of the dim part
+//               for narrow lobes, which find little of the dim part
 //   cost        none per sample
 //   source      Karlik et al. 2019
-#include "src/scene/compile/environment_table.h"
+#include "src/scene/compile/environment.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "src/base/core/vec.h"
@@ -21,8 +21,8 @@
 namespace lanelight {
 namespace {
 
-// Less than this share of an image above its mean is rounding.
-constexpr double kRounding = 1e-5;
+// A smaller fraction of an image above its mean is rounding.
+constexpr double kLeastExcess = 1e-5;
 
 // Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end
 // at 1. Without any weight the distribution is uniform.
@@ -65,19 +65,17 @@ std::vector<double> Luminances(const Environment& e) {
 }
 
 double Sum(const std::vector<double>& weights) {
-  double sum = 0;
-  for (double w : weights) sum += w;
-  return sum;
+  return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
-// Returns what lies above the mean, or all of it if nothing does.
+// Returns the excess over the mean, or the luminance itself if nothing exceeds the mean.
 std::vector<double> AboveMean(const std::vector<double>& luminance) {
   const double sum = Sum(luminance), mean = sum / static_cast<double>(luminance.size());
   std::vector<double> above(luminance.size());
   for (std::size_t i = 0; i < above.size(); ++i) {
     above[i] = std::max(0.0, luminance[i] - mean);
   }
-  return Sum(above) > kRounding * sum ? above : luminance;
+  return Sum(above) > kLeastExcess * sum ? above : luminance;
 }
 
 // The probabilities are those of the rounded sums, which is what the kernel samples.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "src/base/core/check.h"
-#include "src/scene/compile/quadrics.h"
+#include "src/scene/compile/shape_records.h"
 
 namespace lanelight {
 namespace {
@@ -11,9 +10,7 @@ namespace {
 void AddRoughness(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const bool textured = m.alpha_x_texture[i] >= 0 || m.alpha_y_texture[i] >= 0;
   if (textured) {
-    features.Add(Feature::kTextures);
-    features.Add(Feature::kTexturedRoughness);
-    features.Add(Feature::kUv);
+    features.Add({Feature::kTextures, Feature::kTexturedRoughness, Feature::kUv});
   }
   const bool anisotropic = m.alpha_x_texture[i] != m.alpha_y_texture[i] ||
                            (m.alpha_x_texture[i] < 0 && m.alpha_x[i] != m.alpha_y[i]) ||
@@ -33,11 +30,6 @@ void AddCoat(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   }
 }
 
-bool Turns(const MeasuredTable& table, std::size_t material) {
-  const auto record = static_cast<std::size_t>(table.of_material[material]);
-  return table.records[record].turns != 0;
-}
-
 void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   const auto kind = static_cast<ShadeKind>(m.kind[i]);
   features.Add(ShadeFeature(kind));
@@ -45,12 +37,12 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   if (HasTrait(kind, kFibre)) features.Add({Feature::kTangents, Feature::kUv});
   if (HasTrait(kind, kMicrofacets)) AddRoughness(m, i, features);
   if (m.coat[i] >= 0) AddCoat(m, i, features);
-  if (kind == ShadeKind::kMeasured && Turns(m.measured, i)) {
-    features.Add(Feature::kTangents);
+  if (kind == ShadeKind::kMeasured) {
+    const auto record = static_cast<std::size_t>(m.measured.of_material[i]);
+    if (m.measured.records[record].turns != 0) features.Add(Feature::kTangents);
   }
   if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
-    features.Add(Feature::kTextures);
-    features.Add(Feature::kUv);
+    features.Add({Feature::kTextures, Feature::kUv});
   }
   if (m.color1_texture[i] >= 0) features.Add(Feature::kTexturedColor1);
   if (!m.displacement_texture.empty()) {
@@ -79,27 +71,16 @@ void AddLights(const CompiledScene& scene, FeatureSet& features) {
 }
 
 bool FiltersTextures(const TextureTable& textures) {
-  return std::any_of(
-      textures.nodes.begin(), textures.nodes.end(),
-      [](const TextureNode& node) { return node.filter >= ImageFilter::kTrilinear; });
+  return std::ranges::any_of(textures.nodes, [](const TextureNode& node) {
+    return node.filter >= ImageFilter::kTrilinear;
+  });
 }
 
-Feature FeatureOf(CameraKind camera) {
-  switch (camera) {
-    case CameraKind::kPerspective:
-      return Feature::kPerspective;
-    case CameraKind::kOrthographic:
-      return Feature::kOrthographic;
-    case CameraKind::kSpherical:
-      return Feature::kSphericalCamera;
-    case CameraKind::kRealistic:
-      return Feature::kRealisticCamera;
-  }
-  LL_CHECK(!"unknown camera");
-  return Feature::kCount;
-}
+// Features by CameraKind.
+constexpr Feature kCameraFeature[] = {Feature::kPerspective, Feature::kOrthographic,
+                                      Feature::kSphericalCamera,
+                                      Feature::kRealisticCamera};
 
-// Adds the features of paths with wavelengths.
 void AddSpectra(const CompiledScene& scene, FeatureSet& features) {
   const MaterialTable& m = scene.materials;
   features.Add(Feature::kSpectral);
@@ -132,13 +113,13 @@ void AddMedia(const MediumTable& table, FeatureSet& features) {
 }
 
 bool HasNonSpecular(const MaterialTable& materials) {
-  return std::any_of(materials.kind.begin(), materials.kind.end(), [](std::uint32_t k) {
+  return std::ranges::any_of(materials.kind, [](std::uint32_t k) {
     const auto kind = static_cast<ShadeKind>(k);
     return IsShaded(kind) && !HasTrait(kind, kSpecularOnly);
   });
 }
 
-// One kind of material instead of all that surfaces have; its colour is by path.
+// Replaces the kinds of all surfaces by one, whose colour varies by path.
 void ForceDiffuse(const MaterialTable& materials, FeatureSet& features) {
   for (int k = 0; k < kNumShadeKinds; ++k) {
     const auto kind = static_cast<ShadeKind>(k);
@@ -151,7 +132,7 @@ void ForceDiffuse(const MaterialTable& materials, FeatureSet& features) {
 }
 
 bool HasNegative(const AlignedVector<float>& signs) {
-  return std::any_of(signs.begin(), signs.end(), [](float s) { return s < 0; });
+  return std::ranges::any_of(signs, [](float s) { return s < 0; });
 }
 
 }  // namespace
@@ -196,12 +177,11 @@ FeatureSet SceneFeatures(const CompiledScene& scene) {
       HasNonSpecular(scene.materials)) {
     features.Add(Feature::kMis);
   }
-  // Points on the lens.
   if (scene.view.camera.lens_radius > 0 ||
       scene.view.camera.kind == CameraKind::kRealistic) {
     features.Add(Feature::kLens);
   }
-  features.Add(FeatureOf(scene.view.camera.kind));
+  features.Add(kCameraFeature[static_cast<int>(scene.view.camera.kind)]);
   if (!scene.filter.is_box) features.Add(Feature::kFiltered);
   if (HasNegative(scene.filter.x_sign) || HasNegative(scene.filter.y_sign)) {
     features.Add(Feature::kSignedFilter);

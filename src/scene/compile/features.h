@@ -1,4 +1,4 @@
-// Which features a compiled scene needs: exactly those, since each costs time or memory.
+// Determines the features that a compiled scene needs; each costs time or memory.
 #pragma once
 
 #include "src/scene/compile/placement.h"
@@ -7,8 +7,9 @@
 
 namespace lanelight {
 
-/// From the material table (whose textures are all uv-dependent: constants are folded)
-/// and the alpha of the shapes: kinds, textures, kUv, kTangents, kAlpha, ...
+/// Returns the features of the material table (whose textures are all uv-dependent:
+/// constants are folded) and the alpha of the shapes: kinds, textures, kUv, kTangents,
+/// kAlpha, ...
 FeatureSet MaterialFeatures(const MaterialTable& materials, const Placement& placement);
 
 /// All other bits; `scene.features` already holds those of the materials.

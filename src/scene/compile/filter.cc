@@ -1,4 +1,4 @@
-#include "src/scene/compile/filter.h"
+#include "src/scene/compile/camera.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ double Sinc(double x) {
   return std::abs(t) < 1e-4 ? 1 - t * t / 6 : std::sin(t) / t;
 }
 
-// Integral over [a, b] by Gauss-Legendre with four points on each of eight parts: exact
+// Integrates over [a, b] by Gauss-Legendre with four points on each of eight parts: exact
 // for every polynomial filter, rounding for the others.
 double IntegrateFilter(const Filter& filter, double radius, double a, double b) {
   constexpr std::array<double, 2> kNode = {0.33998104358485626, 0.86113631159405258};

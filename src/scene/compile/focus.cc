@@ -53,7 +53,7 @@ Seen SeenSphere(const PlacedShape& placed, const Box& box, Vec3d eye) {
   return seen;
 }
 
-// So is a mesh of which the camera sees small details.
+// A mesh close to the camera is likewise reduced to its nearest vertex.
 Seen SeenMesh(const PlacedShape& placed, const Box& box, Vec3d eye) {
   const double reach = Farthest(box, eye);
   const Vec3d outside = Max(Max(box.min - eye, eye - box.max), {});
@@ -93,8 +93,7 @@ std::vector<Seen> AllSeen(Vec3d eye, const Placement& p) {
   for (const PlacedInstance& instance : p.instances) {
     add({Farthest(instance.bounds, eye), instance.bounds});
   }
-  std::sort(all.begin(), all.end(),
-            [](const Seen& a, const Seen& b) { return a.reach < b.reach; });
+  std::ranges::sort(all, [](const Seen& a, const Seen& b) { return a.reach < b.reach; });
   return all;
 }
 

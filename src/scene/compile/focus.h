@@ -1,4 +1,4 @@
-// Which part of a scene float32 is to resolve best: what the camera sees up close.
+// Places the frame so that float32 resolves best what the camera sees up close.
 //
 // A coordinate is rounded in proportion to its distance from the frame's origin, and
 // distant things look small. If sizes span more than kFocusRange, the frame's origin is
@@ -17,7 +17,7 @@ namespace lanelight {
 /// the centre of its box, with all spheres in the ordinary form.
 inline constexpr double kFocusRange = 64;
 
-/// The point of the sphere that is nearest to `eye`, and how far off that is.
+/// Point of a sphere that is nearest to `eye`, and its distance.
 struct Foot {
   Vec3d point;
   double distance = 0;
@@ -35,7 +35,23 @@ void SeparateLargeSpheres(Placement& placement);
 inline constexpr double kMostEmitterRange = 4e4;
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
 
-/// The frame of the scene; needs `eye` and `bounds`.
+/// Returns the frame of the scene; needs `eye` and `bounds`.
 WorldFrame FocusFrame(const Placement& placement);
+
+// The range of float32 in scene coordinates (world_frame.h), whose unit is about the size
+// of the scene, or of the part that the camera sees up close.
+//
+// Kernels square distances and sizes. Squares of coordinates, and sums of three, must be
+// below 2^128; squares of sizes must be normal numbers, at least 2^-126. Larger positions
+// are refused. Smaller shapes are left out with a note, like degenerate triangles.
+
+inline constexpr double kFarthestInScene = 0x1p62, kSmallestInScene = 0x1p-62;
+
+/// Throws InputError if `p`, in scene coordinates, is out of range. For the camera,
+/// lights and planes, which do not count for the frame.
+void RequireInScene(Vec3d p, const SourceLocation& where, const char* what);
+
+/// Removes the spheres, disks and instances that are too small or too flat.
+void LeaveOutSmall(Placement& placement, std::vector<Note>& notes);
 
 }  // namespace lanelight

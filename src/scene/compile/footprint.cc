@@ -1,4 +1,4 @@
-#include "src/scene/compile/footprint.h"
+#include "src/scene/compile/camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,12 @@
 #include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
+
 namespace {
 
 Vec3d ToDouble(Vec3f v) { return VecCast<double>(v); }
 
-// A camera-space vector in the scene.
+// Transforms a vector from camera to scene space.
 Vec3d InScene(const CompiledCamera& camera, Vec3f v) {
   return ToDouble(camera.right) * v.x + ToDouble(camera.up) * v.y +
          ToDouble(camera.forward) * v.z;
@@ -21,7 +22,7 @@ Vec3d UnitOr(Vec3d v, Vec3d otherwise) {
   return Length(v) > 0 ? Normalize(v) : otherwise;
 }
 
-// The part of v across the unit vector n.
+// Returns the part of v perpendicular to the unit vector n.
 Vec3d Across(Vec3d v, Vec3d n) { return v - n * Dot(v, n); }
 
 // Smallest angle between the directions of neighbouring pixels, least cosine of a
@@ -84,6 +85,33 @@ PixelFootprint CompileFootprint(const CompiledCamera& compiled, const Camera& ca
   out.angle_x *= static_cast<float>(scale);
   out.angle_y *= static_cast<float>(scale);
   return out;
+}
+
+GbufferSpace CompileGbufferSpace(const Film& film, const Camera& camera,
+                                 const WorldFrame& frame) {
+  if (film.gbuffer == Gbuffer::kNone) return {};
+  const bool in_camera = film.gbuffer == Gbuffer::kCamera;
+  // Subtracting first keeps the digits of nearby points.
+  const Transform scene_from_space =
+      in_camera ? frame.After(camera.world_from_camera) : frame.After(Transform());
+  const Transform space_from_scene = scene_from_space.Inverse();
+  const Vec3d columns[3] = {space_from_scene.Vector({1, 0, 0}),
+                            space_from_scene.Vector({0, 1, 0}),
+                            space_from_scene.Vector({0, 0, 1})};
+  const Vec3d from = in_camera ? scene_from_space.Point({0, 0, 0}) : Vec3d{0, 0, 0};
+  GbufferSpace space;
+  space.of_camera = in_camera;
+  space.from = ToFloat(from);
+  space.to = ToFloat(in_camera ? Vec3d{0, 0, 0} : frame.center);
+  space.x = ToFloat({columns[0].x, columns[1].x, columns[2].x});
+  space.y = ToFloat({columns[0].y, columns[1].y, columns[2].y});
+  space.z = ToFloat({columns[0].z, columns[1].z, columns[2].z});
+  // Normals transform by the inverse transpose; their length does not matter.
+  const double unit = Length(scene_from_space.Vector({0, 0, 1}));
+  space.normal_x = ToFloat(scene_from_space.Vector({1, 0, 0}) / unit);
+  space.normal_y = ToFloat(scene_from_space.Vector({0, 1, 0}) / unit);
+  space.normal_z = ToFloat(scene_from_space.Vector({0, 0, 1}) / unit);
+  return space;
 }
 
 }  // namespace lanelight

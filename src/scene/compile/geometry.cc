@@ -8,16 +8,12 @@
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/curves.h"
-#include "src/scene/compile/mesh.h"
-#include "src/scene/compile/motion.h"
-#include "src/scene/compile/quadrics.h"
-#include "src/scene/compile/store.h"
+#include "src/scene/compile/shape_records.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
 
-// A mesh, and where it goes.
 struct Job {
   const PlacedShape* placed;
   const WorldFrame* frame;
@@ -72,16 +68,15 @@ void AssignRanges(const std::vector<Job>& jobs) {
 }
 
 void CompileMeshes(const std::vector<Job>& jobs,
-                   const std::vector<std::int32_t>& material_index,
-                   const GeometryOptions& options, CompiledGeometry& out) {
+                   const std::vector<std::int32_t>& material_index, bool keep_uvs,
+                   CompiledGeometry& out) {
   const std::size_t n = jobs.empty() ? 0 : jobs.back().range->end;
-  const bool normals = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
-    return !job.placed->mesh->normals.empty();
-  });
+  const bool normals = std::ranges::any_of(
+      jobs, [](const Job& job) { return !job.placed->mesh->normals.empty(); });
   Geometry& g = out.geometry;
   g.triangles.resize(n);
   if (normals) g.normals.resize(9 * n);
-  if (options.uvs) g.uvs.resize(6 * n);
+  if (keep_uvs) g.uvs.resize(6 * n);
   std::atomic<bool> has_normals{false};
   ParallelFor(jobs.size(), [&](std::size_t i) {
     const Job& job = jobs[i];
@@ -89,18 +84,16 @@ void CompileMeshes(const std::vector<Job>& jobs,
     MeshOutput mesh;
     mesh.triangles = g.triangles.data() + begin;
     mesh.normals = normals ? g.normals.data() + 9 * begin : nullptr;
-    mesh.uvs = options.uvs ? g.uvs.data() + 6 * begin : nullptr;
+    mesh.uvs = keep_uvs ? g.uvs.data() + 6 * begin : nullptr;
     mesh.areas = job.range->areas.empty() ? nullptr : job.range->areas.data();
     if (CompileMesh(*job.placed, *job.frame, MaterialOf(*job.placed, material_index),
                     mesh)) {
       has_normals.store(true, std::memory_order_relaxed);
     }
   });
-  out.has_vertex_normals = has_normals.load();
-  if (!out.has_vertex_normals) g.normals = {};
-  g.turned_tangents = std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
-    return job.placed->mesh->turns_tangents;
-  });
+  if (!has_normals.load()) g.normals = {};
+  g.turned_tangents = std::ranges::any_of(
+      jobs, [](const Job& job) { return job.placed->mesh->turns_tangents; });
 }
 
 void SetFaceAreas(const Job& job, const Geometry& g) {
@@ -185,13 +178,6 @@ void MakeInstances(const Placement& placement, Geometry& g) {
   }
 }
 
-void CompileCurves(const Placement& placement,
-                   const std::vector<std::int32_t>& material_index, Geometry& g) {
-  for (const PlacedShape& p : placement.curves) {
-    AddCurves(p, placement.frame, MaterialOf(p, material_index), g);
-  }
-}
-
 void MakeQuadrics(const Placement& placement,
                   const std::vector<std::int32_t>& material_index, bool keep_uv,
                   Geometry& g) {
@@ -209,7 +195,9 @@ void MakeQuadrics(const Placement& placement,
     g.large_spheres.push_back(
         CompileLargeSphere(p, frame, placement.eye, MaterialOf(p, material_index)));
   }
-  CompileCurves(placement, material_index, g);
+  for (const PlacedShape& p : placement.curves) {
+    AddCurves(p, frame, MaterialOf(p, material_index), g);
+  }
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
   g.ranges.spheres = count(g.triangles);
   g.ranges.disks = g.ranges.spheres + count(g.spheres);
@@ -219,7 +207,8 @@ void MakeQuadrics(const Placement& placement,
   g.ranges.end = g.ranges.curves + count(g.curves);
 }
 
-// One ulp wider than the double-precision bounds, so that rounded positions lie inside.
+// Makes bounds one ulp wider than in double precision, so that rounded positions lie
+// inside.
 void MakeBounds(const Placement& placement, Geometry& g) {
   const Vec3d lo = placement.frame.Point(placement.bounds.min);
   const Vec3d hi = placement.frame.Point(placement.bounds.max);
@@ -234,16 +223,16 @@ void MakeBounds(const Placement& placement, Geometry& g) {
 
 CompiledGeometry CompileGeometry(const Placement& placement,
                                  const std::vector<std::int32_t>& material_index,
-                                 const GeometryOptions& options) {
+                                 bool keep_uvs) {
   CompiledGeometry out;
   const std::vector<Job> jobs = ListJobs(placement, out);
   AssignRanges(jobs);
-  CompileMeshes(jobs, material_index, options, out);
+  CompileMeshes(jobs, material_index, keep_uvs, out);
   for (const Job& job : jobs) SetFaceAreas(job, out.geometry);
   RemoveDegenerate(jobs, out.geometry);
   MakeGroups(out, out.geometry);
   MakeInstances(placement, out.geometry);
-  MakeQuadrics(placement, material_index, options.uvs, out.geometry);
+  MakeQuadrics(placement, material_index, keep_uvs, out.geometry);
   MakeBounds(placement, out.geometry);
   return out;
 }

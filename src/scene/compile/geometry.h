@@ -35,11 +35,6 @@ struct CompiledGeometry {
   Geometry geometry;
   std::vector<MeshRange> meshes;                      // as Placement::meshes
   std::vector<std::vector<MeshRange>> object_meshes;  // as Placement::objects
-  bool has_vertex_normals = false;
-};
-
-struct GeometryOptions {
-  bool uvs = false;  // something looks at texture coordinates: keep them
 };
 
 /// Calls visit(placed, begin, end) for everything placed, in the order of ForEachPlaced,
@@ -68,10 +63,11 @@ void ForEachCompiled(const Placement& placement, const CompiledGeometry& compile
   });
 }
 
-/// `material_index` maps described to compiled materials. Lights are left at -1.
+/// `material_index` maps described to compiled materials. Texture coordinates are stored
+/// with `keep_uvs`. Lights are left at -1.
 /// Throws InputError for quadrics under transforms that do not keep their shape.
 CompiledGeometry CompileGeometry(const Placement& placement,
                                  const std::vector<std::int32_t>& material_index,
-                                 const GeometryOptions& options);
+                                 bool keep_uvs);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/scene/compile/lens_aperture.h"
+#include "src/scene/compile/camera.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kBuiltInSize = 256;
 
-// In a regular polygon with a corner at (0, radius): above 0 inside, 1 in the middle.
+// Returns a value above 0 inside a regular polygon with a corner at (0, radius).
 double InPolygon(double x, double y, int sides, double radius) {
   double least = 1;
   for (int i = 0; i < sides; ++i) {
@@ -41,7 +41,7 @@ bool InStar(double x, double y) {
 
 using Share = std::function<double(double x, double y)>;
 
-// pbrt turns its pictures over: its pentagon stands on a tip. A star is the same.
+// pbrt flips its images vertically, so its pentagon stands on a tip.
 Share BuiltIn(const std::string& name) {
   if (name == "gaussian") {
     return [](double x, double y) {
@@ -68,7 +68,6 @@ void Rasterise(const Share& share, LensSystem& lenses) {
   }
 }
 
-// Rows upwards.
 void ReadPicture(const Camera& camera, LensSystem& lenses) {
   LightTable table;
   std::vector<Note> notes;
@@ -115,7 +114,7 @@ double ApertureReach(const LensSystem& lenses) {
   for (int row = 0; row < n; ++row) {
     for (int column = 0; column < n; ++column) {
       if (lenses.aperture[static_cast<std::size_t>(row * n + column)] == 0) continue;
-      // A texel counts up to the middles of its neighbours.
+      // Bilinear lookup extends a texel to the centres of its neighbours.
       const double x = std::abs(2 * column + 1.0 - n) + 2;
       const double y = std::abs(2 * row + 1.0 - n) + 2;
       reach = std::max(reach, std::hypot(x, y) / n);

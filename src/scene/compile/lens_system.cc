@@ -1,4 +1,4 @@
-#include "src/scene/compile/lens_system.h"
+#include "src/scene/compile/camera.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/vec.h"
-#include "src/scene/compile/lens_aperture.h"
 
 namespace lanelight {
 namespace {
@@ -57,7 +56,7 @@ bool PassSurface(const LensElement& e, LensPath& ray) {
 // Through all surfaces, from lower to higher z. False where the ray is stopped: beside an
 // aperture or by total reflection.
 bool TraceElements(std::span<const LensElement> elements, LensPath& ray) {
-  return std::all_of(elements.begin(), elements.end(), [&](const LensElement& e) {
+  return std::ranges::all_of(elements, [&](const LensElement& e) {
     return e.radius == 0 ? PassStop(e, ray) : PassSurface(e, ray);
   });
 }
@@ -82,7 +81,6 @@ std::vector<LensElement> ElementsOf(const Camera& camera) {
   return elements;
 }
 
-// The same seen from the scene.
 std::vector<LensElement> Reversed(const std::vector<LensElement>& elements) {
   std::vector<LensElement> out;
   for (auto e = elements.rbegin(); e != elements.rend(); ++e) {
@@ -91,7 +89,7 @@ std::vector<LensElement> Reversed(const std::vector<LensElement>& elements) {
   return out;
 }
 
-// Where a ray parallel to the axis crosses it, and where it seems to be bent.
+// Focal point and principal plane of a ray parallel to the axis.
 struct Cardinal {
   double focus, principal;  // z
 };
@@ -142,14 +140,6 @@ struct Bounds {
   }
 };
 
-// Stops as circles that hold all that the picture of the aperture lets through.
-void HoldPicture(const LensSystem& lenses, std::vector<LensElement>& elements) {
-  const double reach = ApertureReach(lenses);
-  for (LensElement& e : elements) {
-    if (e.radius == 0) e.aperture *= reach;
-  }
-}
-
 // Points of a grid over `within` that rays from the ring's film points come through.
 Bounds Passing(const std::vector<LensElement>& elements, double r0, double r1,
                const Bounds& within) {
@@ -165,7 +155,7 @@ Bounds Passing(const std::vector<LensElement>& elements, double r0, double r1,
   return found;
 }
 
-// Twice: the second grid lies over what the first one has found.
+// The second grid covers the bounds that the first one has found.
 LensSystem::Pupil PupilOf(const std::vector<LensElement>& elements, double r0,
                           double r1) {
   const double side = 1.5 * elements.front().aperture;
@@ -193,14 +183,17 @@ LensSystem CompileLenses(const Camera& camera, double unit) {
                             static_cast<float>(e.aperture)});
   }
   StoreAperture(camera, out);
-  HoldPicture(out, elements);
+  // Stops become circles around all that the image of the aperture transmits.
+  for (LensElement& e : elements) {
+    if (e.radius == 0) e.aperture *= ApertureReach(out);
+  }
   const double ring = camera.film_diagonal / 2 / kRings;
   out.pupils.resize(kRings);
   ParallelFor(kRings, [&](std::size_t i) {
     out.pupils[i] = PupilOf(elements, double(i) * ring, double(i + 1) * ring);
   });
-  const bool dark = std::all_of(out.pupils.begin(), out.pupils.end(),
-                                [](const auto& p) { return p.x1 <= p.x0; });
+  const bool dark =
+      std::ranges::all_of(out.pupils, [](const auto& p) { return p.x1 <= p.x0; });
   if (dark)
     throw InputError(camera.where,
                      "the lenses let no light through to the film: check "

@@ -46,6 +46,8 @@ void MakeGrey(AlignedVector<float>& rgb) {
   }
 }
 
+}  // namespace
+
 Image ReadLightImage(const LightFile& file) {
   try {
     return ReadImage(file.path);
@@ -54,7 +56,13 @@ Image ReadLightImage(const LightFile& file) {
   }
 }
 
-}  // namespace
+void RequireSquareMap(const LightFile& file, int width, int height) {
+  if (width == height && width > 0) return;
+  FailAtLight(file, fmt::format("{} x {} pixels; supported are square equal-area "
+                                "octahedral maps (pbrt-v4: \"imgtool makeequiarea\" "
+                                "converts a latitude-longitude map)",
+                                width, height));
+}
 
 void FailAtLight(const LightFile& file, const std::string& message) {
   throw InputError(file.where,

@@ -23,6 +23,12 @@ struct LightFile {
 /// Throws InputError at the light: `<what> "<path>": <message>`.
 [[noreturn]] void FailAtLight(const LightFile& file, const std::string& message);
 
+/// Reads the image. Throws InputError at the light.
+Image ReadLightImage(const LightFile& file);
+
+/// Throws InputError at the light if the size is not that of an octahedral map.
+void RequireSquareMap(const LightFile& file, int width, int height);
+
 /// Linear texels as stored, three values each, bytes decoded as sRGB. Negative values,
 /// which filters leave in photographs, become zero as in pbrt, with a note unless `notes`
 /// is null. Throws InputError for values that are not finite and images without
@@ -37,9 +43,8 @@ class LightImageTable {
       : table_(table), notes_(notes) {}
 
   enum class Use { kColor, kGrey };  // kGrey: the mean of the channels
-  /// The image of a file, its axes left at 0. Throws InputError at the light.
+  /// Returns the image of a file, with axes 0. Throws InputError at the light.
   LightImage Load(const LightFile& file, Use use);
-  /// Index into LightTable::images.
   std::uint32_t Add(const LightImage& image);
 
   /// Mean of weight(column, row) * texel.

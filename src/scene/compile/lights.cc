@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "src/base/core/error.h"
 #include "src/base/core/pi.h"
-#include "src/scene/compile/area_lights.h"
 #include "src/scene/compile/environment.h"
-#include "src/scene/compile/image_lights.h"
-#include "src/scene/compile/light_axes.h"
-#include "src/scene/compile/light_list.h"
 #include "src/scene/compile/light_texels.h"
-#include "src/scene/compile/portal.h"
 
 namespace lanelight {
 namespace {
@@ -23,7 +19,8 @@ namespace {
 // there are very many): a light of little power may still be all that a corner sees.
 constexpr double kMinPmf = 1e-6;
 
-// 0 of 0. Squares of what a transform has scaled a lot could overflow.
+// Returns zero for zero. Scales first, since squares of a very long vector could
+// overflow.
 Vec3d UnitOf(Vec3d v) {
   const Vec3d a = Max(v, -v);
   const double largest = std::max({a.x, a.y, a.z});
@@ -33,7 +30,17 @@ Vec3d UnitOf(Vec3d v) {
 
 bool IsBlack(Rgb c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
 
-// Lights that are no shapes.
+bool IsStretched(const Light& light) {
+  return !(light.world_from_light.UniformScale() > 0);
+}
+
+// Intensity is power per solid angle; irradiance falls with the square of the distance,
+// and distances are scaled.
+Rgb SceneIntensity(const Light& light, const WorldFrame& frame) {
+  return light.emission * frame.scale * frame.scale;
+}
+
+// Compiles the lights that are not shapes.
 class LightCompiler {
  public:
   LightCompiler(const Placement& placement, LightList& lights, LightImageTable& images,
@@ -46,13 +53,109 @@ class LightCompiler {
 
   /// All spots, if one of them is stretched: a kernel takes all or none.
   void UseStretchedSpots() { stretched_spots_ = lights_.table.stretched_spots = true; }
-  void Add(const Light& light);
+
+  void Add(const Light& light) {
+    const bool image = light.kind == LightKind::kInfinite && !light.image_path.empty();
+    if (!image && IsBlack(light.emission)) return;
+    const Rgb l = light.emission;
+    if (std::max({l.x, l.y, l.z}) > std::numeric_limits<float>::max()) {
+      ThrowTooBright(light.where);
+    }
+    switch (light.kind) {
+      case LightKind::kPoint:
+        return Point(light);
+      case LightKind::kSpot:
+        return Spot(light);
+      case LightKind::kDistant:
+        return Distant(light);
+      case LightKind::kInfinite:
+        return Infinite(light);
+      case LightKind::kGoniometric:
+        return AddGoniometric(light, frame_, images_, lights_);
+      case LightKind::kProjection:
+        return AddProjection(light, frame_, images_, lights_);
+    }
+  }
 
  private:
-  void Point(const Light& light);
-  void Spot(const Light& light);
-  void Distant(const Light& light);
-  void Infinite(const Light& light);
+  void Point(const Light& light) {
+    LightRecord record = EmptyRecord(LightShape::kPoint);
+    const Rgb intensity = SceneIntensity(light, frame_);
+    Store(intensity, record.radiance);
+    Store(PositionOf(light, frame_), record.position);
+    lights_.Push(record, 4 * kPi * Luminance(intensity), light);
+  }
+
+  void Spot(const Light& light) {
+    const Vec3d own_axis = UnitOf(light.to - light.from);
+    const Vec3d axis = UnitOf(light.world_from_light.Vector(own_axis));
+    if (axis == Vec3d{}) {
+      throw InputError(light.where,
+                       "a spot light whose \"from\" and \"to\" are the same");
+    }
+    // 1 - cos, which for a narrow cone is nothing beside 1.
+    const auto versine = [](double degrees) {
+      const double sine = std::sin(degrees * (kPi / 360));
+      return 2 * sine * sine;
+    };
+    const double total = versine(light.cone_angle);
+    const double falloff = versine(light.cone_angle - light.cone_delta);
+    LightRecord record = EmptyRecord(LightShape::kSpot);
+    const Rgb intensity = SceneIntensity(light, frame_);
+    Store(intensity, record.radiance);
+    Store(PositionOf(light, frame_), record.position);
+    Store(axis, record.direction);
+    record.versine_total = static_cast<float>(total);
+    record.versine_falloff = static_cast<float>(falloff);
+    record.size[0] = record.versine_total;
+    if (stretched_spots_) {
+      const Vec3d x = Normalize(
+          Cross(own_axis, std::abs(own_axis.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
+      LightImage axes{};
+      StoreAxes(light, {x, Cross(own_axis, x), own_axis}, axes);
+      record.image = images_.Add(axes);
+      if (IsStretched(light)) {
+        record.size[0] =
+            static_cast<float>(StretchedCone(light, own_axis, light.cone_angle).versine);
+      }
+    }
+    // The smooth step between the two angles has a mean of 1/2.
+    lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2), light);
+  }
+
+  void Distant(const Light& light) {
+    const Vec3d toward = UnitOf(light.world_from_light.Vector(light.from - light.to));
+    if (toward == Vec3d{}) {
+      throw InputError(light.where,
+                       "a distant light whose \"from\" and \"to\" are the same");
+    }
+    LightRecord record = EmptyRecord(LightShape::kDistant);
+    Store(light.emission, record.radiance);
+    Store(toward, record.direction);
+    lights_.Push(record, SceneDisk() * Luminance(light.emission), light);
+  }
+
+  void Infinite(const Light& light) {
+    if (!light.portal.empty()) return AddPortalLight(light, frame_, notes_, lights_);
+    const bool image = !light.image_path.empty();
+    LightRecord record =
+        EmptyRecord(image ? LightShape::kInfiniteImage : LightShape::kInfiniteConstant);
+    Rgb mean = light.emission;
+    if (image) {
+      Environment environment = CompileEnvironment(light, &notes_);
+      mean = MeanRadiance(environment);
+      if (environment.table->probability.empty()) return;  // black
+      record.environment = static_cast<std::int32_t>(lights_.table.environments.size());
+      lights_.table.environments.push_back(std::move(environment));
+    } else if (light.illuminance > 0) {
+      // pi times the radiance reaches a plane under a constant sky.
+      mean *= light.illuminance / (kPi * Luminance(mean));
+    }
+    Store(image ? Rgb{1, 1, 1} : mean, record.radiance);
+    const std::int32_t index =
+        lights_.Push(record, SceneDisk() * kPi * Luminance(mean), light);
+    lights_.table.infinite.push_back(static_cast<std::uint32_t>(index));
+  }
 
   // The power of a distant light and of an environment is what falls on the scene.
   double SceneDisk() const { return radius_ > 0 ? kPi * radius_ * radius_ : kPi; }
@@ -65,130 +168,12 @@ class LightCompiler {
   bool stretched_spots_ = false;
 };
 
-bool IsStretched(const Light& light) {
-  return !(light.world_from_light.UniformScale() > 0);
-}
-
-// Intensity is power per solid angle; irradiance falls with the square of the distance,
-// and distances are scaled.
-Rgb SceneIntensity(const Light& light, const WorldFrame& frame) {
-  return light.emission * frame.scale * frame.scale;
-}
-
-void LightCompiler::Point(const Light& light) {
-  LightRecord record = EmptyRecord(LightShape::kPoint);
-  const Rgb intensity = SceneIntensity(light, frame_);
-  Store(intensity, record.radiance);
-  Store(PositionOf(light, frame_), record.position);
-  lights_.Push(record, 4 * kPi * Luminance(intensity), light);
-}
-
-void LightCompiler::Spot(const Light& light) {
-  const Vec3d own_axis = UnitOf(light.to - light.from);
-  const Vec3d axis = UnitOf(light.world_from_light.Vector(own_axis));
-  if (axis == Vec3d{}) {
-    throw InputError(light.where, "a spot light whose \"from\" and \"to\" are the same");
-  }
-  // 1 - cos, which for a narrow cone is nothing beside 1.
-  const auto versine = [](double degrees) {
-    const double sine = std::sin(degrees * (kPi / 360));
-    return 2 * sine * sine;
-  };
-  const double total = versine(light.cone_angle);
-  const double falloff = versine(light.cone_angle - light.cone_delta);
-  LightRecord record = EmptyRecord(LightShape::kSpot);
-  const Rgb intensity = SceneIntensity(light, frame_);
-  Store(intensity, record.radiance);
-  Store(PositionOf(light, frame_), record.position);
-  Store(axis, record.direction);
-  record.versine_total = static_cast<float>(total);
-  record.versine_falloff = static_cast<float>(falloff);
-  record.size[0] = record.versine_total;
-  if (stretched_spots_) {
-    const Vec3d x = Normalize(
-        Cross(own_axis, std::abs(own_axis.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
-    LightImage axes{};
-    StoreAxes(light, {x, Cross(own_axis, x), own_axis}, axes);
-    record.image = images_.Add(axes);
-    if (IsStretched(light)) {
-      record.size[0] =
-          static_cast<float>(StretchedCone(light, own_axis, light.cone_angle).versine);
-    }
-  }
-  // The smooth step between the two angles is 1/2 in the mean.
-  lights_.Push(record, 2 * kPi * Luminance(intensity) * ((falloff + total) / 2), light);
-}
-
-void LightCompiler::Distant(const Light& light) {
-  const Vec3d toward = UnitOf(light.world_from_light.Vector(light.from - light.to));
-  if (toward == Vec3d{}) {
-    throw InputError(light.where,
-                     "a distant light whose \"from\" and \"to\" are the same");
-  }
-  LightRecord record = EmptyRecord(LightShape::kDistant);
-  Store(light.emission, record.radiance);
-  Store(toward, record.direction);
-  lights_.Push(record, SceneDisk() * Luminance(light.emission), light);
-}
-
-void LightCompiler::Infinite(const Light& light) {
-  if (!light.portal.empty()) return AddPortalLight(light, frame_, notes_, lights_);
-  const bool image = !light.image_path.empty();
-  LightRecord record =
-      EmptyRecord(image ? LightShape::kInfiniteImage : LightShape::kInfiniteConstant);
-  Rgb mean = light.emission;
-  if (image) {
-    Environment environment = CompileEnvironment(light, &notes_);
-    mean = MeanRadiance(environment);
-    if (environment.table->probability.empty()) return;  // black
-    record.environment = static_cast<std::int32_t>(lights_.table.environments.size());
-    lights_.table.environments.push_back(std::move(environment));
-  } else if (light.illuminance > 0) {
-    // pi times the radiance reaches a plane under a constant sky.
-    mean *= light.illuminance / (kPi * Luminance(mean));
-  }
-  Store(image ? Rgb{1, 1, 1} : mean, record.radiance);
-  const std::int32_t index =
-      lights_.Push(record, SceneDisk() * kPi * Luminance(mean), light);
-  lights_.table.infinite.push_back(static_cast<std::uint32_t>(index));
-}
-
-void LightCompiler::Add(const Light& light) {
-  const bool image = light.kind == LightKind::kInfinite && !light.image_path.empty();
-  if (!image && IsBlack(light.emission)) return;
-  const Rgb l = light.emission;
-  if (std::max({l.x, l.y, l.z}) > std::numeric_limits<float>::max()) {
-    ThrowTooBright(light.where);
-  }
-  switch (light.kind) {
-    case LightKind::kPoint:
-      Point(light);
-      break;
-    case LightKind::kSpot:
-      Spot(light);
-      break;
-    case LightKind::kDistant:
-      Distant(light);
-      break;
-    case LightKind::kInfinite:
-      Infinite(light);
-      break;
-    case LightKind::kGoniometric:
-      AddGoniometric(light, frame_, images_, lights_);
-      break;
-    case LightKind::kProjection:
-      AddProjection(light, frame_, images_, lights_);
-      break;
-  }
-}
-
 // Weights are raised to the smallest probability; that changes their sum by so little
 // that no second pass is needed.
 void ApplyFloor(std::vector<double>& weights) {
-  double sum = 0;
-  for (double w : weights) sum += w;
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double least = std::min(kMinPmf, 0.01 / static_cast<double>(weights.size()));
-  // Where all are too weak for double precision, one is as good as another.
+  // If the sum underflows, all lights get the same weight.
   for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * least * sum) : 1;
 }
 
@@ -225,10 +210,9 @@ LightTable CompileLights(const SceneDescription& description, const Placement& p
   LightImageTable images(lights.table, notes);
   CompileAreaLights(description, placement, geometry, images, lights);
   LightCompiler compiler(placement, lights, images, notes);
-  if (std::any_of(description.lights.begin(), description.lights.end(),
-                  [](const Light& light) {
-                    return light.kind == LightKind::kSpot && IsStretched(light);
-                  })) {
+  if (std::ranges::any_of(description.lights, [](const Light& light) {
+        return light.kind == LightKind::kSpot && IsStretched(light);
+      })) {
     compiler.UseStretchedSpots();
   }
   for (const Light& light : description.lights) compiler.Add(light);

@@ -1,4 +1,4 @@
-#include "src/scene/compile/material_row.h"
+#include "src/scene/compile/materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/coat_color.h"
-#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/coat.h"
 
 namespace lanelight {
 namespace {
@@ -19,7 +18,6 @@ float RoughAlpha(const MaterialRow& row, double alpha) {
   return static_cast<float>(std::max(alpha, kMinAlpha));
 }
 
-// The spectra of its colours and of its index.
 void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
                         MaterialTable& table) {
   const bool metal = HasTrait(row.kind, kMetallic);
@@ -40,6 +38,50 @@ void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
   table.color_scale.push_back(static_cast<float>(row.color_scale));
   table.eta_spectrum.push_back(
       row.dispersion == nullptr ? -1 : spectra.OfIndex(*row.dispersion));
+}
+
+// If a coat varies, the colour of its base is corrected for this node of the roughness
+// (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
+constexpr int kTypicalAlpha = 6;
+
+// Roughnesses of the tables of a coat, and thicknesses; see kCoatAlphas.
+std::vector<double> Alphas(const Coat& coat) {
+  if (coat.alpha) return {*coat.alpha};
+  std::vector<double> alphas;
+  for (int i = 0; i + 1 < kCoatAlphas; ++i) {
+    const double part = i / (kCoatAlphas - 1.0);
+    alphas.push_back(part / (1 - part));
+  }
+  alphas.push_back(kRoughestCoat);
+  return alphas;
+}
+
+std::vector<double> Thicknesses(const Coat& coat) {
+  if (coat.thickness) return {*coat.thickness};
+  std::vector<double> thicknesses;
+  for (int i = 0; i + 1 < kCoatDepths; ++i) {
+    const double part = i / (kCoatDepths - 1.0);
+    thicknesses.push_back(-std::log1p(-part * part));
+  }
+  thicknesses.push_back(1e3);  // nothing passes
+  return thicknesses;
+}
+
+struct PlannedTable {
+  double alpha, eta, thickness;
+};
+
+// The first table of every coat; appends its tables to the list.
+std::vector<std::size_t> PlanTables(const std::map<Coat, std::int32_t>& coats,
+                                    std::vector<PlannedTable>& tables) {
+  std::vector<std::size_t> first(coats.size());
+  for (const auto& [coat, at] : coats) {
+    first[static_cast<std::size_t>(at)] = tables.size();
+    for (double thickness : Thicknesses(coat)) {
+      for (double alpha : Alphas(coat)) tables.push_back({alpha, coat.eta, thickness});
+    }
+  }
+  return first;
 }
 
 }  // namespace
@@ -104,54 +146,6 @@ void SetBaseColor(MaterialTable& table, std::size_t i, int bounces) {
   table.color0_g[i] = static_cast<float>(base.y);
   table.color0_b[i] = static_cast<float>(base.z);
 }
-
-namespace {
-
-// Where a coat varies, the colour of its base is corrected for this node of the roughness
-// (alpha 1/3) and a clear medium: the correction is small, and changes little with both.
-constexpr int kTypicalAlpha = 6;
-
-// Roughnesses of the tables of a coat, and thicknesses; see kCoatAlphas.
-std::vector<double> Alphas(const Coat& coat) {
-  if (coat.alpha) return {*coat.alpha};
-  std::vector<double> alphas;
-  for (int i = 0; i + 1 < kCoatAlphas; ++i) {
-    const double part = i / (kCoatAlphas - 1.0);
-    alphas.push_back(part / (1 - part));
-  }
-  alphas.push_back(kRoughestCoat);
-  return alphas;
-}
-
-std::vector<double> Thicknesses(const Coat& coat) {
-  if (coat.thickness) return {*coat.thickness};
-  std::vector<double> thicknesses;
-  for (int i = 0; i + 1 < kCoatDepths; ++i) {
-    const double part = i / (kCoatDepths - 1.0);
-    thicknesses.push_back(-std::log1p(-part * part));
-  }
-  thicknesses.push_back(1e3);  // nothing passes
-  return thicknesses;
-}
-
-struct PlannedTable {
-  double alpha, eta, thickness;
-};
-
-// The first table of every coat; appends its tables to the list.
-std::vector<std::size_t> PlanTables(const std::map<Coat, std::int32_t>& coats,
-                                    std::vector<PlannedTable>& tables) {
-  std::vector<std::size_t> first(coats.size());
-  for (const auto& [coat, at] : coats) {
-    first[static_cast<std::size_t>(at)] = tables.size();
-    for (double thickness : Thicknesses(coat)) {
-      for (double alpha : Alphas(coat)) tables.push_back({alpha, coat.eta, thickness});
-    }
-  }
-  return first;
-}
-
-}  // namespace
 
 void AddCoatTables(const std::map<Coat, std::int32_t>& coats, MaterialTable& table) {
   std::vector<PlannedTable> planned;

@@ -1,4 +1,4 @@
-#include "src/scene/compile/measured.h"
+#include "src/scene/compile/materials.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ std::size_t Numbers(const MeasuredTensor& t) {
   return static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);
 }
 
-// Integral of a slice over cells of size 1.
+// Returns the integral of a slice over cells of size 1.
 double Integral(const MeasuredTensor& t, std::size_t slice) {
   double sum = 0;
   for (int y = 0; y < t.height; ++y) {

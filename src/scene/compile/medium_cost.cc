@@ -1,4 +1,4 @@
-#include "src/scene/compile/medium_cost.h"
+#include "src/scene/compile/media.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +22,8 @@ double MeanChord(const Box& box) {
   return surface > 0 ? 4 * d.x * d.y * d.z / surface : 0;
 }
 
-// The longest of the bodies that the medium fills; of what is around the camera or
-// outside of shapes, all of the scene.
+// Returns the longest mean chord of the bodies that the medium fills; around the camera
+// or outside of shapes that is the whole scene.
 double LongestChord(const SceneDescription& d, const Placement& placement, Index medium) {
   double longest = d.camera.medium == medium ? MeanChord(placement.bounds) : 0;
   ForEachPlaced(placement, [&](const PlacedShape& placed) {

@@ -1,4 +1,4 @@
-#include "src/scene/compile/medium_emission.h"
+#include "src/scene/compile/media.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,11 @@
 
 #include "src/base/core/sparse_grid.h"
 #include "src/base/image/spectrum.h"
-#include "src/scene/compile/store.h"
-#include "src/scene/compile/voxel_spectra.h"
+#include "src/base/image/upsampling.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
+
 namespace {
 
 // Entries are evenly spaced in the logarithm of the temperature, from 100 to 20000
@@ -17,7 +18,7 @@ namespace {
 // brightest one (tests/scene/compile/medium_emission_test.cc).
 constexpr int kEntries = 4096;
 
-// Of temperatures up to `largest`, before offset and scale.
+// Adds the colours of temperatures up to `largest`, before offset and scale.
 void AddColors(const Medium& medium, double largest, BlackbodyTable& table) {
   const double kelvin =
       (largest - medium.temperature_offset) * medium.temperature_scale * (1 + 1e-5);
@@ -63,7 +64,7 @@ MediumEmission CompileMediumEmission(const Medium& medium, Transport transport) 
   if (!medium.temperature.empty()) {
     const auto& t = medium.temperature;
     emission.temperatures.assign(t.begin(), t.end());
-    largest = *std::max_element(t.begin(), t.end());
+    largest = *std::ranges::max_element(t);
   } else if (medium.sparse_temperature != nullptr) {
     emission.sparse = PlaceSparseGrid(medium.sparse_temperature, medium);
     largest = medium.sparse_temperature->largest();
@@ -73,6 +74,37 @@ MediumEmission CompileMediumEmission(const Medium& medium, Transport transport) 
   emission.blackbody.scale = static_cast<float>(medium.temperature_scale);
   if (transport == Transport::kRgb) AddColors(medium, largest, emission.blackbody);
   return emission;
+}
+
+VoxelSpectrum SpectrumOfVoxel(Rgb color) {
+  const double scale = 2 * std::max({color.x, color.y, color.z});
+  VoxelSpectrum spectrum = {{0, 0, 0}, static_cast<float>(scale)};
+  const bool grey = color.x == color.y && color.y == color.z;
+  if (grey || !(scale > 0)) return spectrum;
+  const SigmoidSpectrum shape = SigmoidByTable(color / scale);
+  for (std::size_t k = 0; k < 3; ++k) spectrum.c[k] = static_cast<float>(shape.c[k]);
+  return spectrum;
+}
+
+void AppendSpectrum(Rgb color, AlignedVector<float>& values) {
+  const VoxelSpectrum s = SpectrumOfVoxel(color);
+  values.insert(values.end(), {s.c[0], s.c[1], s.c[2], s.scale});
+}
+
+// A sigmoid grows with its argument, and a quadratic is largest at an end of the range or
+// where its slope is 0. Both multiply-adds of a kernel, and the rounded position, err by
+// about 2^-24 of the sum of the coefficients. A sigmoid has a slope of at most 1/2.
+double LargestOf(const VoxelSpectrum& spectrum) {
+  static const double low = SigmoidPlace(CarriedWavelengths().centre.front());
+  static const double high = SigmoidPlace(CarriedWavelengths().centre.back());
+  const double c0 = spectrum.c[0], c1 = spectrum.c[1], c2 = spectrum.c[2];
+  const auto at = [&](double t) { return (c0 * t + c1) * t + c2; };
+  double most = std::max(at(low), at(high));
+  const double flat = -c1 / (2 * c0);
+  if (flat > low && flat < high) most = std::max(most, at(flat));
+  const double rounding = (std::abs(c0) + std::abs(c1) + std::abs(c2)) * 0x1p-23;
+  const double sigmoid = 0.5 + 0.5 * most / std::sqrt(1 + most * most);
+  return spectrum.scale * std::min(1.0, sigmoid + rounding);
 }
 
 }  // namespace lanelight

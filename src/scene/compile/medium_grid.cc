@@ -1,4 +1,4 @@
-#include "src/scene/compile/medium_grid.h"
+#include "src/scene/compile/media.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,8 @@
 #include <cstring>
 
 #include "src/base/core/sparse_grid.h"
-#include "src/scene/compile/medium_emission.h"
-#include "src/scene/compile/range.h"
-#include "src/scene/compile/store.h"
-#include "src/scene/compile/voxel_spectra.h"
+#include "src/scene/compile/focus.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
@@ -60,8 +58,8 @@ double BoundOfVoxels(const MediumGrid& grid, Transport transport, const int cell
   return largest;
 }
 
-// By the height alone, as the octaves sum up to 0.96875 times at most 1.05 (Noise in
-// kernels/texture/noise-inl.h).
+// Bounds the cloud by height alone, as the octaves sum up to 0.96875 times at most 1.05
+// (Noise in kernels/texture/noise-inl.h).
 double BoundOfCloud(const CloudShape& cloud, const int cell[3]) {
   const auto height = [&](int i) {
     return cloud.low[1] + cloud.size[1] * static_cast<double>(i) / kMajorantCells;
@@ -99,19 +97,15 @@ double BoundOf(const MediumGrid& grid, Transport transport, const int cell[3]) {
 }
 
 void SetMajorants(Transport transport, MediumGrid& grid) {
-  grid.majorants.reserve(kMajorantCells * kMajorantCells * kMajorantCells);
-  for (int z = 0; z < kMajorantCells; ++z) {
-    for (int y = 0; y < kMajorantCells; ++y) {
-      for (int x = 0; x < kMajorantCells; ++x) {
-        const int cell[3] = {x, y, z};
-        grid.majorants.push_back(
-            static_cast<float>(BoundOf(grid, transport, cell) * kSlack));
-      }
-    }
+  constexpr int n = kMajorantCells;
+  for (int i = 0; i < n * n * n; ++i) {
+    const int cell[3] = {i % n, i / n % n, i / (n * n)};
+    const double bound = BoundOf(grid, transport, cell);
+    grid.majorants.push_back(static_cast<float>(bound * kSlack));
   }
 }
 
-// Of six numbers per voxel, two spectra.
+// Stores two spectra instead of six numbers per voxel.
 void SetSpectra(const Medium& medium, double unit, MediumGrid& grid) {
   for (std::size_t v = 0; v < medium.grid.size(); v += 3) {
     Rgb color;
@@ -162,7 +156,7 @@ void SetMap(const Medium& medium, const WorldFrame& frame, MediumGrid& grid) {
   const bool seen = std::all_of(grid.box_from_scene, grid.box_from_scene + 12,
                                 [](float v) { return std::abs(v) <= kFarthestInScene; });
   if (seen) return;
-  // Nothing would be seen of a box so small or so flat: all of the scene is beside it.
+  // So small or flat a box is invisible, so it is placed outside of the scene.
   std::fill_n(grid.box_from_scene, 12, 0.0f);
   grid.box_from_scene[3] = -1;
 }

@@ -1,4 +1,4 @@
-#include "src/scene/compile/mesh.h"
+#include "src/scene/compile/shape_records.h"
 
 #include <atomic>
 #include <array>
@@ -7,7 +7,6 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/quadrics.h"
 
 namespace lanelight {
 namespace {
@@ -23,7 +22,13 @@ struct Corner {
 };
 using Corners = std::array<Corner, 3>;
 
-bool IsFinite(Vec3d v) { return std::isfinite(v.x + v.y + v.z); }
+// Area that the kernels can work with: nonzero after rounding, and its square a normal
+// float, since they normalise the cross product.
+bool HasArea(const TriangleRecord& r) {
+  const auto p = [&](int k) { return Vec3d{r.p[k][0], r.p[k][1], r.p[k][2]}; };
+  const Vec3d cross = Cross(p(1) - p(0), p(2) - p(0));
+  return IsFinite(cross) && Dot(cross, cross) >= std::numeric_limits<float>::min();
+}
 
 class MeshCompiler {
  public:
@@ -43,12 +48,61 @@ class MeshCompiler {
   }
 
   /// Returns true if the triangle has vertex normals of its own.
-  bool Compile(std::size_t i) const;
+  bool Compile(std::size_t i) const {
+    Corners c = {Fetch(i, 0), Fetch(i, 1), Fetch(i, 2)};
+    Vec3d cross = Cross(c[1].p - c[0].p, c[2].p - c[0].p);
+    const double side = Dot(c[0].n + c[1].n + c[2].n, cross);
+    if (side != 0 ? side < 0 : turned_) {
+      std::swap(c[1], c[2]);
+      cross = -cross;
+    }
+    TriangleRecord record = model_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        record.p[k][axis] = static_cast<float>(c[k].p[axis]);
+      }
+    }
+    const bool keep = HasArea(record);
+    if (!keep) record.material = kDegenerate;
+    out_.triangles[i] = record;
+    if (out_.areas) out_.areas[i] = Length(cross) / 2;
+    if (out_.uvs) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        out_.uvs[6 * i + 2 * k] = static_cast<float>(c[k].uv[0]);
+        out_.uvs[6 * i + 2 * k + 1] = static_cast<float>(c[k].uv[1]);
+      }
+    }
+    return StoreNormals(i, c, Normalize(cross)) && keep;
+  }
 
  private:
-  Corner Fetch(std::size_t triangle, int k) const;
-  bool IsTurned(const Corners& c, Vec3d cross) const;
-  bool StoreNormals(std::size_t i, const Corners& c, Vec3d face) const;
+  Corner Fetch(std::size_t triangle, int k) const {
+    // The texture coordinates that pbrt gives to meshes without any.
+    static constexpr std::array<double, 2> kUv[3] = {{0, 0}, {1, 0}, {1, 1}};
+    const std::uint32_t i = mesh_.indices[3 * triangle + static_cast<std::size_t>(k)];
+    Corner corner{t_.Point(mesh_.positions[i]), {}, kUv[k]};
+    if (!mesh_.uvs.empty()) corner.uv = mesh_.uvs[i];
+    if (!mesh_.normals.empty()) {
+      const Vec3d n = Normalize(t_.Normal(Normalize(mesh_.normals[i])));
+      if (IsFinite(n)) corner.n = reverse_ ? -n : n;
+    }
+    return corner;
+  }
+
+  bool StoreNormals(std::size_t i, const Corners& c, Vec3d face) const {
+    if (!out_.normals) return false;
+    bool differs = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool has_normal = c[k].n != Vec3d{};
+      const Vec3d n = has_normal ? c[k].n : face;
+      differs |= Length(n - face) > kSameNormal;
+      for (int axis = 0; axis < 3; ++axis) {
+        out_.normals[9 * i + 3 * k + static_cast<std::size_t>(axis)] =
+            static_cast<float>(n[axis]);
+      }
+    }
+    return differs;
+  }
 
   const TriangleMesh& mesh_;
   const Transform t_;
@@ -56,74 +110,6 @@ class MeshCompiler {
   const bool reverse_, turned_;
   TriangleRecord model_{};
 };
-
-Corner MeshCompiler::Fetch(std::size_t triangle, int k) const {
-  // The texture coordinates that pbrt gives to meshes without any.
-  static constexpr std::array<double, 2> kUv[3] = {{0, 0}, {1, 0}, {1, 1}};
-  const std::uint32_t i = mesh_.indices[3 * triangle + static_cast<std::size_t>(k)];
-  Corner corner{t_.Point(mesh_.positions[i]), {}, kUv[k]};
-  if (!mesh_.uvs.empty()) corner.uv = mesh_.uvs[i];
-  if (!mesh_.normals.empty()) {
-    const Vec3d n = Normalize(t_.Normal(Normalize(mesh_.normals[i])));
-    if (IsFinite(n)) corner.n = reverse_ ? -n : n;
-  }
-  return corner;
-}
-
-// True if the cross product of the edges is to be turned round.
-bool MeshCompiler::IsTurned(const Corners& c, Vec3d cross) const {
-  const double side = Dot(c[0].n + c[1].n + c[2].n, cross);
-  return side != 0 ? side < 0 : turned_;
-}
-
-bool MeshCompiler::StoreNormals(std::size_t i, const Corners& c, Vec3d face) const {
-  if (!out_.normals) return false;
-  bool differs = false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool has_normal = c[k].n != Vec3d{};
-    const Vec3d n = has_normal ? c[k].n : face;
-    differs |= Length(n - face) > kSameNormal;
-    for (int axis = 0; axis < 3; ++axis) {
-      out_.normals[9 * i + 3 * k + static_cast<std::size_t>(axis)] =
-          static_cast<float>(n[axis]);
-    }
-  }
-  return differs;
-}
-
-// Area that the kernels can work with: nonzero after rounding, and its square a normal
-// float, since they normalise the cross product.
-bool HasArea(const TriangleRecord& r) {
-  const auto p = [&](int k) { return Vec3d{r.p[k][0], r.p[k][1], r.p[k][2]}; };
-  const Vec3d cross = Cross(p(1) - p(0), p(2) - p(0));
-  return IsFinite(cross) && Dot(cross, cross) >= std::numeric_limits<float>::min();
-}
-
-bool MeshCompiler::Compile(std::size_t i) const {
-  Corners c = {Fetch(i, 0), Fetch(i, 1), Fetch(i, 2)};
-  Vec3d cross = Cross(c[1].p - c[0].p, c[2].p - c[0].p);
-  if (IsTurned(c, cross)) {
-    std::swap(c[1], c[2]);
-    cross = -cross;
-  }
-  TriangleRecord record = model_;
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      record.p[k][axis] = static_cast<float>(c[k].p[axis]);
-    }
-  }
-  const bool keep = HasArea(record);
-  if (!keep) record.material = kDegenerate;
-  out_.triangles[i] = record;
-  if (out_.areas) out_.areas[i] = Length(cross) / 2;
-  if (out_.uvs) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      out_.uvs[6 * i + 2 * k] = static_cast<float>(c[k].uv[0]);
-      out_.uvs[6 * i + 2 * k + 1] = static_cast<float>(c[k].uv[1]);
-    }
-  }
-  return StoreNormals(i, c, Normalize(cross)) && keep;
-}
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-#include "src/scene/compile/mip_levels.h"
+#include "src/scene/compile/texture_programs.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +7,6 @@
 namespace lanelight {
 namespace {
 
-// Decoded values, 3 per texel.
 struct Level {
   int width = 0, height = 0;
   std::vector<float> rgb;
@@ -26,7 +25,7 @@ Level Decode(const float* decode, const TextureImage& image) {
   return out;
 }
 
-// Part of texel i that lies in [begin, end).
+// Returns the length of the part of texel i in [begin, end).
 double Overlap(int i, double begin, double end) {
   return std::min(i + 1.0, end) - std::max<double>(i, begin);
 }

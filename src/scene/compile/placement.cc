@@ -9,9 +9,8 @@
 #include "src/base/core/error.h"
 #include "src/base/core/motion.h"
 #include "src/base/core/parallel.h"
-#include "src/scene/compile/curves.h"
 #include "src/scene/compile/focus.h"
-#include "src/scene/compile/seen_tolerance.h"
+#include "src/scene/compile/shape_records.h"
 #include "src/scene/compile/tessellate.h"
 #include "src/scene/compile/textures.h"
 
@@ -63,7 +62,7 @@ void CheckEmitter(const SceneDescription& d, const Shape& shape) {
   }
 }
 
-// Sets the mesh of a mesh, or in place of what is tessellated.
+// Sets the mesh of a mesh or of a tessellated shape.
 void SetMesh(double tolerance, PlacedShape* placed) {
   const Shape& shape = *placed->shape;
   if (shape.kind == ShapeKind::kMesh) placed->mesh = shape.mesh;
@@ -71,7 +70,7 @@ void SetMesh(double tolerance, PlacedShape* placed) {
   placed->mesh = std::make_shared<const TriangleMesh>(Tessellate(shape, tolerance));
 }
 
-// A mesh of a mesh or a round shape, in place of any other way to have it.
+// Sets a mesh for any shape of an object, tessellated if it is round.
 void SetMeshInObject(PlacedShape* placed) {
   SetMesh(kOfObjects, placed);
   if (placed->mesh != nullptr) return;
@@ -79,7 +78,7 @@ void SetMeshInObject(PlacedShape* placed) {
       std::make_shared<const TriangleMesh>(Tessellate(*placed->shape, kOfObjects));
 }
 
-// The shape as it will be compiled, or nothing if it cannot be seen.
+// Returns the shape as it will be compiled, or nothing if it is invisible.
 std::optional<PlacedShape> Place(const SceneDescription& d,
                                  const TextureConstants& constants, const Shape& shape,
                                  const Transform* instance) {
@@ -108,21 +107,17 @@ void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placem
       LL_CHECK(!"a shape of triangles without a mesh");
       break;
     case ShapeKind::kSphere:
-      placement.spheres.push_back(placed);
-      break;
+      return placement.spheres.push_back(placed);
     case ShapeKind::kDisk:
-      placement.disks.push_back(placed);
-      break;
+      return placement.disks.push_back(placed);
     case ShapeKind::kPlane:
-      placement.planes.push_back(placed);
-      break;
+      return placement.planes.push_back(placed);
     case ShapeKind::kCurves:
-      placement.curves.push_back(placed);
-      break;
+      return placement.curves.push_back(placed);
   }
 }
 
-// `moves`: the object does.
+// `moves` is true for moving objects.
 bool StaysInObject(const SceneDescription& d, const Shape& shape, bool moves) {
   const bool is_mesh =
       shape.kind == ShapeKind::kMesh || IsTessellated(shape, shape.world_from_object);
@@ -149,12 +144,8 @@ bool IsTooFar(Vec3d p) {
                   what, kFarthest));
 }
 
-bool IsFinitePoint(Vec3d v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// The box of a mesh; nothing if it reaches too far. Vertices that are no numbers to begin
-// with make degenerate triangles, which are left out; so are vertices of no triangle.
+// Returns the box of a mesh, or nothing if it reaches too far. Vertices that are not
+// finite (of degenerate triangles) and those of no triangle are left out.
 std::optional<Box> MeshBox(const PlacedShape& placed) {
   const TriangleMesh& mesh = *placed.mesh;
   // Most vertices are shared by six triangles, and placed once.
@@ -165,7 +156,7 @@ std::optional<Box> MeshBox(const PlacedShape& placed) {
   }
   Box box;
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i] || !IsFinitePoint(mesh.positions[i])) continue;
+    if (!used[i] || !IsFinite(mesh.positions[i])) continue;
     const Vec3d p = placed.transform.Point(mesh.positions[i]);
     if (IsTooFar(p)) return std::nullopt;
     box.Add(p);
@@ -189,7 +180,8 @@ Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
   return all;
 }
 
-// Nothing but infinite planes: what the camera has to do with them sets the size.
+// Returns a box for scenes of infinite planes only, from the camera and its distance to
+// them.
 Box FallbackBox(const SceneDescription& d, const Placement& placement) {
   Box box;
   const Vec3d eye = d.camera.world_from_camera.Point({0, 0, 0});
@@ -203,10 +195,6 @@ Box FallbackBox(const SceneDescription& d, const Placement& placement) {
     box.Add(eye - n * Dot(eye - plane.transform.Point({0, 0, 0}), n));
   }
   return box;
-}
-
-const ObjectDefinition& ObjectOf(const SceneDescription& d, const Instance& instance) {
-  return d.objects[static_cast<std::size_t>(instance.object)];
 }
 
 // An object definition: how often it is placed, and what of it can be instanced.
@@ -229,7 +217,7 @@ struct ObjectUse {
 // copied.
 void CopyIntoWorld(const SceneDescription& d, const TextureConstants& constants,
                    const Instance& instance, const ObjectUse& use, Placement& placement) {
-  for (const Shape& shape : ObjectOf(d, instance).shapes) {
+  for (const Shape& shape : d.objects[static_cast<std::size_t>(instance.object)].shapes) {
     if (!use.copied && StaysInObject(d, shape, use.moves)) continue;
     if (const auto p = Place(d, constants, shape, &instance.world_from_object)) {
       AddToWorld(d, *p, placement);
@@ -281,7 +269,7 @@ void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
     if (uses[i].count == 0 || uses[i].moves) continue;
     order.emplace_back(uses[i].MoreTriangles(), i);
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   for (const auto& [more, i] : order) {
     if (more > most) return;
     most -= more;
@@ -289,7 +277,7 @@ void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
   }
 }
 
-// The box in the world of an object that is placed, on all its way.
+// Returns the world-space box of an instance during its whole motion.
 Box BoxOf(const Instance& instance, const Box& object) {
   if (instance.end == nullptr) return object.Transformed(instance.world_from_object);
   const Motion motion(instance.world_from_object, *instance.end);
@@ -373,10 +361,10 @@ Placement PlaceShapes(const SceneDescription& d, std::uint64_t copied_triangles)
     if (const auto p = Place(d, constants, shape, nullptr)) AddToWorld(d, *p, placement);
   }
   PlaceInstances(d, constants, copied_triangles, placement);
-  placement.bounds.Add(UnionOfBoxes(placement.meshes));
-  placement.bounds.Add(UnionOfBoxes(placement.spheres));
-  placement.bounds.Add(UnionOfBoxes(placement.disks));
-  placement.bounds.Add(UnionOfBoxes(placement.curves));
+  for (const auto* shapes :
+       {&placement.meshes, &placement.spheres, &placement.disks, &placement.curves}) {
+    placement.bounds.Add(UnionOfBoxes(*shapes));
+  }
   if (placement.bounds.empty()) placement.bounds = FallbackBox(d, placement);
   CheckSize(d, placement.bounds);
   placement.eye = d.camera.world_from_camera.Point({0, 0, 0});

@@ -77,10 +77,10 @@ void ForEachPlaced(const Placement& placement, const Visit& visit) {
   }
 }
 
-/// Bounds of a shape, or nothing if it has none; the centre is exact.
+/// Returns the bounds of a shape, empty if it has none; the centre is exact.
 Box ShapeBox(const PlacedShape& placed);
 
-/// True if the light emits: some component of its radiance is positive.
+/// Returns whether some component of the light's radiance is positive.
 bool Emits(const AreaLight& light);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/scene/compile/portal.h"
+#include "src/scene/compile/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace lanelight {
 namespace {
 
-// How far the cosines of a rectangle's angles may be off, as in pbrt.
+// Largest error of the cosines of a rectangle's angles, as in pbrt.
 constexpr double kRectangular = 1e-3;
 
 // Texel of an octahedral map, also of those just beyond an edge, across which the same
@@ -80,7 +80,7 @@ Environment MapOf(const Light& light, std::vector<Note>& notes) {
   return CompileEnvironment(constant, pixel);
 }
 
-// What falls through the portal, its area being 1.
+// Returns the flux through a portal of area 1.
 double Flux(const Portal& portal) {
   double sum = 0;
   const auto n = static_cast<std::size_t>(portal.size);

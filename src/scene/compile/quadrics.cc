@@ -1,18 +1,23 @@
-#include "src/scene/compile/quadrics.h"
+#include "src/scene/compile/shape_records.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/scene/compile/focus.h"
-#include "src/scene/compile/range.h"
-#include "src/scene/compile/store.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
 
-std::uint32_t Flags(const PlacedShape& placed) {
-  return IsAlphaTested(placed) ? kAlphaTested : 0;
+template <typename Record>
+Record MakeRecord(const PlacedShape& placed, std::uint32_t material) {
+  Record record{};
+  record.material = material;
+  record.light = -1;
+  record.flags = IsAlphaTested(placed) ? kAlphaTested : 0;
+  return record;
 }
 
 void CheckRadius(const Shape& shape, const char* kind) {
@@ -35,12 +40,9 @@ SphereRecord CompileSphere(const PlacedShape& placed, const WorldFrame& frame,
   const Transform t = frame.After(placed.transform);
   const double s = t.UniformScale();
   LL_CHECK_GT(s, 0);  // else it is tessellated
-  SphereRecord record{};
+  auto record = MakeRecord<SphereRecord>(placed, material);
   Store(t.Point({0, 0, 0}), record.center);
   record.radius = static_cast<float>(shape.radius * s);
-  record.material = material;
-  record.light = -1;
-  record.flags = Flags(placed);
   record.normal_sign = placed.flip ? -1.0f : 1.0f;
   Store(Normalize(t.Vector({1, 0, 0})), record.x_axis);
   Store(Normalize(t.Vector({0, 0, 1})), record.z_axis);
@@ -54,16 +56,13 @@ LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const WorldFrame
   const Vec3d center = placed.transform.Point({0, 0, 0});
   const double radius = placed.shape->radius * placed.transform.UniformScale();
   const Foot foot = FootOn(center, radius, eye);
-  LargeSphereRecord record{};
+  auto record = MakeRecord<LargeSphereRecord>(placed, material);
   Store(frame.Point(foot.point), record.point);
   Store((foot.point - center) / radius, record.normal);
   record.curvature = static_cast<float>(1 / (radius * frame.scale));
-  record.material = material;
-  record.light = -1;
-  record.flags = sphere.flags;
   record.normal_sign = sphere.normal_sign;
-  for (int i = 0; i < 3; ++i) record.x_axis[i] = sphere.x_axis[i];
-  for (int i = 0; i < 3; ++i) record.z_axis[i] = sphere.z_axis[i];
+  std::ranges::copy(sphere.x_axis, record.x_axis);
+  std::ranges::copy(sphere.z_axis, record.z_axis);
   record.y_sign = sphere.y_sign;
   return record;
 }
@@ -82,16 +81,13 @@ DiskRecord CompileDisk(const PlacedShape& placed, const WorldFrame& frame,
   const Vec3d x = t.Vector({1, 0, 0}), y = t.Vector({0, 1, 0});
   const double s = Length(x);
   const Vec3d n = Normalize(t.Normal({0, 0, 1})) * (placed.flip ? -1.0 : 1.0);
-  DiskRecord record{};
+  auto record = MakeRecord<DiskRecord>(placed, material);
   Store(t.Point({0, 0, shape.height}), record.center);
   record.radius = static_cast<float>(shape.radius * s);
   record.inner_radius = static_cast<float>(shape.inner_radius * s);
   Store(n, record.normal);
   Store(x / s, record.u_axis);
   record.v_sign = Dot(Cross(n, x), y) < 0 ? -1.0f : 1.0f;
-  record.material = material;
-  record.light = -1;
-  record.flags = Flags(placed);
   return record;
 }
 
@@ -105,14 +101,11 @@ PlaneRecord CompilePlane(const PlacedShape& placed, const WorldFrame& frame,
   RequireInScene(point, placed.shape->where, "plane");
   // Dual basis within the plane: dot(a x + b y, u) = a, dot(a x + b y, v) = b.
   const Vec3d across_y = Cross(y, n), across_x = Cross(n, x);
-  PlaneRecord record{};
+  auto record = MakeRecord<PlaneRecord>(placed, material);
   Store(point, record.point);
   Store(n, record.normal);
   Store(across_y / Dot(across_y, x), record.u_axis);
   Store(across_x / Dot(across_x, y), record.v_axis);
-  record.material = material;
-  record.light = -1;
-  record.flags = Flags(placed);
   return record;
 }
 

@@ -1,4 +1,4 @@
-#include "src/scene/compile/range.h"
+#include "src/scene/compile/focus.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/motion_record.h"
-#include "src/scene/compile/motion.h"
+#include "src/scene/compile/world_frame.h"
 
 namespace lanelight {
 namespace {
@@ -27,7 +27,7 @@ void NoteSmall(const SourceLocation& where, const char* what, Index area_light,
   notes.push_back({where, message});
 }
 
-// Of a sphere, whose transform scales uniformly, or of a disk: what is left in float32.
+// Returns whether a sphere or disk has a positive size in float32.
 bool HasSize(const PlacedShape& placed, double scale) {
   const Shape& shape = *placed.shape;
   const double unit = Length(placed.transform.Vector({1, 0, 0})) * scale;
@@ -49,7 +49,7 @@ void LeaveOut(const char* what, double scale, std::vector<PlacedShape>& shapes,
   });
 }
 
-// Rays are mapped into the object of an instance.
+// Returns whether the map of rays into the object of an instance is finite in float32.
 bool CanBeEntered(const PlacedInstance& instance, const Placement& placement) {
   const WorldFrame& object = placement.objects[instance.object].frame;
   const auto can = [&](const Transform& world_from_object) {

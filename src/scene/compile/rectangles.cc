@@ -1,4 +1,4 @@
-#include "src/scene/compile/rectangles.h"
+#include "src/scene/compile/lights.h"
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,7 @@ Edge Longest(const TriangleRecord& t, const Half& half) {
   return edge;
 }
 
-// A right angle to the longer side, along which the rectangle lies for certain.
+// Makes the shorter side perpendicular to the longer one, which is more precise.
 Rectangle Squared(std::uint32_t first, std::uint32_t second, Vec3d corner, Vec3d x,
                   Vec3d y) {
   const bool x_longer = Length(x) >= Length(y);
@@ -86,8 +86,8 @@ class Finder {
       const std::optional<Half> half = RightAngled(mesh_[i]);
       if (half) Add(i, *half);
     }
-    std::sort(found_.begin(), found_.end(),
-              [](const Rectangle& a, const Rectangle& b) { return a.first < b.first; });
+    std::ranges::sort(
+        found_, [](const Rectangle& a, const Rectangle& b) { return a.first < b.first; });
     return std::move(found_);
   }
 

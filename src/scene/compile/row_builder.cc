@@ -1,4 +1,4 @@
-#include "src/scene/compile/row_builder.h"
+#include "src/scene/compile/materials.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,6 @@
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/image/upsampling.h"
-#include "src/scene/compile/materials.h"
-#include "src/scene/compile/measured.h"
 
 namespace lanelight {
 namespace {
@@ -17,7 +15,6 @@ namespace {
 constexpr double kSmoothAlpha = 1e-3;
 // Reflectance of a metal that is given as a colour: k of 1 would be infinite.
 constexpr double kMaxMetalReflectance = 0.9999;
-// As pbrt-v4.
 constexpr double kLeastHairRoughness = 0.01;
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
@@ -39,7 +36,7 @@ void CheckEta(const Material& m) {
       m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
 }
 
-// A spectrum, changed value by value.
+// Returns a spectrum with `change` applied to every value.
 template <class Change>
 OwnSpectrum Changed(const OwnSpectrum& spectrum, const Change& change) {
   if (spectrum == nullptr) return nullptr;
@@ -65,7 +62,7 @@ void RefuseMaterial(const Material& m, const std::string& what) {
                    (m.name.empty() ? "" : "material \"" + m.name + "\": ") + what);
 }
 
-// pbrt clamps constant reflectances too.
+// As in pbrt, constant reflectances are clamped too.
 ColorValue RowBuilder::Reflectance(const ColorValue& v) const {
   ColorValue color = Color(v);
   if (!IsTextured(color)) color.constant = Clamped(color.constant, 1);
@@ -106,21 +103,13 @@ ColorValue RowBuilder::Inside(const Material& m) const {
 }
 
 void RowBuilder::Diffuse(const Material& m, MaterialRow& row) {
-  switch (options_.scattering.value_or(m.scattering)) {
-    case Scattering::kLambertian:
-      row.kind = ShadeKind::kDiffuse;
-      break;
-    case Scattering::kUniform:
-      row.kind = ShadeKind::kDiffuseUniform;
-      break;
-    case Scattering::kInSphere:
-      row.kind = ShadeKind::kDiffuseInSphere;
-      break;
-  }
+  constexpr ShadeKind kKinds[] = {ShadeKind::kDiffuse, ShadeKind::kDiffuseUniform,
+                                  ShadeKind::kDiffuseInSphere};  // by Scattering
+  row.kind = kKinds[static_cast<int>(options_.scattering.value_or(m.scattering))];
   row.color0 = Reflectance(m.reflectance);
 }
 
-// Index and extinction relative to `eta_above`.
+// Sets index and extinction relative to `eta_above`.
 void RowBuilder::Metal(const Material& m, double eta_above, MaterialRow& row) {
   row.by_reflectance = m.has_reflectance;
   if (m.has_reflectance) {

@@ -1,4 +1,4 @@
-#include "src/scene/compile/seen_tolerance.h"
+#include "src/scene/compile/tessellate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ double PixelSize(const Camera& camera, const Film& film, double distance) {
     case CameraKind::kRealistic:
       break;
   }
-  // A narrow view of 30 degrees, whatever the lens.
+  // Assumes a narrow view of 30 degrees for every lens.
   return distance * 0.5 / std::max(film.width, film.height);
 }
 
@@ -36,7 +36,7 @@ double LargestScale(const Transform& t) {
                    Length(t.Vector({0, 0, 1}))});
 }
 
-// From the eye to the surface of a ball around the shape, from either side.
+// Returns the distance of the eye from the surface of a ball around the shape.
 double DistanceTo(const PlacedShape& placed, Vec3d eye) {
   const Shape& shape = *placed.shape;
   const bool has_length = shape.kind == ShapeKind::kCylinder;

@@ -1,4 +1,4 @@
-#include "src/scene/compile/slab_albedo.h"
+#include "src/scene/compile/media.h"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
@@ -79,7 +79,7 @@ void AddGauss(double low, double high, Streams& d) {
   }
 }
 
-// Of unpolarised light, from within a material of index eta.
+// Returns the Fresnel reflectance of unpolarised light within a material of index eta.
 double ReflectedInside(double mu, double eta) {
   const double sine2 = eta * eta * (1 - mu * mu);
   if (sine2 >= 1) return 1;
@@ -154,6 +154,13 @@ Matrix Deep(Layer layer) {
   return layer.r;
 }
 
+// The root of 1 - albedo, in which the reflectance is nearly linear, of an entry: close
+// together where that falls steeply.
+double NodeOf(std::size_t entry) {
+  const double t = static_cast<double>(entry) / (kAlbedos - 1);
+  return t * t;
+}
+
 }  // namespace
 
 double SlabReflectance(double albedo, double g, double eta) {
@@ -173,17 +180,6 @@ double SlabReflectance(double albedo, double g, double eta) {
   return Solve(OneMinus(inside), lit)[n - 1][0];
 }
 
-namespace {
-
-// The root of 1 - albedo, in which the reflectance is nearly linear, of an entry: close
-// together where that falls steeply.
-double NodeOf(std::size_t entry) {
-  const double t = static_cast<double>(entry) / (kAlbedos - 1);
-  return t * t;
-}
-
-}  // namespace
-
 SlabAlbedos::SlabAlbedos(double g, double eta) : reflectances_(kAlbedos) {
   ParallelFor(reflectances_.size(), [&](std::size_t i) {
     const double s = NodeOf(i);
@@ -192,8 +188,8 @@ SlabAlbedos::SlabAlbedos(double g, double eta) : reflectances_(kAlbedos) {
 }
 
 double SlabAlbedos::Of(double reflectance) const {
-  const auto below = std::find_if(reflectances_.begin(), reflectances_.end(),
-                                  [&](double r) { return r <= reflectance; });
+  const auto below =
+      std::ranges::find_if(reflectances_, [&](double r) { return r <= reflectance; });
   if (below == reflectances_.begin()) return 1;
   if (below == reflectances_.end()) return 0;
   // A cubic through the four nodes around it: s as a function of the reflectance.

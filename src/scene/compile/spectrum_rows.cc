@@ -1,11 +1,13 @@
 #include "src/scene/compile/spectrum_rows.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
 
 namespace lanelight {
+
 namespace {
 
 std::vector<float> Values(const ColorValue& color, ColorBound bound) {
@@ -21,6 +23,58 @@ std::vector<float> Values(const ColorValue& color, ColorBound bound) {
   return values;
 }
 
+// Returns whether the light that a medium emits has a spectrum.
+bool HasSpectrum(const Medium& m) {
+  return m.emission != Rgb{} &&
+         (m.emission_spectrum != nullptr || !m.temperature.empty() ||
+          m.sparse_temperature != nullptr);
+}
+
+// Returns the media that shapes bound, and the camera's.
+std::vector<Index> MediaOf(const SceneDescription& d) {
+  std::vector<Index> media = {d.camera.medium};
+  const auto add = [&](const std::vector<Shape>& shapes) {
+    for (const Shape& shape : shapes) {
+      media.insert(media.end(), {shape.media.inside, shape.media.outside});
+    }
+  };
+  add(d.shapes);
+  for (const ObjectDefinition& object : d.objects) add(object.shapes);
+  std::erase(media, kNone);
+  return media;
+}
+
+// Visits the used materials and those that they mix. Mixes may be nested deeply.
+template <class Visit>
+void ForEachUsed(const SceneDescription& d, std::vector<Index> open, const Visit& visit) {
+  std::vector<bool> seen(d.materials.size());
+  while (!open.empty()) {
+    const auto at = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    if (seen[at]) continue;
+    seen[at] = true;
+    const Material& m = d.materials[at];
+    visit(m);
+    if (m.kind == MaterialKind::kMix) open.insert(open.end(), m.mix, m.mix + 2);
+  }
+}
+
+std::string NameOf(const Material& m) {
+  const std::string kind = m.dispersion != nullptr          ? "glass"
+                           : m.eta.spectrum || m.k.spectrum ? "metal"
+                                                            : "material";
+  return "the " + kind + (m.name.empty() ? "" : " \"" + m.name + "\"");
+}
+
+bool HasSpectrum(const Material& m) {
+  const ColorValue* const colors[] = {&m.reflectance, &m.transmittance, &m.eta, &m.k,
+                                      &m.coat_albedo};
+  return m.dispersion != nullptr || m.measured != nullptr ||
+         m.sigma_a_spectrum != nullptr ||
+         std::ranges::any_of(colors,
+                             [](const ColorValue* c) { return c->spectrum != nullptr; });
+}
+
 }  // namespace
 
 std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
@@ -31,7 +85,7 @@ std::vector<float> LightValues(Rgb color, const OwnSpectrum& spectrum) {
     const Spectrum d65 = DaylightD65();
     values = BinMeans([&](double nm) { return (*spectrum)(nm) / d65(nm); });
   }
-  // What the fit misses of the luminance, and the unit of the spectrum.
+  // Divides out the unit of the spectrum and the error of the fit.
   const double luminance = Luminance(ColorOfBins(values));
   if (!(luminance > 0)) {
     throw InputError(fmt::format(
@@ -93,6 +147,40 @@ void SpectrumRows::NeedSigmoids() {
       static_cast<float>(1 / HalfTangentOfGrey(1 - kLeastUpsampled));
   const std::vector<float>& sigmoids = UpsamplingTable();
   table_.sigmoids.assign(sigmoids.begin(), sigmoids.end());
+}
+
+std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
+                                         const std::vector<Index>& used) {
+  std::optional<SpectrumUser> found;
+  ForEachUsed(description, used, [&](const Material& m) {
+    const bool disperses = m.dispersion != nullptr;
+    if (found ? found->disperses || !disperses : !HasSpectrum(m)) return;
+    found = {m.where, NameOf(m), disperses};
+  });
+  const auto add = [&](const auto& light, const char* what) {
+    if (!found && light.spectrum != nullptr) found = {light.where, what};
+  };
+  for (const Light& light : description.lights) add(light, "a light");
+  for (const AreaLight& light : description.area_lights) add(light, "an area light");
+  for (const Index i : MediaOf(description)) {
+    const Medium& m = description.media[static_cast<std::size_t>(i)];
+    if (!found && HasSpectrum(m)) {
+      found = {m.where, "the light of the medium \"" + m.name + "\""};
+    }
+  }
+  return found;
+}
+
+void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,
+                    std::vector<Note>& notes) {
+  const Material* found = nullptr;
+  ForEachUsed(description, used, [&](const Material& m) {
+    if (m.dispersion != nullptr) found = &m;
+  });
+  if (found == nullptr) return;
+  notes.push_back({found->where,
+                   "dispersion is not modelled: eta is taken at 587.6 nm; --transport "
+                   "spectral models it"});
 }
 
 }  // namespace lanelight

@@ -3,6 +3,8 @@
 
 #include <initializer_list>
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "src/base/image/upsampling.h"
@@ -12,7 +14,7 @@
 
 namespace lanelight {
 
-/// The bounds of a material's colour.
+/// Range of the values of a colour.
 enum class ColorBound { kReflectance, kUnbounded };
 
 /// Returns, per bin, light of this colour (not black) per unit of luminance, in units of
@@ -24,15 +26,14 @@ class SpectrumRows {
  public:
   SpectrumRows();
 
-  /// A colour that has no texture.
+  /// Returns the row of a colour without texture.
   std::int32_t Of(const ColorValue& color, ColorBound bound);
-  /// LightValues.
   std::int32_t OfLight(Rgb color, const OwnSpectrum& spectrum);
-  /// An index of refraction: a row of SpectrumTable::indices.
+  /// Adds an index of refraction; returns its row in SpectrumTable::indices.
   std::int32_t OfIndex(const Spectrum& index);
-  /// Rows of a medium, one after the other; returns the first.
+  /// Appends the rows of a medium; returns the index of the first.
   std::int32_t Append(std::initializer_list<std::vector<float>> rows);
-  /// Colours come by path as well.
+  /// Adds the tables for colours that vary by path.
   void NeedSigmoids();
 
   SpectrumTable Take() { return std::move(table_); }
@@ -43,5 +44,22 @@ class SpectrumRows {
   SpectrumTable table_;
   std::map<std::vector<float>, std::int32_t> rows_;
 };
+
+/// A material, light or medium with a spectrum or an index by wavelength.
+struct SpectrumUser {
+  SourceLocation where;
+  std::string what;  // "the metal \"spoon\""
+  bool disperses = false;
+};
+
+/// The first such of the used materials, the lights and the media that glow, or one that
+/// disperses if there is any; nothing if all colours are given as such. (Spectra inside
+/// textures and of coefficients of media are taken by their colour in any case.)
+std::optional<SpectrumUser> FindSpectrum(const SceneDescription& description,
+                                         const std::vector<Index>& used);
+
+/// Adds a note, for RGB transport, about the first used glass that disperses.
+void NoteDispersion(const SceneDescription& description, const std::vector<Index>& used,
+                    std::vector<Note>& notes);
 
 }  // namespace lanelight

@@ -9,12 +9,12 @@
 namespace lanelight {
 namespace {
 
-// Of a triangle on a cylinder, length by width: longer ones make loose boxes.
+// Largest aspect of a triangle on a cylinder; longer ones have loose boxes.
 constexpr double kLongest = 64;
 constexpr double kMostRows = 256;
-// Around poles and centres, where a triangle's u is off by half of its own.
+// Fewest columns around poles and centres, where u is off by half a triangle's width.
 constexpr int kLeastColumns = 64;
-// What hand-written matrices are forgiven, relatively.
+// Relative tolerance for hand-written matrices.
 constexpr double kRoundTolerance = 1e-5;
 
 bool IsCircle(const Transform& t) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "src/scene/compile/placement.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -20,5 +21,16 @@ bool IsTessellated(const Shape& shape, const Transform& transform);
 /// phi_max, v from z_min to z_max (spheres: by polar angle), of disks from the rim
 /// inward; they are exact at vertices, and within half of a triangle's width in between.
 TriangleMesh Tessellate(const Shape& shape, double tolerance);
+
+/// Tolerances for Tessellate, in radii: the finest, the coarsest, and that of objects,
+/// whose instances are seen from anywhere.
+inline constexpr double kFinestSphere = 4e-5, kFinestCylinder = 1e-5;
+inline constexpr double kCoarsest = 1e-3, kOfObjects = 1e-4;
+/// Bounds of the tolerance: this fraction of a pixel, as the camera sees the shape from
+/// its nearest side.
+inline constexpr double kSeenPixels = 0.02;
+
+/// Returns the tolerance for a sphere, disk or cylinder in the world.
+double SeenTolerance(const PlacedShape& placed, const Camera& camera, const Film& film);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/scene/compile/texture_images.h"
+#include "src/scene/compile/texture_programs.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/base/image/image.h"
-#include "src/scene/compile/mip_levels.h"
-#include "src/scene/compile/texture_programs.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -44,7 +42,7 @@ ChannelChoice ChooseChannels(const Image& image, const ImageKey& key) {
   return {*rgb, key.is_float && color};
 }
 
-// Bytes stay bytes, four to a word, unless a mean must be formed.
+// Packs four bytes into a word.
 TextureImage PackBytes(const Image& image, const ChannelChoice& channel, int decode) {
   TextureImage out;
   out.decode = decode;
@@ -88,7 +86,7 @@ TextureImage PackImage(const Image& image, const ImageKey& key, int decode) {
   return out;
 }
 
-// Adds the place of the texture to what the file's reader says.
+// Adds the texture's location to errors of the image reader.
 template <class F>
 void AtPlace(const Texture& texture, F&& f) {
   try {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/scene/compile/coat_fit.h"
-#include "src/scene/compile/texture_images.h"
-#include "src/scene/compile/texture_places.h"
+#include "src/scene/compile/coat.h"
+#include "src/scene/compile/textures.h"
 
 namespace lanelight {
 namespace {
@@ -30,8 +30,8 @@ class ProgramBuilder {
     const std::set<Index> used = Reachable(texture);
     const std::size_t begin = table_.nodes.size();
     for (Index t : used) AddNode(t);
-    const bool uses_place = std::any_of(used.begin(), used.end(),
-                                        [&](Index t) { return UsesPlace(textures_[t]); });
+    const bool uses_place =
+        std::ranges::any_of(used, [&](Index t) { return UsesPlace(textures_[t]); });
     table_.programs.push_back({static_cast<std::int32_t>(begin),
                                static_cast<std::int32_t>(table_.nodes.size() - begin),
                                uses_place});
@@ -63,19 +63,12 @@ class ProgramBuilder {
   }
 
   static bool HasOperands(const Texture& t) {
-    switch (t.kind) {
-      case TextureKind::kScale:
-      case TextureKind::kMix:
-      case TextureKind::kCheckerboard:
-      case TextureKind::kDirectionMix:
-      case TextureKind::kDots:
-      case TextureKind::kMetalExtinction:
-      case TextureKind::kCoatedBase:
-      case TextureKind::kRegularAlpha:
-        return true;
-      default:
-        return false;
-    }
+    constexpr TextureKind kCombining[] = {
+        TextureKind::kScale,        TextureKind::kMix,
+        TextureKind::kCheckerboard, TextureKind::kDirectionMix,
+        TextureKind::kDots,         TextureKind::kMetalExtinction,
+        TextureKind::kCoatedBase,   TextureKind::kRegularAlpha};
+    return std::ranges::find(kCombining, t.kind) != std::end(kCombining);
   }
 
   void AddNode(Index index) {

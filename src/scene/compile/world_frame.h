@@ -3,19 +3,22 @@
 // lies. Everything up to the last rounding happens in double precision.
 #pragma once
 
-#include <limits>
+#include <cmath>
 
+#include "src/base/core/motion.h"
 #include "src/base/core/transform.h"
 #include "src/base/core/vec.h"
 
 namespace lanelight {
 
 inline Vec3f ToFloat(Vec3d v) { return VecCast<float>(v); }
+inline bool IsFinite(Vec3d v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Axis-aligned box in double precision; empty until a finite point is added.
 struct Box {
-  Vec3d min = Splat(std::numeric_limits<double>::infinity());
-  Vec3d max = Splat(-std::numeric_limits<double>::infinity());
+  Vec3d min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
 
   bool empty() const { return !(min.x <= max.x); }
   /// Points that are not finite are ignored.
@@ -25,9 +28,6 @@ struct Box {
   Box Transformed(const Transform& transform) const;
   Vec3d Center() const { return min * 0.5 + max * 0.5; }
   double HalfDiagonal() const;
-
- private:
-  static Vec3d Splat(double v) { return {v, v, v}; }
 };
 
 /// p_frame = (p - center) * scale.
@@ -47,5 +47,21 @@ struct WorldFrame {
 /// Centre of the box, and the power of two that brings its half diagonal into [1, 2).
 /// An empty box gives the identity, a single point a scale of 1.
 WorldFrame FrameOf(const Box& box);
+
+inline void Store(Vec3d v, float out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+inline void Store(const Transform& t, float out[12]) {
+  for (int i = 0; i < 12; ++i) out[i] = static_cast<float>(t(i / 4, i % 4));
+}
+
+/// Returns the motion from an object's frame to the scene's, given the one from object to
+/// world coordinates.
+Motion InFrames(const Motion& motion, const WorldFrame& scene, const WorldFrame& object);
+
+/// Returns the motion of the scene relative to a camera, in the scene's frame, given the
+/// camera's motion in the world.
+Motion OfCamera(const Motion& motion, const WorldFrame& scene);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// Lights as the kernels read them, and apart from them what a strategy decides of them.
+// Lights as the kernels read them, and the selection probabilities of a strategy.
 #pragma once
 
 #include <cstdint>
@@ -78,7 +78,7 @@ struct Environment {
   AlignedVector<float> rgb;                        // 3 per texel, row by row, scaled
   float light_from_scene[9], scene_from_light[9];  // row-major, of determinant 1 or -1
   bool stretched = false;                          // else they are rotations, or mirror
-  /// By which texels are sampled, unless a strategy compensates them.
+  /// Distribution of texels, unless a strategy uses the compensated one.
   std::shared_ptr<const EnvironmentTable> table;
 };
 
@@ -135,15 +135,14 @@ struct LightTree {
   float pmf_far = 0;                           // of each of those
 };
 
-/// Where light comes from, 4 words: distances=equiangular looks for points around it.
+/// Centre of a light, 4 words: distances=equiangular samples points around it.
 struct LightAnchor {
   float position[3];
   float keep;  // of Walker's alias table
 };
 static_assert(sizeof(LightAnchor) == 16);
 
-/// What a strategy decides about the lights of a scene
-/// (src/scene/prepare/prepared_scene.h).
+/// Selection of lights by a strategy (src/scene/prepare/prepared_scene.h).
 struct LightChances {
   /// Per light: probability of being selected; with a tree, only of lights without a
   /// position.
@@ -153,8 +152,8 @@ struct LightChances {
   LightTree tree;                      // light-selection=tree only
   /// One per LightTable::environments.
   std::vector<std::shared_ptr<const EnvironmentTable>> environments;
-  // The middles of all lights, drawn by power; only for distances=equiangular. One whose
-  // position is not finite stands for lights that are nowhere.
+  // Centres of all lights, drawn by power, for distances=equiangular. Lights without a
+  // position have one that is not finite.
   AlignedVector<LightAnchor> anchors;
   AlignedVector<std::uint32_t> anchor_alias;
 };

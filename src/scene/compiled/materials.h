@@ -6,13 +6,49 @@
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "src/scene/compiled/measured.h"
 #include "src/vocabulary/path/shade_kinds.h"
 
 namespace lanelight {
 
+/// Slices of a bilinear function, stored in MeasuredTable::values.
+struct MeasuredGrid {
+  std::int32_t at;  // of the first number
+  std::int32_t width, height;
+};
+static_assert(sizeof(MeasuredGrid) == 12);
+
+/// A bilinear density, each slice of which is normalised over its cells, and its
+/// integrals: along each row up to each number, and over all before each row.
+struct MeasuredWarp {
+  MeasuredGrid grid;
+  std::int32_t along, before;
+};
+static_assert(sizeof(MeasuredWarp) == 20);
+
+/// A material of kind Measured: 32 words.
+struct MeasuredRecord {
+  std::int32_t phis, thetas;      // of known directions
+  std::int32_t phi_at, theta_at;  // their angles, radians
+  std::uint32_t turns;            // 1: azimuths of normals do not count from theirs
+  std::int32_t parts;             // MeasuredReflectance::parts
+  MeasuredGrid ndf, sigma;
+  MeasuredWarp vndf, luminance;
+  MeasuredGrid reflectance;  // three slices each; with kSpectral as many as wavelengths
+  std::int32_t wavelengths;  // with kSpectral: of the file
+  std::int32_t bins;  // with kSpectral: where bins lie among these, a number for each bin
+  std::int32_t pad[5];
+};
+static_assert(sizeof(MeasuredRecord) == 128);
+
+struct MeasuredTable {
+  AlignedVector<MeasuredRecord> records;
+  AlignedVector<float> values;
+  AlignedVector<std::int32_t> of_material;  // record of each material; empty without any
+  bool any_turns = false;                   // a record has
+};
+
 /// Transmittance of a (rough) dielectric coat seen from outside, tabulated over
-/// mu = |cos theta| at (i / (kCoatTableSize - 1)); see src/scene/compile/coat_table.h.
+/// mu = |cos theta| at (i / (kCoatTableSize - 1)); see src/scene/compile/coat.h.
 inline constexpr int kCoatTableSize = 64;
 
 /// Nodes of the tables of a coat whose roughness varies: alpha / (1 + alpha) = i /
@@ -22,7 +58,7 @@ inline constexpr int kCoatTableSize = 64;
 inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
 inline constexpr float kRoughestCoat = 1e4f;
 
-/// Of the phase function of a coat's medium, at most.
+/// Largest asymmetry of the phase function of a coat's medium.
 inline constexpr float kMostCoatAsymmetry = 0.9999f;
 
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the

@@ -11,7 +11,7 @@ namespace lanelight {
 
 class SparseGrid;  // src/base/core/sparse_grid.h
 
-/// Instead of the index of a medium: empty space.
+/// Index of empty space.
 inline constexpr std::int32_t kVacuum = -1;
 
 /// Medium: 16 words. Coefficients are per unit of scene length.
@@ -80,7 +80,7 @@ struct BlackbodyTable {
   float entries_per_log = 0;    // entries per factor of e
   AlignedVector<float> colors;  // three each; none with kSpectral: Planck's law
 };
-/// Cooler ones emit nothing (as pbrt).
+/// Cooler black bodies emit nothing, as in pbrt.
 inline constexpr float kLeastKelvin = 100;
 
 /// The factors of a medium's emission at a point; each may be empty.

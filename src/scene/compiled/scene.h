@@ -1,8 +1,7 @@
-// The owner of all that kernels read of a scene: flat float32 arrays, recentred and
-// scaled by a power of two (p_scene = (p_world - center) * scale), built once by
-// CompileScene (src/scene/compile/compile.h) and shared by all that render it, with
-// whatever strategy (src/scene/prepare/prepared_scene.h). Kernels include the tables that
-// they read instead (SceneParts), so that a change of one rebuilds few of them.
+// Owner of the scene data that kernels read: flat float32 arrays, recentred and scaled by
+// a power of two (p_scene = (p_world - center) * scale). CompileScene builds it once; all
+// renders share it. Kernels include the tables that they read instead (SceneParts), so
+// that a change of one table rebuilds few kernels.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,6 @@
 
 #include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
-#include "src/scene/compiled/alpha.h"
 #include "src/scene/compiled/camera.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/materials.h"
@@ -45,9 +43,25 @@ struct CompiledScene {
   std::vector<Note> notes;  // what compiling left out, such as degenerate triangles
 };
 
-/// What kernels read of a scene, seen so. Refers to its arguments.
-SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
-                   const LightChances* chances);
+/// Returns pointers into the arguments, for kernels.
+inline SceneParts PartsOf(const CompiledScene& scene, const CompiledView& view,
+                          const LightChances* chances) {
+  return {.geometry = &scene.geometry,
+          .ranges = &scene.geometry.ranges,
+          .accel = &scene.accel,
+          .materials = &scene.materials,
+          .textures = &scene.textures,
+          .spectra = &scene.spectra,
+          .alpha = &scene.alpha,
+          .media = &scene.media,
+          .lights = &scene.lights,
+          .filter = &scene.filter,
+          .camera = &view.camera,
+          .footprint = &view.footprint,
+          .gbuffer = &view.gbuffer,
+          .chances = chances,
+          .scale = scene.scale};
+}
 
 /// Returns whether alpha cuts an emitting shape.
 inline bool IsCut(const CompiledScene& scene, const LightRecord& light) {

@@ -1,4 +1,4 @@
-// What paths that carry wavelengths look up, by bins of wavelengths.
+// Spectra of paths that carry wavelengths, by bins of wavelengths.
 //
 // A path carries three wavelengths in its colour columns: a long one for red, a middle
 // one and a short one, bins 2 N + i, N + i and i of triple i
@@ -13,7 +13,7 @@
 
 namespace lanelight {
 
-/// What a colour by path is, in the columns of spectra of materials.
+/// Kind of a colour that varies by path, in the spectrum columns of materials.
 enum class PathColor : std::int32_t {
   kReflectance = -1,
   kUnbounded = -2,        // an index of refraction, say

@@ -19,7 +19,7 @@ inline constexpr int kMaxTextureNodes = 32;
 /// top. Images of float textures hold the one value of a texel three times.
 ///
 /// A pyramid follows the image itself in the same array where a texture asks for one
-/// (src/scene/compile/mip_levels.h).
+/// (src/scene/compile/texture_programs.h).
 struct TextureImage {
   std::int32_t width = 0, height = 0;
   AlignedVector<std::uint32_t> rgba8;  // width * height, or empty
@@ -65,8 +65,14 @@ struct TextureTable {
   std::vector<TextureNode> nodes;
   std::vector<TextureImage> images;  // each file once per use
   AlignedVector<float> decode;       // 256 linear values per encoding in use
-  AlignedVector<float> fits;         // src/scene/compile/coat_fit.h
+  AlignedVector<float> fits;         // src/scene/compile/coat.h
   std::size_t size() const { return programs.size(); }
+};
+
+/// Per primitive, only with kAlpha: texture of the alpha cut-out or -1, and constant.
+struct AlphaTable {
+  AlignedVector<std::int32_t> texture;
+  AlignedVector<float> constant;
 };
 
 }  // namespace lanelight

@@ -2,8 +2,6 @@
 #pragma once
 
 #include "src/scene/compiled/camera.h"
-#include "src/scene/compiled/footprint.h"
-#include "src/scene/compiled/gbuffer.h"
 #include "src/scene/description/film.h"
 
 namespace lanelight {

@@ -10,17 +10,16 @@
 //   spheres, disks   BVH likewise; at most kFewRound: no tree, a vector of rays against
 //               each record in turn; planes always so, since they are infinite
 //   curves      BVH of their pieces (src/scene/accel/curve_pieces.h)
-// A vector of rays on world triangles is traced
-//   through a frustum, if the rays are nearly the same (kPacketSpread): camera rays 1.1
-//     to 1.2 times as fast as in a stream; with rays less alike a stream wins (mirror
-//     bounces 1.5 times)
-//   against each triangle in turn, if there are at most kFewTriangles: bounces 21 Mray/s
-//     against 6 to 8 ray by ray on 36 to 48 triangles; the cost is linear, the two meet
-//     near 150
-//   in a stream otherwise (kernels/intersect/stream-inl.h): the tops of the trees in
-//     vectors of rays, the rest as interleaved single rays
-// The hit never depends on the way: see kernels/intersect/triangle-inl.h. Figures:
-// `./run bench intersect`, one thread, AVX-512; see bench/README.md.
+// A vector of rays is traced on world triangles in one of three ways:
+//   frustum   similar rays (kPacketSpread): camera rays are 1.1x to 1.2x faster than in a
+//             stream, mirror bounces 1.5x slower
+//   in turn   at most kFewTriangles: 21 Mray/s for bounces on 36 to 48 triangles, against
+//             6 to 8 Mray/s ray by ray; both are equal near 150 triangles
+//   stream    otherwise (kernels/intersect/stream-inl.h): the tops of the trees in
+//   vectors
+//             of rays, the rest as interleaved single rays
+// The hit is the same in all (kernels/intersect/triangle-inl.h). Figures: `./run bench
+// intersect`, one thread, AVX-512.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +40,9 @@ inline constexpr int kBvhWidth = 8;
 /// LeafUnit.
 inline constexpr std::uint32_t kLeafBit = 0x80000000u, kSeparateBit = 0x40000000u;
 inline constexpr std::uint32_t kRefIndex = kSeparateBit - 1;
-/// The reference of a tree without shapes, and of unused children.
+/// Reference of a tree without shapes and of unused children.
 inline constexpr std::uint32_t kEmptyRef = 0xffffffffu;
-/// Entries that a traversal stack needs at most; BuildAccel checks it.
+/// Largest number of entries of a traversal stack; BuildAccel checks it.
 inline constexpr int kTraversalStack = 512;
 
 inline constexpr std::uint32_t kFewTriangles = 128;
@@ -102,7 +101,7 @@ struct alignas(64) SeparateLeaf {
 };
 static_assert(sizeof(SeparateLeaf) == 320);
 
-/// A leaf of triangles, or two small ones.
+/// One leaf of triangles, or two small ones.
 union TriangleBlock {
   TriangleLeaf shared;
   SmallLeaf small[2];
@@ -136,9 +135,9 @@ struct alignas(64) CurveBlock {
 };
 static_assert(sizeof(CurveBlock) == 512);
 
-/// One tree. The boxes of shapes are grown by what rounding asks for in proportion to
-/// their own coordinates; the traversal adds what a ray asks for
-/// (kernels/intersect/bvh-inl.h). `reach` is the largest |coordinate| of the bounds.
+/// One tree. The boxes of shapes are grown in proportion to their own coordinates to
+/// cover rounding; the traversal adds the part of the ray (kernels/intersect/bvh-inl.h).
+/// `reach` is the largest |coordinate| of the bounds.
 struct Bvh {
   std::uint32_t root = kEmptyRef;
   float reach = 0;
@@ -173,11 +172,10 @@ struct Accel {
   Bvh curves;  // of pieces of curves, however few there are
   SharedArray<CurveBlock> curve_blocks;
 
-  /// Bytes of everything above.
   std::size_t Bytes() const;
 };
 
-/// Bytes from one index of a leaf of triangles to the next.
+/// Returns the bytes from one index of a leaf of triangles to the next.
 inline constexpr std::size_t LeafUnit(int leaf_triangles) {
   return leaf_triangles == SmallLeaf::kLanes ? sizeof(SmallLeaf) : sizeof(TriangleBlock);
 }

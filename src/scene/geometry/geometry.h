@@ -1,11 +1,11 @@
 // Shapes as the kernels read them: float32 records in scene space, recentred and scaled
 // by a power of two (p_scene = (p_world - center) * scale).
 //
-// Per-primitive data are fixed-size records, because a shading kernel gathers many words
-// of one primitive: a record is one or two cache lines, while one array per word would
-// touch a line per word.
+// Primitives are fixed-size records, because a shading kernel gathers many words of one
+// primitive: a record is one or two cache lines, one array per word would be many.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,11 +27,9 @@ struct TriangleRecord {
 };
 static_assert(sizeof(TriangleRecord) == 48);
 inline constexpr std::uint32_t kAlphaTested = 1;
-/// The file gives normals of the mesh: bumps then have other axes (kernels/surface/
-/// bumps.cc).
+/// The file gives normals, which change the axes of bumps (kernels/surface/bumps.cc).
 inline constexpr std::uint32_t kMeshNormals = 2;
-
-/// Its mesh has TriangleMesh::turns_tangents.
+/// The mesh has TriangleMesh::turns_tangents.
 inline constexpr std::uint32_t kTurnedTangents = 4;
 
 /// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
@@ -114,9 +112,10 @@ struct RibbonRecord {
 };
 static_assert(sizeof(RibbonRecord) == 32);
 
-/// Space in which a curve is met: that of its object, whose axes the scene stretches or
-/// mirrors. 3x3 maps of directions, row by row, with determinants of 1 or -1; identities
-/// for curves whose transform keeps shapes. Widths and ribbon normals are in this space.
+/// Space of the intersection test of a curve: that of its object, stretched or mirrored
+/// in the scene. 3x3 maps of directions, row by row, with determinants of 1 or -1;
+/// identities for curves whose transform keeps shapes. Widths and ribbon normals are in
+/// this space.
 struct CurveSpace {
   float object_from_scene[9];
   float scene_from_object[9];
@@ -146,8 +145,8 @@ struct Geometry {
   AlignedVector<RibbonRecord> ribbons;     // one for each curve; empty without ribbons
   AlignedVector<CurveSpace> curve_spaces;  // one for each; empty if all are identities
   AlignedVector<InstanceRecord> instances;
-  /// Of the first instances, which move; what `instances` has of them is where the
-  /// shutter opens. Empty where none moves.
+  /// Motions of the first instances; `instances` holds their maps at shutter opening.
+  /// Empty if none moves.
   AlignedVector<MotionRecord> motions;
   /// Triangle ranges that form one acceleration structure each: [0] is the world (may be
   /// empty), the others are object definitions.
@@ -158,5 +157,25 @@ struct Geometry {
   std::vector<std::uint32_t> instance_group;  // group of each instance
   Vec3f bounds_min, bounds_max;               // of everything finite, scene space
 };
+
+/// Returns in `weight` the weights of the two end normals at u in [0, 1] along a ribbon,
+/// for a constant angular velocity.
+inline void RibbonWeights(const RibbonRecord& ribbon, float u, float weight[2]) {
+  weight[0] = 1 - u;
+  weight[1] = u;
+  if (ribbon.angle == 0) return;
+  for (int k = 0; k < 2; ++k) {
+    weight[k] = std::sin(weight[k] * ribbon.angle) * ribbon.inverse_sine;
+  }
+}
+
+/// Returns in `n` the normal at u, of unit length up to rounding.
+inline void RibbonNormal(const RibbonRecord& ribbon, float u, float n[3]) {
+  float weight[2];
+  RibbonWeights(ribbon, u, weight);
+  for (int a = 0; a < 3; ++a) {
+    n[a] = weight[0] * ribbon.normal[0][a] + weight[1] * ribbon.normal[1][a];
+  }
+}
 
 }  // namespace lanelight

@@ -45,7 +45,7 @@ int PatchSteps(const BilinearPatch& patch);
 /// does not cross itself, and its normals are those of two triangles. Otherwise it
 /// becomes a grid with the patch's points, normals and surface coordinates. Flat patches
 /// of meshes with curved ones get zero normals, which keeps their faces' normals
-/// (src/scene/compile/mesh.h).
+/// (src/scene/compile/shape_records.h).
 void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh);
 
 }  // namespace lanelight

@@ -9,12 +9,12 @@
 namespace lanelight {
 namespace {
 
-// Side of a coarse cell in cells.
+// Cells per side of a coarse cell.
 constexpr std::int32_t kCoarse = 4;
-// Records of the coarser cell that count as much as the finer cell's own.
+// Weight, in records, of the coarser cell in the estimate of a finer one.
 constexpr double kBorrowed = 8;
-// Of the mean of all cells, what a cell is worth at least: a short training pass may have
-// missed what lights it.
+// Least value of a cell relative to the mean of all cells: a short training pass may have
+// missed its light.
 constexpr double kLeastValue = 0.1;
 
 CellGrid Coarser(const CellGrid& fine) {
@@ -23,7 +23,7 @@ CellGrid Coarser(const CellGrid& fine) {
   return coarse;
 }
 
-// Calls body(cell, coarse cell) for all cells, in their order.
+// Calls body(cell, coarse cell) for all cells in ascending order.
 template <class Body>
 void ForCells(const CellGrid& fine, const CellGrid& coarse, const Body& body) {
   std::uint32_t cell = 0;
@@ -62,14 +62,13 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
   constexpr double kRecords = 12, kLongest = 48;
   const double side =
       std::clamp(std::sqrt(double(vertices) / (6 * kRecords)), 1.0, kLongest);
-  const float lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
   float longest = 0;
-  for (int a = 0; a < 3; ++a) longest = std::max(longest, highs[a] - lows[a]);
+  for (int a = 0; a < 3; ++a) longest = std::max(longest, high[a] - low[a]);
   CellGrid grid;
   if (!(longest > 0) || !std::isfinite(longest)) return grid;
   for (int a = 0; a < 3; ++a) {
-    const double share = double(highs[a] - lows[a]) / longest;
-    grid.low[a] = lows[a];
+    const double share = double(high[a] - low[a]) / longest;
+    grid.low[a] = low[a];
     grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(share * side)));
     grid.per_unit[a] = static_cast<float>(side / longest);
   }
@@ -78,8 +77,8 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
 
 CellRecords::Sums CellRecords::Sorted() const {
   Sums sorted = sums_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(sorted,
+                    [](const auto& a, const auto& b) { return a.first < b.first; });
   return sorted;
 }
 
@@ -125,9 +124,8 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
   const std::size_t per_pixel = samples.size() / pixels.size();
   LL_CHECK_EQ(per_pixel * pixels.size(), samples.size());
   for (const Vec3f& v : samples) {
-    const float color[3] = {v.x, v.y, v.z};
     for (int c = 0; c < 3; ++c) {
-      mean_[c] += std::max(color[c], 0.0f) / static_cast<double>(samples.size());
+      mean_[c] += std::max(v[c], 0.0f) / static_cast<double>(samples.size());
     }
   }
   std::vector<Sum> sums(std::size_t{columns_} * rows_);
@@ -135,9 +133,8 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
     const std::uint32_t pixel = pixels[i / per_pixel];
     Sum& sum =
         sums[std::size_t{pixel / width_ / kTile} * columns_ + pixel % width_ / kTile];
-    const float color[3] = {samples[i].x, samples[i].y, samples[i].z};
     for (int c = 0; c < 3; ++c) {
-      sum.color[c] += std::clamp<double>(color[c], 0, kClamp * mean_[c]);
+      sum.color[c] += std::clamp<double>(samples[i][c], 0, kClamp * mean_[c]);
     }
     sum.count += 1;
   }

@@ -9,7 +9,7 @@
 
 #include "src/base/core/aligned.h"
 #include "src/base/core/vec.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 
 namespace lanelight {
 
@@ -30,7 +30,7 @@ struct CellSums {
   }
 };
 
-/// Sums of those cells of a grid that have records: most lie in the air, and have none.
+/// Sums of the cells of a grid that have records; most cells are empty space without any.
 class CellRecords {
  public:
   using Sums = std::vector<std::pair<std::uint32_t, CellSums>>;  // and their cells
@@ -46,7 +46,6 @@ class CellRecords {
     sums_[place - 1].second.Add(estimate, cost_to_come);
   }
   std::size_t cells() const { return places_.size(); }
-  /// In the order of the cells.
   Sums Sorted() const;
 
  private:
@@ -72,7 +71,6 @@ class ImageGuess {
              std::span<const std::uint32_t> pixels, std::span<const Vec3f> samples);
 
   bool black() const { return !(mean_[0] + mean_[1] + mean_[2] > 0); }
-  /// PathValues::channel.
   float Channel(int c) const;
   /// 1 / (I_c^2 + epsilon): what a squared error of channel c weighs. epsilon is that of
   /// the relative error (src/render/estimate/estimate.h), less in a dark image.

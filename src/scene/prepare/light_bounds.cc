@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-// Least cone around two cones (Conty Estevez and Kulla 2018, algorithm 1).
+// Returns the smallest cone around two cones (Conty Estevez and Kulla 2018, algorithm 1).
 Cone Union(const Cone& a, const Cone& b) {
   if (a.angle < 0) return b;
   if (b.angle < 0) return a;

@@ -1,6 +1,8 @@
-// Where lights are and where they shine, as bounds: for trees of lights and for points in
-// media around them.
+// Bounds of lights: where they are and where they shine; and a binary tree over them, for
+// light-selection=tree.
 #pragma once
+
+#include <span>
 
 #include "src/base/core/vec.h"
 #include "src/scene/compiled/scene.h"
@@ -25,14 +27,19 @@ struct LightBounds {
   Vec3d Center() const { return 0.5 * (low + high); }
   /// Returns the area of the box's surface.
   double Area() const;
-  /// Solid angle into which the lights shine, weighted by the cosine beyond the cone.
+  /// Returns the solid angle of emission, weighted by the cosine beyond the cone.
   double Orientation() const;
 };
 
-/// It is somewhere: no environment, no light from infinitely far away.
+/// Returns false for environments and lights at infinity.
 bool HasPlace(const LightRecord& light);
 
-/// Of one light that has a place, in the scene; power 0.
+/// Returns the bounds of a light that has a place, in scene space, with power 0.
 LightBounds BoundsOf(const Geometry& geometry, const LightRecord& light);
+
+/// Tree over the lights of positive weight. Splits minimise the cost of Conty Estevez and
+/// Kulla 2018: power times bounded area times a measure of the cone of normals.
+LightTree BuildLightTree(const Geometry& geometry, std::span<const LightRecord> lights,
+                         std::span<const double> weights);
 
 }  // namespace lanelight

@@ -1,18 +1,17 @@
-#include "src/scene/prepare/light_tree.h"
+#include "src/scene/prepare/light_bounds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "src/base/core/check.h"
-#include "src/scene/prepare/light_bounds.h"
 
 namespace lanelight {
 namespace {
 
 constexpr int kBins = 12;
 
-// Of a split, with all distances across it stretched.
+// Returns the cost of one side of a split; `stretch` penalises splits of short axes.
 double Cost(const LightBounds& b, double stretch) {
   return b.power > 0 ? b.power * b.Orientation() * stretch * (b.Area() + 1e-300) : 0;
 }

@@ -1,13 +1,49 @@
 #include "src/scene/prepare/parameters.h"
 
-#include "src/scene/prepare/groups.h"
+#include <fmt/format.h>
+
+#include <bit>
+
 #include "src/scene/prepare/pmj02.h"
 
 namespace lanelight {
+
 namespace {
 
 constexpr std::uint64_t Bit(Dimension d) {
   return std::uint64_t{1} << static_cast<std::uint32_t>(d);
+}
+
+// Errors of two pixels have no more in common than the share of samples in which they are
+// in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same
+// neighbours again and again, but no more than N.
+double Dependents(const Strategy& strategy) {
+  if (strategy.reuse == Reuse::kNone) return 1;
+  const double n = strategy.reused_paths;
+  if (strategy.block_layout != BlockLayout::kRandom) return n;
+  return 1 + (n - 1) * (n - 1) / (kReuseTile * kReuseTile - 1);
+}
+
+// Points (or pairs) of one replicate, of `units` samples or pairs that take turns.
+std::string SizeText(const Strategy& strategy, std::uint64_t units) {
+  const bool pairs = strategy.pairs == Pairs::kAntithetic;
+  const char* const what = pairs ? "pairs" : "points";
+  const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
+  const std::uint64_t most = std::uint64_t{1} << LogSequence(strategy.points);
+  if (own + (rest > 0) > most) {
+    const std::uint64_t turn = most * kReplicates;
+    const std::uint64_t rounds = (units + turn - 1) / turn;
+    return fmt::format(", {} randomisations of up to {} {}, the most that it stratifies",
+                       rounds * kReplicates, most, what);
+  }
+  std::string text = fmt::format(", {} randomisations of {}", kReplicates, own);
+  if (rest > 0) text += fmt::format(" or {}", own + 1);
+  text += fmt::format(" {}", what);
+  if (rest > 0 || !std::has_single_bit(own)) {
+    const std::uint64_t better = std::bit_floor(own) * kReplicates * (pairs ? 2 : 1);
+    text += fmt::format(" ({} or {} samples are better stratified)", better, 2 * better);
+  }
+  return text;
 }
 
 }  // namespace
@@ -56,6 +92,52 @@ RouletteParameters MakeRouletteParameters(const Strategy& strategy) {
 
 std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features) {
   return features.Has(Feature::kLightCandidates) ? strategy.candidates : 1;
+}
+
+std::uint32_t LogSequence(Points points) {
+  switch (points) {
+    case Points::kIndependent:
+      return 0;
+    case Points::kPmj02:
+      return std::bit_width(kPmj02Points) - 1;
+    case Points::kHalton:
+      return 12;               // below 3^8: see kernels/points/halton-inl.h
+    case Points::kStratified:  // beyond, floats have no room for more strata
+    case Points::kCmj:
+    case Points::kSobol:
+    case Points::kLattice:
+      return 20;
+  }
+  return 0;
+}
+
+SampleGroups GroupsOf(const Strategy& strategy) {
+  SampleGroups groups;
+  groups.unit = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
+  // Pairs of which the fit of control=regression knows single samples have no variance of
+  // their own: those of four turns say it.
+  groups.replicates = strategy.points != Points::kIndependent ||
+                      (groups.unit == 2 && strategy.control == Control::kRegression);
+  groups.dependents = Dependents(strategy);
+  return groups;
+}
+
+std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
+  const bool pairs = strategy.pairs == Pairs::kAntithetic;
+  const std::uint64_t units = pairs ? (spp + 1) / 2 : spp;
+  std::string text = Name(strategy.points);
+  if (strategy.points != Points::kIndependent) {
+    if (spp == 0) {
+      text += fmt::format(", {} randomisations", kReplicates);
+    } else if (units < 2 * kReplicates) {
+      text += fmt::format(", not stratified (that takes {} samples): as independent",
+                          2 * kReplicates * (pairs ? 2 : 1));
+    } else {
+      text += SizeText(strategy, units);
+    }
+  }
+  if (pairs) text += fmt::format(", antithetic pairs ({})", Name(strategy.paired));
+  return text;
 }
 
 }  // namespace lanelight

@@ -1,8 +1,10 @@
-// The parts of RunParameters that a strategy decides.
+// Parameters of kernels and groups of samples that follow from a strategy.
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include "src/vocabulary/path/replicates.h"
 #include "src/vocabulary/path/run_parameters.h"
 #include "src/vocabulary/strategy/strategy.h"
 
@@ -12,7 +14,17 @@ PointsParameters MakePointsParameters(Points points);
 PairParameters MakePairParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
-/// Light samples of which a plan with these features keeps one.
+/// Returns the number of light samples of which a plan with these features keeps one.
 std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features);
+
+/// Returns log2 of the number of points of one randomisation.
+std::uint32_t LogSequence(Points points);
+
+/// Returns the groups that count as one observation.
+SampleGroups GroupsOf(const Strategy& strategy);
+
+/// Returns text for reports, such as "sobol, 4 randomisations of 16 points"; spp = 0:
+/// unknown.
+std::string PointsText(const Strategy& strategy, std::uint64_t spp);
 
 }  // namespace lanelight

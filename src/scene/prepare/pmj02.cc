@@ -44,10 +44,9 @@ using Point = std::array<std::uint32_t, 2>;
 std::uint32_t Leading(std::uint32_t v, std::uint32_t digits) {
   return digits == 0 ? 0 : v >> (32 - digits);
 }
-// Digit d, from 1.
 std::uint32_t DigitMask(std::uint32_t d) { return 1u << (32 - d); }
 
-// The old points by box.
+// Maps boxes to the old points in them.
 class Boxes {
  public:
   Boxes(const std::vector<Point>& points, std::uint32_t k)
@@ -76,7 +75,7 @@ void SetDigit(std::uint32_t& v, std::uint32_t d, std::uint32_t value, Random& ra
   v = (v & ~(mask | (mask - 1))) | (value & mask) | (random() & (mask - 1));
 }
 
-// The new point that shares box j with `old`.
+// Returns the new point that shares box j with `old`.
 Point Partner(const Boxes& boxes, const Point& old, std::uint32_t j, std::uint32_t k,
               Random& random) {
   Point p = old;

@@ -1,25 +1,22 @@
 #include "src/scene/prepare/prepared_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "src/base/core/alias_table.h"
+#include "src/base/core/pi.h"
 #include "src/scene/compile/compile.h"
-#include "src/scene/compile/environment_table.h"
+#include "src/scene/compile/environment.h"
 #include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/description/description.h"
 #include "src/scene/prepare/light_bounds.h"
-#include "src/scene/prepare/light_tree.h"
 
 namespace lanelight {
-namespace {
 
-bool IsHittable(const CompiledScene& scene, const LightRecord& light) {
-  return !IsUnseen(scene, light) &&
-         !HasTrait(static_cast<LightShape>(light.shape), kDeltaLight);
-}
+namespace {
 
 // Relative probabilities; zero for lights that the strategy leaves to scattered rays.
 std::vector<double> SelectionWeights(const Strategy& strategy,
@@ -27,7 +24,10 @@ std::vector<double> SelectionWeights(const Strategy& strategy,
   const LightTable& table = scene.lights;
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (IsHittable(scene, table.lights[i]) && !strategy.SamplesHittableLights()) continue;
+    const LightRecord& light = table.lights[i];
+    const bool hittable = !IsUnseen(scene, light) &&
+                          !HasTrait(static_cast<LightShape>(light.shape), kDeltaLight);
+    if (hittable && !strategy.SamplesHittableLights()) continue;
     weights[i] =
         strategy.light_selection == LightSelection::kUniform ? 1.0 : table.power[i];
   }
@@ -35,8 +35,8 @@ std::vector<double> SelectionWeights(const Strategy& strategy,
 }
 
 bool ScattersEvenly(const MediumTable& table) {
-  return std::any_of(table.media.begin(), table.media.end(),
-                     [](const MediumRecord& m) { return m.grid < 0 && m.scatters != 0; });
+  return std::ranges::any_of(
+      table.media, [](const MediumRecord& m) { return m.grid < 0 && m.scatters != 0; });
 }
 
 LightAnchor AnchorOf(const Geometry& geometry, const LightRecord& light) {
@@ -55,12 +55,42 @@ void SetAnchors(const CompiledScene& scene, LightChances& chances) {
   chances.anchor_alias = std::move(table.alias);
 }
 
+// Returns the share of texels with equal solid angles.
+double ShareOf(const Environment& environment) {
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i + 2 < environment.rgb.size(); i += 3) {
+    double light = 0;
+    for (std::size_t c = 0; c < 3; ++c) light += double(environment.rgb[i + c]);
+    sum += light;
+    squares += light * light;
+  }
+  return squares > 0 ? sum * sum / (squares * double(environment.rgb.size() / 3)) : 1;
+}
+
+// Flat shapes are seen at half their area on average, balls at a quarter. The scene's
+// half diagonal is between 1 and 2: nothing in it is seen from much nearer.
+double ShareOf(const CompiledScene& scene, const LightRecord& light) {
+  const bool is_ball = static_cast<LightShape>(light.shape) == LightShape::kSphere;
+  const Vec3d middle = BoundsOf(scene.geometry, light).Center();
+  const double square = std::max(1.0, Dot(middle, middle));
+  return std::min(1.0, light.area / (is_ball ? 4 : 2) / (4 * kPi * square));
+}
+
+// Returns 0 for lights without extent, which all strategies sample.
+double Share(const CompiledScene& scene, const LightRecord& light) {
+  const auto shape = static_cast<LightShape>(light.shape);
+  if (HasTrait(shape, kDeltaLight)) return 0;
+  if (HasTrait(shape, kEmittingShape)) return ShareOf(scene, light);
+  if (light.environment < 0) return 1;
+  return ShareOf(scene.lights.environments[static_cast<std::size_t>(light.environment)]);
+}
+
 }  // namespace
 
 bool HasAnchors(const Strategy& strategy, const CompiledScene& scene) {
   const auto& lights = scene.lights.lights;
   return strategy.distances == Distances::kEquiangular && ScattersEvenly(scene.media) &&
-         std::any_of(lights.begin(), lights.end(), HasPlace);
+         std::ranges::any_of(lights, HasPlace);
 }
 
 bool CompensatesEnvironment(const Strategy& strategy) {
@@ -78,7 +108,7 @@ LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strate
   if (HasAnchors(strategy, scene)) SetAnchors(scene, chances);
   const std::vector<double> weights = SelectionWeights(strategy, scene);
   chances.pmf.resize(weights.size());
-  if (std::none_of(weights.begin(), weights.end(), [](double w) { return w > 0; })) {
+  if (std::ranges::none_of(weights, [](double w) { return w > 0; })) {
     return chances;
   }
   if (strategy.light_selection == LightSelection::kTree && weights.size() > 1) {
@@ -123,6 +153,20 @@ PreparedScene PrepareScene(const SceneDescription& description,
       std::make_shared<const CompiledScene>(CompileScene(description, options));
   scene.view = {scene.compiled, &scene.compiled->view};
   return WithStrategy(std::move(scene), description.strategy);
+}
+
+double ChanceOfLight(const PreparedScene& scene) {
+  const Directions directions = scene.strategy.directions;
+  if (directions != Directions::kBsdf && directions != Directions::kUniform) return 1;
+  const CompiledScene& compiled = *scene.compiled;
+  double power = 0, squares = 0;
+  for (std::size_t i = 0; i < compiled.lights.lights.size(); ++i) {
+    const double share = Share(compiled, compiled.lights.lights[i]);
+    const double p = share > 0 ? compiled.lights.power[i] : 0;
+    power += p;
+    if (p > 0) squares += p * p / share;
+  }
+  return squares > 0 ? std::min(1.0, power * power / squares) : 1;
 }
 
 }  // namespace lanelight

@@ -26,10 +26,10 @@ struct PreparedScene {
   Strategy strategy;
   std::shared_ptr<const LightChances> chances;  // of the strategy
 
-  /// For kernels. Refers to this object.
+  /// Returns the data for kernels, which refer to this object.
   SceneParts Parts() const;
 
-  // Of the compiled scene, for those that read nothing else of it:
+  // Data of the compiled scene, for callers that do not include it.
   const FeatureSet& features() const;
   double scale() const;  // scene units per world unit
   Transport transport() const;
@@ -48,14 +48,22 @@ bool HasAnchors(const Strategy& strategy, const CompiledScene& scene);
 /// compensated are the scene's own.
 LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strategy);
 
-/// The same scene and view, prepared for a strategy.
+/// Returns the same scene and view, prepared for a strategy.
 PreparedScene WithStrategy(PreparedScene scene, const Strategy& strategy);
 
 /// Compiles the scene and prepares it for the strategy of the description. Throws
 /// InputError as CompileScene does.
 PreparedScene PrepareScene(const SceneDescription& description,
                            const CompileOptions& options);
-/// Prepares a scene with the default options.
 PreparedScene PrepareScene(const SceneDescription& description);
+
+struct PreparedScene;  // src/scene/prepare/prepared_scene.h
+
+/// Returns the probability that a direction meets a lamp, if directions ignore lights
+/// (directions=bsdf, uniform): 1 / sum p^2 / s over lights that can be hit. p is a
+/// light's share of the power, s the share of all directions that it fills as seen from
+/// the middle of the scene. N directions are then worth N times this many hits of one
+/// lamp. Returns 1 for other strategies, and if no light can be hit.
+double ChanceOfLight(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -1,5 +1,8 @@
 #include "src/scene/prepare/tables.h"
 
+#include <cmath>
+
+#include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
@@ -8,6 +11,20 @@ StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   StrategyTables tables;
   tables.shadow_worth.floor = static_cast<float>(scene.strategy.ShadowFloor());
   return tables;
+}
+
+AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,
+                                        double relative, double exposure) {
+  AlignedVector<float> inverse;
+  if (image.black() || !(relative > 0)) return inverse;
+  inverse.reserve(std::size_t{pixels} * 3);
+  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+    for (int c = 0; c < 3; ++c) {
+      const double weight = std::sqrt(image.ErrorWeight(pixel, c) / 3);
+      inverse.push_back(static_cast<float>(weight * exposure / relative));
+    }
+  }
+  return inverse;
 }
 
 }  // namespace lanelight

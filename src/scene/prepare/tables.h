@@ -1,19 +1,67 @@
-// Tables that some strategies need, built once per render and read by kernels.
+// Tables that some strategies need, estimated by training passes and read by kernels.
+// They steer probabilities and numbers of split paths, and never enter the image.
 #pragma once
 
-#include "src/scene/prepare/path_values.h"
-#include "src/scene/prepare/shadow_worth.h"
+#include <cstdint>
+
+#include "src/base/core/aligned.h"
 
 namespace lanelight {
 
+class ImageGuess;      // src/scene/prepare/estimate_path_values.h
 struct PreparedScene;  // src/scene/prepare/prepared_scene.h
+
+/// Cells of a box, times the six dominant directions of the normal.
+struct CellGrid {
+  float low[3] = {}, per_unit[3] = {};  // cell = (p - low) * per_unit
+  std::int32_t size[3] = {1, 1, 1};
+
+  std::uint32_t cells() const {
+    return static_cast<std::uint32_t>(size[0] * size[1] * size[2]) * 6;
+  }
+};
+
+/// Values of paths, for roulettes that split: a coarse cache over space and orientation,
+/// and the brightness of pixels. Cells without records have a negative `survive`.
+struct PathValues {
+  CellGrid grid;
+  /// Brightness is sum_c channel[c] c: all channels count alike in the mean of the image,
+  /// as they do in a relative error.
+  float channel[3] = {1.0f / 3, 1.0f / 3, 1.0f / 3};
+  AlignedVector<float> inverse_pixel;  // ImageGuess::Inverse
+  /// adjoint: the mean estimate. efficiency: sqrt(E[estimate^2] / cost).
+  AlignedVector<float> survive;
+  /// efficiency: sqrt(variance of the estimate / cost).
+  AlignedVector<float> split;
+  float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
+};
+
+/// For shadow-roulette=contribution. The root of the sum over the channels of the squares
+/// of what a ray carries times `inverse`, at least `floor`, is the probability with which
+/// it is traced.
+struct ShadowWorth {
+  float floor = 0.1f;            // least probability, in (0, 1]
+  AlignedVector<float> inverse;  // 3 per pixel of the full image; empty = all are traced
+};
+
+/// Tracing a ray that adds v to a pixel of colour I with probability s adds v^2 (1/s - 1)
+/// to the variance of the sample and saves (1 - s) of the ray's cost t. Variance times
+/// cost is least with s = v / worth, where
+///   worth = sqrt(variance of a sample * t / cost of a sample)
+/// (the efficiency-optimised roulette of Veach 1997, section 10.4, per ray). As relative
+/// errors weigh it, with the same relative variance in all pixels,
+///   worth_c = sqrt(I_c^2 + epsilon) * relative,   3 inverse_c^2 = 1 / worth_c^2
+/// relative: sqrt(relative variance of a sample * t / cost of a sample); 0 = trace all.
+/// exposure: factor from what rays carry to the colours that `image` was made of.
+AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,
+                                        double relative, double exposure);
 
 struct StrategyTables {
   PathValues path_values;    // adjoint, efficiency: set by the training passes
   ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a training pass
 };
 
-/// What the strategy of the scene needs, and nothing else.
+/// Returns the tables that the scene's strategy needs, before training.
 StrategyTables MakeStrategyTables(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -30,7 +30,7 @@ enum class Lifetime : std::uint8_t {
 
 /// No primitive: where a path that has not met a surface yet comes from.
 inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
-/// No cell of the cache of path values (src/scene/prepare/path_values.h).
+/// No cell of the cache of path values (src/scene/prepare/tables.h).
 inline constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 // Vectors: one column per component.
@@ -87,7 +87,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
   LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
   LANELIGHT_XYZ(X, f32, tv, ({kBumps, kTextureFootprints}), kSurface, (), "dp/dv, not normalised")       \
-  LANELIGHT_4(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/footprint.h)") \
+  LANELIGHT_4(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/camera.h)") \
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \

@@ -21,8 +21,8 @@ enum class TextureKind {
   // Not of a file; made of other textures when materials are compiled:
   kMetalExtinction,  // k of a metal of index 1 whose reflectance head-on is tex1, times
                      // amount
-  kCoatedBase,   // colour of tex1 below a coat (src/scene/compile/coat_color.h); amount:
-                 // its internal reflectance, octaves: bounces off the base
+  kCoatedBase,       // colour of tex1 below a coat (src/scene/compile/coat.h); amount:
+                     // its internal reflectance, octaves: bounces off the base
   kRegularAlpha  // alpha of the roughness tex1, or where amount is not 0 of its root, as
                  // Integrator::regularize has it
 };

@@ -10,14 +10,14 @@ struct Accel;            // src/scene/geometry/accel.h
 struct MaterialTable;    // src/scene/compiled/materials.h
 struct TextureTable;     // src/scene/compiled/texture_table.h
 struct SpectrumTable;    // src/scene/compiled/spectra.h
-struct AlphaTable;       // src/scene/compiled/alpha.h
+struct AlphaTable;       // src/scene/compiled/texture_table.h
 struct MediumTable;      // src/scene/compiled/media.h
 struct LightTable;       // src/scene/compiled/lights.h
 struct LightChances;     // src/scene/compiled/lights.h
 struct CompiledFilter;   // src/scene/compiled/camera.h
 struct CompiledCamera;   // src/scene/compiled/camera.h
-struct PixelFootprint;   // src/scene/compiled/footprint.h
-struct GbufferSpace;     // src/scene/compiled/gbuffer.h
+struct PixelFootprint;   // src/scene/compiled/camera.h
+struct GbufferSpace;     // src/scene/compiled/camera.h
 
 /// All that every render of a scene shares, how it is seen, and what the strategy decides
 /// of its lights. Made by PartsOf (src/scene/compiled/scene.h).

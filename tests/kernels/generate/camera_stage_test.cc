@@ -9,7 +9,6 @@
 
 #include "kernels/stages.h"
 #include "src/scene/compile/camera.h"
-#include "src/scene/compile/filter.h"
 #include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 

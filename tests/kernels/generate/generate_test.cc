@@ -6,7 +6,7 @@
 #include <set>
 
 #include "kernels/stages.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/support/test_target.h"
 #include "tests/support/wave_fixture.h"
 

@@ -13,7 +13,6 @@
 #include "src/base/core/pi.h"
 #include "src/base/image/image.h"
 #include "src/scene/compile/camera.h"
-#include "src/scene/compile/filter.h"
 #include "tests/agreement/agreement.h"
 #include "tests/reference/lenses.h"
 #include "tests/support/test_target.h"

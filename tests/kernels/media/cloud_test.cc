@@ -24,7 +24,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "src/scene/compile/medium_grid.h"
+#include "src/scene/compile/media.h"
 #include "tests/kernels/media/varying_scenes.h"
 #include "tests/reference/media.h"
 #include "tests/support/test_target.h"

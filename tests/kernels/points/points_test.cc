@@ -7,7 +7,7 @@
 
 #include "src/base/stat/distributions.h"
 #include "src/base/stat/hypothesis.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/vocabulary/path/dimensions.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/base/stat/kolmogorov.h"

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "src/base/stat/hypothesis.h"
-#include "src/scene/prepare/groups.h"
 #include "src/scene/prepare/lattice.h"
+#include "src/scene/prepare/parameters.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/points/draw.h"
 #include "tests/support/test_target.h"

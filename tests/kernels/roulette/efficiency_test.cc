@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/scene/prepare/estimate_path_values.h"
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

@@ -6,7 +6,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/image/wavelengths.h"
-#include "src/scene/compile/measured.h"
+#include "src/scene/compile/materials.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/kernels/shade/probe_batch.h"
 #include "tests/reference/measured.h"

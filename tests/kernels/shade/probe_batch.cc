@@ -4,8 +4,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "src/scene/compile/coat_table.h"
-#include "src/scene/compile/measured.h"
+#include "src/scene/compile/coat.h"
+#include "src/scene/compile/materials.h"
 #include "tests/reference/measured.h"
 #include "tests/support/test_target.h"
 

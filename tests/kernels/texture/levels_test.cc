@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "kernels/stages.h"
-#include "src/scene/compile/mip_levels.h"
 #include "src/scene/compile/texture_programs.h"
 #include "tests/kernels/surface/relief_files.h"
 #include "tests/support/test_target.h"

@@ -31,7 +31,7 @@ LANELIGHT_END_KERNELS
 #include <limits>
 #include <random>
 
-#include "src/scene/compile/coat_color.h"
+#include "src/scene/compile/coat.h"
 #include "src/scene/compile/texture_programs.h"
 #include "tests/kernels/texture/texture_files.h"
 #include "tests/reference/texture.h"

@@ -1,7 +1,7 @@
 // Where lamps are found by chance alone, what no sample has met is in no estimate: no
 // interval is printed where it may be missing.
 #include "src/base/core/source_location.h"
-#include "src/scene/prepare/chance_of_light.h"
+#include "src/scene/prepare/prepared_scene.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "src/scene/compile/compile.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/support/test_target.h"
 

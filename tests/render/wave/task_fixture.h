@@ -9,7 +9,6 @@
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
-#include "src/scene/prepare/path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/render/run/render_fixture.h"

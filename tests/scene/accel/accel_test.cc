@@ -9,8 +9,8 @@
 #include <set>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/grow.h"
 #include "src/scene/accel/partition.h"
+#include "src/scene/accel/shape_items.h"
 #include "tests/scene/accel/leaves.h"
 #include "tests/support/brute_force.h"
 

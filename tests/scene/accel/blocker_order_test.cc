@@ -1,6 +1,6 @@
 // The order of children for shadow rays (blocker_order.h), against enumeration and random
 // lines.
-#include "src/scene/accel/blocker_order.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <catch2/catch.hpp>
 

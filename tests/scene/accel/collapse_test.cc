@@ -1,5 +1,5 @@
 // The collapse to wide nodes against all ways of choosing them.
-#include "src/scene/accel/collapse.h"
+#include "src/scene/accel/binary_tree.h"
 
 #include <catch2/catch.hpp>
 

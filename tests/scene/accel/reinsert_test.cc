@@ -1,12 +1,11 @@
-// Reinsertion of subtrees (reinsert.h): what it keeps, and that it makes trees better.
+// Reinsertion of subtrees (binary_tree.h): what it keeps, and that it makes trees better.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
 #include <random>
 #include <set>
 
-#include "src/scene/accel/collapse.h"
-#include "src/scene/accel/reinsert.h"
+#include "src/scene/accel/binary_tree.h"
 
 namespace lanelight {
 namespace {

@@ -1,6 +1,6 @@
 // Trees over triangles that were cut: their leaves cover every triangle, in boxes that
 // leave nothing out, and rays hit what they hit without a tree.
-#include "src/scene/accel/spatial_split.h"
+#include "src/scene/accel/splits.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "src/base/core/parallel.h"
-#include "src/scene/accel/cut_plan.h"
-#include "src/scene/accel/grow.h"
+#include "src/scene/accel/shape_items.h"
+#include "src/scene/accel/triangle_cut.h"
 #include "tests/kernels/intersect/trace.h"
 #include "tests/scene/accel/leaves.h"
 #include "tests/scene/accel/sticks.h"

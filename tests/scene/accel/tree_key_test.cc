@@ -1,5 +1,5 @@
 // What a tree is keyed by: all that it depends on, and nothing else.
-#include "src/scene/accel/tree_key.h"
+#include "src/scene/accel/build.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Trees that are taken from the scene that was compiled before.
-#include "src/scene/accel/tree_source.h"
+#include "src/scene/accel/build.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>

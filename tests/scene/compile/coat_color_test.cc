@@ -1,5 +1,5 @@
 // The RGB colour of a coated base stands for its spectrum.
-#include "src/scene/compile/coat_color.h"
+#include "src/scene/compile/coat.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

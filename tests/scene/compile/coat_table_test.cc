@@ -1,5 +1,5 @@
 // Fluxes through coats against closed forms and identities.
-#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/coat.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Tables of environment images, plain and compensated for what scattered rays find.
-#include "src/scene/compile/environment_table.h"
+#include "src/scene/compile/environment.h"
 
 #include <catch2/catch.hpp>
 

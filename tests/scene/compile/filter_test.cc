@@ -1,4 +1,4 @@
-#include "src/scene/compile/filter.h"
+#include "src/scene/compile/camera.h"
 
 #include <catch2/catch.hpp>
 

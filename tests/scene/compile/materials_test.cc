@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/coat.h"
 #include "src/scene/compile/spectrum_rows.h"
 #include "tests/scene/compile/testing.h"
 
@@ -209,7 +209,7 @@ TEST_CASE("compile: coats", "[scene][compile]") {
   CHECK(t.color1_g[0] == 2);
   CHECK(t.alpha2_x[0] == 0.3f);
   CHECK(t.alpha2_y[0] == 0.4f);
-  // The base stands for its spectrum (coat_color.h): near the colour, not equal to it.
+  // The base stands for its spectrum (coat.h): near the colour, not equal to it.
   CHECK(t.color0_b[1] == Approx(0.3f).margin(0.01));
   CHECK(t.color0_b[1] != 0.3f);
   CHECK(t.coat[0] == 0);

@@ -1,5 +1,5 @@
 // Notes on media in which paths take long.
-#include "src/scene/compile/medium_cost.h"
+#include "src/scene/compile/media.h"
 
 #include <catch2/catch.hpp>
 

@@ -5,9 +5,7 @@
 
 #include "src/base/image/spectrum.h"
 #include "src/base/image/upsampling.h"
-#include "src/scene/compile/medium_emission.h"
-#include "src/scene/compile/medium_grid.h"
-#include "src/scene/compile/voxel_spectra.h"
+#include "src/scene/compile/media.h"
 #include "tests/kernels/media/varying_scenes.h"
 #include "tests/reference/media.h"
 

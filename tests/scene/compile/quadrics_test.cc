@@ -1,4 +1,4 @@
-#include "src/scene/compile/quadrics.h"
+#include "src/scene/compile/shape_records.h"
 
 #include <catch2/catch.hpp>
 

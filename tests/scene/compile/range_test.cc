@@ -5,7 +5,7 @@
 
 #include "src/base/core/error.h"
 #include "src/scene/compile/compile.h"
-#include "src/scene/compile/range.h"
+#include "src/scene/compile/focus.h"
 #include "src/scene/compiled/media.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/geometry/geometry.h"

@@ -1,5 +1,5 @@
 // Which pairs of triangles are one rectangle, and the one light that they become.
-#include "src/scene/compile/rectangles.h"
+#include "src/scene/compile/lights.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // What half spaces of a scattering medium reflect, against walks at random.
-#include "src/scene/compile/slab_albedo.h"
+#include "src/scene/compile/media.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

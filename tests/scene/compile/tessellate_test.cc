@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "src/base/core/pi.h"
-#include "src/scene/compile/seen_tolerance.h"
 #include "tests/scene/compile/testing.h"
 
 namespace lanelight {

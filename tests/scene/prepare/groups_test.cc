@@ -1,10 +1,9 @@
 // Sequences of the samplers, what counts as an observation, and what is said about it.
-#include "src/scene/prepare/groups.h"
+#include "src/scene/prepare/parameters.h"
 
 #include <catch2/catch.hpp>
 
 #include "src/render/run/run.h"
-#include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/pmj02.h"
 #include "tests/kernels/points/draw.h"
 

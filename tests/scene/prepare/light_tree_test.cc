@@ -1,6 +1,6 @@
 // light-selection=tree: the tree bounds its lights, and the kernels that descend and
 // climb it agree with each other and with a probability that sums to 1.
-#include "src/scene/prepare/light_tree.h"
+#include "src/scene/prepare/light_bounds.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -71,7 +71,7 @@ inline SceneDescription SkyAndSun() {
   Material plastic;
   plastic.kind = MaterialKind::kCoatedDiffuse;
   // Grey: a coloured base under a coat is replaced when compiling by the colour of its
-  // spectral response (src/scene/compile/coat_color.h), which the reference does not do.
+  // spectral response (src/scene/compile/coat.h), which the reference does not do.
   plastic.reflectance.constant = Grey(0.6);
   plastic.uroughness.constant = plastic.vroughness.constant = 0;
   b.AddPlane({0, 0, 0}, {0, 0, 1}, ground);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/prepare/path_values.h"
+#include "src/scene/prepare/tables.h"
 #include "tests/agreement/agreement.h"
 
 namespace lanelight::test {

@@ -1,15 +1,21 @@
-#include "src/scene/compile/coat_table.h"
+#include "src/scene/compile/coat.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
 #include "src/base/core/check.h"
+#include "src/base/core/parallel.h"
+#include "src/base/image/upsampling.h"
 
 namespace lanelight {
+
 namespace {
 
-constexpr double kSmoothAlpha = 1e-3;  // below it pbrt-v4 treats an interface as smooth
+constexpr double kSmoothCoatAlpha =
+    1e-3;  // below it pbrt-v4 treats an interface as smooth
 
 double Fresnel(double c, double eta) {
   const double cos_t2 = 1 - (1 - c * c) / (eta * eta);
@@ -23,7 +29,7 @@ double Fresnel(double c, double eta) {
 double Crossing(double thickness, double cosine) { return std::exp(-thickness / cosine); }
 
 // One interface, seen from the side of incidence; eta is transmitted over incident.
-struct Side {
+struct CoatSide {
   double alpha, eta, thickness;
   bool absorb_reflected, absorb_transmitted;  // which outcome crosses the medium
 };
@@ -31,7 +37,7 @@ struct Fluxes {
   double reflected = 0, transmitted = 0;
 };
 
-Fluxes Smooth(const Side& s, double mu) {
+Fluxes Smooth(const CoatSide& s, double mu) {
   const double f = Fresnel(mu, s.eta);
   Fluxes out{f, 1 - f};
   if (s.absorb_reflected) out.reflected *= Crossing(s.thickness, mu);
@@ -44,7 +50,7 @@ Fluxes Smooth(const Side& s, double mu) {
 
 // Contribution of a microfacet normal m, of those visible from wo = (x, 0, mu): its
 // outcomes weighed by G2 / G1, zero when they end on the wrong side.
-void AddMicrofacet(const Side& s, const Vec3d& wo, const Vec3d& m, double weight,
+void AddMicrofacet(const CoatSide& s, const Vec3d& wo, const Vec3d& m, double weight,
                    Fluxes* sum) {
   const double mu = wo.z, c = std::max(0., wo.x * m.x + mu * m.z);
   const double f = Fresnel(c, s.eta);
@@ -70,9 +76,9 @@ void AddMicrofacet(const Side& s, const Vec3d& wo, const Vec3d& m, double weight
   }
 }
 
-// Integral over the normals visible from mu, through the spherical cap that they are
-// uniform over when stretched (Dupuy and Benyoub 2023). Midpoints: periodic in phi.
-Fluxes Rough(const Side& s, double mu, int rings, int spokes) {
+// Integrates over the normals visible from mu, which are uniform over a stretched
+// spherical cap (Dupuy and Benyoub 2023), at midpoints, since phi is periodic.
+Fluxes Rough(const CoatSide& s, double mu, int rings, int spokes) {
   const double x = std::sqrt(1 - mu * mu);
   const double length = std::hypot(s.alpha * x, mu);
   const double vx = s.alpha * x / length, vz = mu / length;
@@ -93,8 +99,26 @@ Fluxes Rough(const Side& s, double mu, int rings, int spokes) {
   return sum;
 }
 
-Fluxes At(const Side& s, double mu, int rings, int spokes) {
-  return s.alpha < kSmoothAlpha ? Smooth(s, mu) : Rough(s, mu, rings, spokes);
+Fluxes At(const CoatSide& s, double mu, int rings, int spokes) {
+  return s.alpha < kSmoothCoatAlpha ? Smooth(s, mu) : Rough(s, mu, rings, spokes);
+}
+
+// Returns the rho in [0, 1] of a response, by bisection of an increasing function.
+double InvertResponse(double response, double internal, int bounces) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (CoatedResponse(middle, internal, bounces) < response ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+constexpr std::size_t kFitNodes = kCoatFitNodes * kCoatFitNodes * kCoatFitNodes;
+
+Rgb ColorOfNode(std::size_t i) {
+  constexpr std::size_t n = kCoatFitNodes;
+  const auto level = [](std::size_t at) { return at / (n - 1.0); };
+  return {level(i % n), level(i / n % n), level(i / n / n)};
 }
 
 }  // namespace
@@ -105,7 +129,7 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
   LL_CHECK_GE(thickness, 0);
   LL_CHECK(std::isfinite(alpha) && std::isfinite(eta) && std::isfinite(thickness));
   CoatTable table;
-  const Side outside = {alpha, eta, thickness, false, true};
+  const CoatSide outside = {alpha, eta, thickness, false, true};
   for (int i = 0; i < kCoatTableSize; ++i) {
     // At mu = 0 exactly nothing is transmitted in the limit; an offset keeps it finite.
     const double mu = std::max(1e-6, i / (kCoatTableSize - 1.));
@@ -113,14 +137,59 @@ CoatTable ComputeCoatTable(double alpha, double eta, double thickness) {
   }
   // Mean over a cosine distribution: density 2 mu. The light has crossed the medium once
   // on its way to the interface.
-  const Side inside = {alpha, 1 / eta, thickness, true, false};
-  const int nodes = alpha < kSmoothAlpha ? 20000 : 64;
+  const CoatSide inside = {alpha, 1 / eta, thickness, true, false};
+  const int nodes = alpha < kSmoothCoatAlpha ? 20000 : 64;
   double sum = 0;
   for (int i = 0; i < nodes; ++i) {
     const double mu = (i + 0.5) / nodes;
     sum += 2 * mu * Crossing(thickness, mu) * At(inside, mu, 64, 8).reflected;
   }
   table.internal_reflectance = static_cast<float>(sum / nodes);
+  return table;
+}
+
+double CoatedResponse(double rho, double internal, int bounces) {
+  const double q = rho * internal;
+  // (1 - q^n) / (1 - q); for q near 1 without cancellation.
+  const double series = q == 1 ? bounces : -std::expm1(bounces * std::log(q)) / (1 - q);
+  return rho * series;
+}
+
+Rgb EffectiveCoatBase(Rgb rgb, double internal, int bounces) {
+  if (rgb.x == rgb.y && rgb.y == rgb.z) return rgb;
+  const Spectrum base = ReflectanceOfRgb(Max(Min(rgb, {1, 1, 1}), {0, 0, 0}));
+  return EffectiveCoatBase(rgb, base, internal, bounces);
+}
+
+Rgb EffectiveCoatBase(Rgb rgb, const Spectrum& base, double internal, int bounces) {
+  const Rgb fitted = ColorUnderD65(base);
+  const Rgb response = ColorUnderD65(
+      [&](double nm) { return CoatedResponse(base(nm), internal, bounces); });
+  Rgb effective;
+  for (int c = 0; c < 3; ++c) {
+    // The relative error of the fit is divided out, so that a linear response returns the
+    // colour itself.
+    const double miss = fitted[c] > 0.01 ? rgb[c] / fitted[c] : 1;
+    const double wanted =
+        fitted[c] > 0.01 ? response[c] * miss : CoatedResponse(rgb[c], internal, bounces);
+    effective[c] = InvertResponse(std::max(wanted, 0.0), internal, bounces);
+  }
+  return effective;
+}
+
+std::vector<float> CoatFits::Table(double internal, int bounces) {
+  if (bases_.empty()) {
+    bases_.resize(kFitNodes);
+    ParallelFor(kFitNodes,
+                [&](std::size_t i) { bases_[i] = ReflectanceOfRgb(ColorOfNode(i)); });
+  }
+  std::vector<float> table(3 * kFitNodes);
+  ParallelFor(kFitNodes, [&](std::size_t i) {
+    const Rgb rgb = ColorOfNode(i);
+    if (rgb.x == rgb.y && rgb.y == rgb.z) return;
+    const Rgb change = EffectiveCoatBase(rgb, bases_[i], internal, bounces) - rgb;
+    for (int c = 0; c < 3; ++c) table[3 * i + c] = static_cast<float>(change[c]);
+  });
   return table;
 }
 

@@ -1,4 +1,4 @@
-// The leaves of spheres and disks.
+// Fills the leaves of trees of triangles, and of trees of spheres, disks and curves.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,38 @@
 
 namespace lanelight {
 
+/// Returns the limits of leaves: as many triangles as fit into a shared leaf of up to
+/// `leaf_triangles`, or a SeparateLeaf if these typically are at most half as many. The
+/// capacity SeparateLeaf::kLanes identifies the latter.
+LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records, int leaf_triangles);
+
+/// Appends the leaves of a tree to `blocks`: first Place for each of them, then
+/// MakeRoom, then Fill by any thread.
+class TriangleBlocks {
+ public:
+  TriangleBlocks(AlignedVector<TriangleBlock>& blocks,
+                 const AlignedVector<TriangleRecord>& records, int leaf_triangles);
+
+  /// Returns the reference, without kLeafBit, of the next leaf of this capacity.
+  std::uint32_t Place(std::uint32_t capacity);
+  void MakeRoom();
+  /// `ids` ascend.
+  void Fill(std::uint32_t ref, const std::uint32_t* ids, std::uint32_t count);
+
+ private:
+  AlignedVector<TriangleBlock>& blocks_;
+  const AlignedVector<TriangleRecord>& records_;
+  const bool small_;
+  std::size_t next_;      // block
+  std::size_t half_ = 0;  // the unused half of a block, as an index; 0 if there is none
+};
+
 inline void SetLane(SphereBlock& block, int lane, const SphereRecord& r) {
   for (int a = 0; a < 3; ++a) block.center[a][lane] = r.center[a];
   block.radius[lane] = r.radius;
 }
 inline void ClearLane(SphereBlock& block, int lane) {
-  for (int a = 0; a < 3; ++a) block.center[a][lane] = block.center[a][0];
+  for (auto& axis : block.center) axis[lane] = axis[0];
   block.radius[lane] = -1;
 }
 inline void SetLane(DiskBlock& block, int lane, const DiskRecord& r) {
