@@ -1,4 +1,4 @@
-// Samples that are not finite, or negative where they must not be.
+// Finds samples that are not finite, or negative where they must not be.
 #ifndef LANELIGHT_ACCUMULATE_CHECK_INL_H_
 #define LANELIGHT_ACCUMULATE_CHECK_INL_H_
 
@@ -7,13 +7,13 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// A sample, black where it was bad.
+/// A sample; zero where it was bad.
 struct Checked {
   V3 value;
   MF bad;
 };
 
-/// Counts bad samples of valid lanes; kSigned: negative ones are not.
+/// Counts bad samples of valid lanes. With kSigned, negative samples are good.
 template <bool kSigned>
 HWY_INLINE Checked Check(Health& counts, V3 v, MF valid) {
   const DF df;

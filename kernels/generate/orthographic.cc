@@ -1,5 +1,5 @@
-// Parallel rays. Each point of the film has a lens of its own, so that what lies at the
-// depth of focus is sharp everywhere.
+// Generates parallel rays. Each film point has its own lens, so that the plane of focus
+// is sharp everywhere.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"

@@ -4,9 +4,9 @@
 #define LANELIGHT_INTERSECT_MANY_INL_H_
 
 #include "kernels/intersect/alpha-inl.h"
-#include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/rays-inl.h"
 #include "kernels/intersect/triangle-inl.h"
+#include "kernels/simd/lanes-inl.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_parts.h"
 

@@ -22,8 +22,8 @@
 
 #include <cfloat>
 
-#include "kernels/intersect/double-inl.h"
 #include "kernels/intersect/recheck.h"
+#include "kernels/simd/lanes-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

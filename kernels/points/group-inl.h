@@ -1,4 +1,4 @@
-// Which randomisation a sample belongs to, and its index in it.
+// Finds the randomisation of a sample, and the index of the sample in it.
 #ifndef LANELIGHT_POINTS_GROUP_INL_H_
 #define LANELIGHT_POINTS_GROUP_INL_H_
 

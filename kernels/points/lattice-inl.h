@@ -1,11 +1,9 @@
 // points=lattice: an extensible rank-1 lattice with a random shift, padded from pairs.
-//   estimator   mean of f(frac(phi(i) + s), frac(phi(i) z + t)) with phi the binary
-//   radical
-//               inverse, z = kLatticeGenerator, (s, t) uniform: any aligned 2^m
-//               successive points are a shifted lattice of 2^m points
-//   unbiased    the shift makes every point uniform, for any N; the order of the points
-//   is
-//               a random nested permutation
+//   estimator   mean of f(frac(phi(i) + s), frac(phi(i) z + t)) with phi the
+//               binary radical inverse, z = kLatticeGenerator, (s, t) uniform: any
+//               aligned 2^m successive points are a shifted lattice of 2^m points
+//   unbiased    the shift makes every point uniform, for any N; the order of the
+//               points is a random nested permutation
 //   variance    of 2^m points: sum of |f^(h, k)|^2 over the frequencies with h + k z = 0
 //               modulo 2^m: near N^-4 for smooth periodic f, N^-2 for smooth f whose
 //               opposite edges do not meet, N^-3/2 at edges (measured from 4 to 2^14:

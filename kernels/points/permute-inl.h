@@ -1,9 +1,8 @@
 // Random permutations of [0, 2^m), one per key, without tables: swap-or-not rounds. Round
 // r pairs each x with K_r - x modulo 2^m, and swaps the two or not, as a hash of the
 // larger says.
-//   uniform   tests/kernels/points/permute_test.cc bounds what ten rounds leave on
-//   images,
-//             pairs and, for few elements, whole permutations
+//   uniform   tests/kernels/points/permute_test.cc bounds the bias of ten rounds on
+//             images, pairs and, for few elements, whole permutations
 //   cost      ten rounds of three multiplications and twelve cheap instructions,
 //             whatever n
 // Source: Hoang, Morris and Rogaway 2012, "An Enciphering Scheme Based on a Card
@@ -15,8 +14,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Rounds on x; pair(x, random) gives the partner of x under 32 random bits of the round,
-/// such that pair(pair(x, random), random) = x.
+/// Applies ten rounds to x; pair(x, random) gives the partner of x under 32 random bits
+/// of the round, such that pair(pair(x, random), random) = x.
 template <class Pair>
 LANELIGHT_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
   const DI di;
@@ -34,14 +33,14 @@ LANELIGHT_INLINE VU SwapOrNot(VU x, VU key, Pair&& pair) {
   return x;
 }
 
-/// A permutation of [0, mask], mask = 2^m - 1 < 2^24.
+/// Returns the image of i in a permutation of [0, mask], mask = 2^m - 1 < 2^24.
 LANELIGHT_INLINE VU PermuteMasked(VU i, VU mask, VU key) {
   return SwapOrNot(i, key, [&](VU x, VU random) HWY_ATTR {
     return hn::And(hn::Sub(hn::ShiftRight<8>(random), x), mask);
   });
 }
 
-/// Where i < 2^24 lies among {0}, {1}, {2, 3}, [4, 8), [8, 16), ...
+/// Locates i < 2^24 among {0}, {1}, {2, 3}, [4, 8), [8, 16), ...
 struct Octave {
   VU number;        // of the set, from 0 on
   VU log, mask;     // of its size: 2^log, and that less one
@@ -60,8 +59,8 @@ LANELIGHT_INLINE Octave OctaveOf(VU i) {
   return {number, log, hn::Sub(power, SplatU(1)), first, hn::Sub(i, first)};
 }
 
-/// A permutation of [0, 2^24) that keeps 0 and permutes each [2^m, 2^(m+1)) in itself, so
-/// that it keeps every prefix of 2^m numbers.
+/// Returns the image of i in a permutation of [0, 2^24) that keeps 0 and permutes each
+/// [2^m, 2^(m+1)) in itself. It thus keeps every prefix of 2^m numbers.
 LANELIGHT_INLINE VU PermuteOctaves(VU i, VU key) {
   const Octave octave = OctaveOf(i);
   // A key for each octave: the rounds alone would permute them alike.

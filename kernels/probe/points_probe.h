@@ -26,7 +26,7 @@ void ProbePoints(SimdTarget target, const PointsQuery& query,
 /// The same for a scalar dimension.
 void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u);
 
-/// Results of ProbeGroups; all need room for a full vector more.
+/// Holds the results of ProbeGroups; all need room for a full vector more.
 struct GroupColumns {
   std::uint32_t *group, *index, *unpaired;
 };
@@ -37,9 +37,9 @@ struct GroupColumns {
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
                  std::uint32_t count, const GroupColumns& out);
 
-/// Images of [0, count), a power of two, in the permutation of `key`; out needs room for
-/// a full vector more. `octaves`: that which keeps prefixes (PermuteOctaves), for any
-/// count.
+/// Writes the images of [0, count), a power of two, in the permutation of `key`; out
+/// needs room for a full vector more. `octaves` selects the permutation that keeps
+/// prefixes (PermuteOctaves), for any count.
 void ProbePermutation(SimdTarget target, std::uint32_t count, std::uint32_t key,
                       bool octaves, std::uint32_t* out);
 

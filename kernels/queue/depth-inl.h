@@ -1,4 +1,4 @@
-// How many events a path has had, and whether it may have another.
+// Decides whether a path may scatter once more.
 #ifndef LANELIGHT_QUEUE_DEPTH_INL_H_
 #define LANELIGHT_QUEUE_DEPTH_INL_H_
 
@@ -10,12 +10,12 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Events inside of materials that do not count, at most. Where nothing is absorbed and
-/// there is no way out, something must end a path.
+/// Maximum number of uncounted events inside of materials. It ends paths that are neither
+/// absorbed nor able to leave.
 inline constexpr int32_t kMostWalked = 1 << 16;
 
-/// Paths whose next event is inside of a material, or on its bounds from within, and does
-/// not count; only with kSubsurface.
+/// Returns the paths whose next event is inside of a material, or on its bounds from
+/// within, and does not count towards the maximum depth; only with kSubsurface.
 LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
   const DI di;
   const VI medium = Gather(wave.path.medium, slots), vacuum = hn::Set(di, kVacuum);
@@ -26,7 +26,7 @@ LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
   return hn::And(hn::And(in_medium, few), records.IsSet(offsetof(MediumRecord, inside)));
 }
 
-/// Paths that may scatter once more.
+/// Returns the paths that may scatter once more.
 LANELIGHT_INLINE MF MayScatter(const Wave& wave, const Slots& slots) {
   const VI most = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   const VI depth = Gather(wave.path.depth, slots);

@@ -26,8 +26,8 @@ HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
   return scratch;
 }
 
-/// The slots of `queue` whose primitive id lies in [begin, end); the queue itself if the
-/// scene has no other primitives.
+/// Returns the slots of `queue` whose primitive id lies in [begin, end); the queue itself
+/// if the scene has no other primitives.
 HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_t begin,
                                          uint32_t end) {
   if (begin == 0 && end == wave.ranges->end) return queue;

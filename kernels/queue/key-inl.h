@@ -8,17 +8,17 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Key of dimension 0 at a depth.
+/// Returns the key of dimension 0 at a depth.
 HWY_INLINE VU FirstKey(VU depth) { return hn::ShiftLeft<kDepthShift>(depth); }
 
-/// ... of the copy that the path is.
+/// Returns the key of dimension 0 at a depth, for split paths too.
 HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, const Slots& slots) {
   if (p.branch == nullptr) return FirstKey(depth);
   const VU branch = hn::BitCast(DU(), Gather(p.branch, slots));
   return hn::Or(FirstKey(depth), hn::ShiftLeft<kBranchShift>(branch));
 }
 
-/// `offset`: within the range of the purpose.
+/// Returns the key of a dimension; `offset` lies within the range of its purpose.
 HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
                     const Slots& slots, uint32_t offset = 0) {
   const uint32_t place = static_cast<uint32_t>(dimension) + offset;

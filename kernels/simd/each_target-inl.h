@@ -1,13 +1,13 @@
-// Included first by every file with vector code: has the file compiled once per target.
-// Highway does so by including it again. Which file that is, one or a group of kernels,
-// is said by the build (HWY_TARGET_INCLUDE, cmake/kernel_groups.cmake).
+// Every file with vector code includes this first. Highway then includes the file again
+// for each target. The build names that file, a kernel or a group of kernels
+// (HWY_TARGET_INCLUDE, cmake/kernel_groups.cmake).
 #include "kernels/targets.h"
 
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-// At the first file of each target, what guards the headers of kernels is taken back:
-// each is read once per target. The build writes the list of them all, by their paths.
+// The first file of each target undefines the include guards of kernel headers, so that
+// each header is read once per target. The build generates the list from their paths.
 #if defined(LANELIGHT_SIMD_EACH_TARGET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LANELIGHT_SIMD_EACH_TARGET_INL_H_
 #undef LANELIGHT_SIMD_EACH_TARGET_INL_H_

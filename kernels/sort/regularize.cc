@@ -1,7 +1,6 @@
-// Integrator parameter "regularize": behind a bounce that is not specular, surfaces have
-// the row of their material in which small roughnesses are larger (pbrt-v4,
-// BSDF::Regularize). Paths then find caustics that they could only hit by chance; the
-// image is blurred where there are some.
+// Integrator parameter "regularize": after a bounce that is not specular, surfaces use
+// a variant of their material whose small roughnesses are larger (pbrt-v4,
+// BSDF::Regularize). Caustics become less noisy but blurred.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

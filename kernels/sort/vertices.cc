@@ -1,6 +1,5 @@
-// All that scatters in one queue: surfaces after what is in it already. Only where
-// something else than a surface scatters: otherwise kVertex is the surfaces' queue itself
-// (src/vocabulary/path/wave.h).
+// Appends surface hits to the queue of all scattering events. If only surfaces scatter,
+// kVertex is the surface queue itself (src/vocabulary/path/wave.h).
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"

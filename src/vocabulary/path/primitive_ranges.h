@@ -1,4 +1,4 @@
-// Which ids of primitives are of which shape.
+// The ranges of primitive ids, by shape.
 #pragma once
 
 #include <cstdint>

@@ -13,14 +13,15 @@
 
 namespace lanelight {
 
-/// As many as the error of a pixel needs; more would take stratification away.
+/// Enough to estimate the error of a pixel; more would reduce stratification.
 inline constexpr std::uint32_t kReplicates = 4, kLogReplicates = 2;
 
 /// How samples of a pixel count as observations.
 struct SampleGroups {
-  std::uint32_t unit =
-      1;  // successive samples that belong together: 2 in antithetic pairs
-  /// Units take turns at kReplicates observations; else each is one by itself.
+  // Successive samples that form one unit: 2 in antithetic pairs.
+  std::uint32_t unit = 1;
+  /// True: units are dealt to kReplicates observations in turn. False: each unit is one
+  /// observation.
   bool replicates = false;
   /// Upper bound of the sum over all pixels of their squared error correlation with one
   /// pixel; 1 if pixels are independent. This many pixels are worth one independent
@@ -33,7 +34,7 @@ struct SampleGroups {
   std::uint32_t Replicate(std::uint64_t sample) const {
     return static_cast<std::uint32_t>(sample / unit % kReplicates);
   }
-  /// Samples of a replicate among the first `samples`.
+  /// Returns the number of samples of a replicate among the first `samples`.
   std::uint64_t InReplicate(std::uint64_t samples, std::uint32_t replicate) const {
     const std::uint64_t turn = std::uint64_t{unit} * kReplicates;
     const std::uint64_t before = std::uint64_t{unit} * replicate;
@@ -41,7 +42,7 @@ struct SampleGroups {
     return samples / turn * unit +
            std::min<std::uint64_t>(unit, rest > before ? rest - before : 0);
   }
-  /// Independent observations among the first `samples`.
+  /// Returns the number of independent observations among the first `samples`.
   std::uint64_t Observations(std::uint64_t samples) const {
     if (!replicates) return samples / unit;
     return std::min<std::uint64_t>(kReplicates, (samples + unit - 1) / unit);

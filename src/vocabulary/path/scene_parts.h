@@ -19,8 +19,8 @@ struct CompiledCamera;   // src/scene/compiled/camera.h
 struct PixelFootprint;   // src/scene/compiled/camera.h
 struct GbufferSpace;     // src/scene/compiled/camera.h
 
-/// All that every render of a scene shares, how it is seen, and what the strategy decides
-/// of its lights. Made by PartsOf (src/scene/compiled/scene.h).
+/// Refers to what all renders of a scene share, the camera and film tables, and the
+/// strategy's light tables. PartsOf makes it (src/scene/compiled/scene.h).
 struct SceneParts {
   const Geometry* geometry = nullptr;
   const PrimitiveRanges* ranges = nullptr;  // of the geometry

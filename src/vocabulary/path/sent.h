@@ -1,4 +1,4 @@
-// What samples of a task have gathered, by record (src/vocabulary/path/block.h).
+// Radiance gathered by the samples of a task, by record (src/vocabulary/path/block.h).
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace lanelight {
 
-/// The colour planes of the sample of a record, `wave.buffer.stride` apart.
+/// Returns the colour planes of a record's sample, `wave.buffer.stride` apart.
 inline float* ColorOf(const Wave& wave, std::uint32_t record) {
   const std::uint32_t place = record - wave.block->sample * wave.work.num_pixels;
   return wave.buffer.samples + place * wave.work.samples + wave.block->sample;
 }
 
-/// The brightest channel of what a second vertex has for others, as its own path gets it;
-/// 0 if nothing.
+/// Returns the largest channel of the radiance that a second vertex offers to other
+/// paths; 0 if it offers none.
 inline float MostSent(const Wave& wave, std::uint32_t record) {
   const Block& block = *wave.block;
   const std::uint32_t state = block.second.state[record];

@@ -5,12 +5,18 @@
 #include <cstdint>
 
 #include "src/vocabulary/path/fields.h"
-#include "src/vocabulary/path/health.h"
 #include "src/vocabulary/path/run_parameters.h"
 #include "src/vocabulary/path/scene_parts.h"
 #include "src/vocabulary/path/shade_kinds.h"
 
 namespace lanelight {
+
+/// Counts samples that were not finite, or negative where they must not be. Each is
+/// replaced by zero.
+struct Health {
+  std::uint64_t nan = 0, infinite = 0, negative = 0;
+  std::uint64_t Total() const { return nan + infinite + negative; }
+};
 
 struct Block;  // src/vocabulary/path/block.h
 

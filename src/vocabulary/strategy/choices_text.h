@@ -1,4 +1,4 @@
-// What differs between two strategies, for messages.
+// Compares two strategies, for messages.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace lanelight {
 
-/// Of two complete text forms (ToText), the choices of `text` that are not those of
-/// `other`: "roulette=none,reuse=block:32:random"; empty if both are the same.
+/// Returns the choices of `text` that differ from those of `other`, both complete text
+/// forms (ToText): "roulette=none,reuse=block:32:random"; empty if both are the same.
 std::string ChoicesNotIn(std::string_view other, std::string_view text);
 
 }  // namespace lanelight

@@ -10,9 +10,9 @@ namespace lanelight {
 inline constexpr const char* kDefaultStrategyName = "default";
 inline constexpr const char* kSceneStrategyName = "scene";
 
-/// "default" is the renderer's, "scene" is `own`, the scene's; anything else, a text for
-/// ApplyStrategy, changes the default, so that it is the same for all scenes. Throws
-/// InputError at `where` for a text that is not understood.
+/// Returns the renderer's strategy for "default" and `own`, the scene's, for "scene".
+/// Otherwise `name` is a text for ApplyStrategy, applied to the default, so that the
+/// result is the same for all scenes. Throws InputError at `where` for an invalid text.
 Strategy StrategyNamed(const std::string& name, const SourceLocation& where,
                        const Strategy& own);
 

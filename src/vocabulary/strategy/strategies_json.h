@@ -5,8 +5,8 @@
 
 namespace lanelight {
 
-/// "choices": axis, name, arguments, meaning, formula, source of each; "presets": name,
-/// meaning, complete strategy; "default": the renderer's strategy.
+/// Returns "choices": axis, name, arguments, meaning, formula, source of each; "presets":
+/// name, meaning, complete strategy; "default": the renderer's strategy.
 nlohmann::json StrategiesJson();
 
 }  // namespace lanelight
