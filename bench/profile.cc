@@ -1,6 +1,6 @@
-// What profiling costs: renders without it, with it, and with a trace, in turns, one
-// thread, processor time. Prints the median of the ratios of neighbours in time, and
-// their quartiles.
+// Measures the overhead of profiling: renders without it, with it, and with a trace, in
+// turns, on one thread, by processor time. Prints the median and quartiles of the ratios
+// of neighbours in time.
 //
 //   bench_profile SCENE... [--spp N] [--repeats N]
 #include <CLI/CLI.hpp>

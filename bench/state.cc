@@ -1,6 +1,6 @@
-// The state file of a film: bytes, and seconds, by the wall and of the processor, and
-// GB/s of film to copy it, to compress and write the copy, to check the file and to read
-// it back, beside a copy of its memory. Verified first.
+// Measures the state file of a film: bytes, wall and processor seconds, and GB/s to copy
+// it, to compress and write the copy, to check the file and to read it back, beside a
+// copy of its memory. Verifies the result first.
 //
 //   bench_state [--resolution WxH] [--spp N] [--group N] [--threads N] [--repeats N]
 //               [--folder .]
@@ -30,8 +30,8 @@ struct BenchOptions {
   int spp = 64, group = 16, threads = 0, repeats = 5;
 };
 
-// What a film keeps of a pixel: of three colours the sum, the open group's, the squares
-// and the sum of the means of groups.
+// The film sums of a pixel, for three colours: the sum, the open group's sum, the
+// squares, and the sum of the means of groups.
 struct Sums {
   double value[4][3] = {};
 };

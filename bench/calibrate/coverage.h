@@ -1,4 +1,4 @@
-// How often intervals that renders state of themselves held.
+// Counts how often the error intervals that renders state hold.
 #pragma once
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 
 namespace lanelight::bench {
 
-/// What --strategies calls the renderer's default.
+/// The name of the renderer's default in --strategies.
 inline constexpr const char* kDefaultName = "default";
 
 /// List 'A;B;...' of the default, every choice of every axis alone (in

@@ -1,17 +1,17 @@
-// How well renders know their own error: how often the true error lies inside the
-// interval that a render states, over many seeds.
+// Measures how often the true error lies inside the interval that a render states, over
+// many seeds.
 //
 //   bench_calibrate [SCENE...] [--minutes M] [--seeds N] [--spp 16 64 256 1024]
 //                   [--resolutions 48x48 96x96] [--strategies 'A;B;...']
 //                   [--every-strategy] [--least-seeds N] [--reference-spp N]
 //                   [--target-relmse X...]
 //
-// Without scenes, all of the project's and of $LANELIGHT_SCENES. The time is shared
-// evenly by all combinations: as many seeds of each as fit, at least ten (--least-seeds).
-// With --seeds that all fit, what is rendered does not hang on the machine. The truth
-// comes from a reference of Sobol' points with a seed of its own, which takes a quarter
-// of a scene's time, and whose own error is subtracted; "ref" is that error over the true
-// one of a render, and should be small.
+// Without scenes, renders all of the project's and of $LANELIGHT_SCENES. All combinations
+// share the time evenly: as many seeds of each as fit, at least ten (--least-seeds). If
+// all of --seeds fit, the result does not depend on the machine. The truth comes from a
+// reference of Sobol' points with its own seed, which takes a quarter of a scene's time;
+// its own error is subtracted. "ref" is that error over the true one of a render, and
+// should be small.
 //
 // "refused" are renders whose samples cannot tell how large the error is; "at least" how
 // many of their lower ends held. "ratio" is the mean true error over the mean estimate,

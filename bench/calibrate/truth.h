@@ -1,4 +1,4 @@
-// What renders are compared with.
+// The references that renders are compared with.
 #pragma once
 
 #include <cstdint>

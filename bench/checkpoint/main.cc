@@ -1,6 +1,6 @@
-// What keeping a render's state costs: the pause of a checkpoint, the speed of a render
-// that keeps its state, merging of parts, and the tiles that all of these are cut into.
-// Verified first: the film of a render that was cut is that of one that was not.
+// Measures the cost of checkpoints: their pause, the speed of a render that writes them,
+// merging of parts, and tiles. First verifies that the film of a render in parts is that
+// of an undivided one.
 //
 //   bench_checkpoint [SCENE] [--only pause,slowdown,merging,tiles] [--json FILE]
 #include <CLI/CLI.hpp>

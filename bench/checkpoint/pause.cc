@@ -48,7 +48,7 @@ CheckpointSettings SettingsOf(const CheckpointBench& bench, double seconds) {
   return settings;
 }
 
-// Of one render: processor seconds, and those of a clock on the wall.
+// The cost of one render: processor seconds and wall seconds.
 struct Speed {
   double cpu = 0, wall = 0, pause = 0;
   int checkpoints = 0;
@@ -90,7 +90,7 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
   const double film_bytes = double(film.Bytes()),
                file_bytes = double(fs::file_size(settings.path));
   fs::remove(settings.path);
-  // What it takes from a minute of all threads, if nobody else is on the machine.
+  // The fraction of a minute of all threads, on an otherwise idle machine.
   const double threads = MaxThreads();
   const double cost = steps.pause.Median() + steps.write_cpu.Median() / threads;
   const double least = (steps.pause_cpu.Median() + steps.write_cpu.Median()) / threads;

@@ -11,7 +11,7 @@
 
 namespace lanelight::bench {
 
-/// Of one build.
+/// The result of one build.
 struct BuildRun {
   double wall = 0, cpu = 0;          // seconds; cpu of all threads together
   std::size_t result = 0, peak = 0;  // bytes, without the mesh itself

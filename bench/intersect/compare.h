@@ -9,7 +9,7 @@
 
 namespace lanelight::bench {
 
-/// Of the repetitions.
+/// Median and extremes of the repetitions.
 struct Spread {
   double median = 0, low = 0, high = 0;  // low, high: least and largest
 };

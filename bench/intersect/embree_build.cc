@@ -10,7 +10,7 @@
 namespace lanelight::bench {
 namespace {
 
-/// What Embree says that it allocates and frees.
+/// The memory that Embree reports as allocated and freed.
 struct Memory {
   std::atomic<std::int64_t> now{0}, peak{0};
 

@@ -9,8 +9,8 @@
 
 namespace lanelight::bench {
 
-/// What rtcNewDevice is asked for: `threads` building threads and the instruction set
-/// that comes nearest to our SIMD target (the best one for AVX3), and `more`.
+/// Returns the configuration for rtcNewDevice: `threads` building threads, the
+/// instruction set closest to our SIMD target (the best for AVX3), and `more`.
 std::string EmbreeConfig(const std::string& target, int threads, const std::string& more);
 
 /// A scene that is not committed yet: rtcCommitScene builds it.

@@ -1,6 +1,6 @@
-// Mrays per second of processor time of the intersect stages on ray sets of meshes, one
-// thread, side by side with every entry of Embree 3 if it was found at build time. See
-// bench/README.md for what is measured and how.
+// Measures rays per second of processor time of the intersect stages on ray sets of
+// meshes, one thread, beside every entry of Embree 3 if it was found at build time.
+// bench/README.md describes the method.
 #include <fmt/format.h>
 
 #include <cstdio>

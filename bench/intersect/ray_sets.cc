@@ -8,8 +8,8 @@
 namespace lanelight::bench {
 namespace {
 
-/// Where a ray hit: just outside the surface, the normal on the ray's side, the direction
-/// of the ray, the triangle, and which of the rays it was.
+/// A hit: a point just outside the surface, the normal on the ray's side, the ray's
+/// direction, the triangle, and the ray's number.
 struct Vertex {
   Vec3f p, n, d;
   std::uint32_t prim;
@@ -118,8 +118,8 @@ std::vector<TestRay> FromEach(const std::vector<Vertex>& vertices, Make&& make) 
   return rays;
 }
 
-// As paths that serve their block have them: from the vertices of each 16 rays to one
-// that a ray from one of them has found.
+// Makes rays as path reuse has them: from the vertices of each 16 rays to one that a ray
+// from one of them has found.
 std::vector<TestRay> ToCommonPoints(const std::vector<Vertex>& first,
                                     const std::vector<Vertex>& second) {
   constexpr std::size_t kBlock = 16;

@@ -17,7 +17,7 @@ struct RaySet {
   std::vector<std::size_t> waves;
 };
 
-/// What a tracer says of a ray: infinite t = no hit, or not blocked.
+/// The result of a tracer for a ray: infinite t = no hit, or not blocked.
 struct BenchHit {
   float t = 0;
   std::uint32_t prim = 0;

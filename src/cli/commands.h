@@ -1,6 +1,6 @@
 // The subcommands, one file each. Every Add...Command declares the flags of its
-// subcommand and a callback that checks them and stores in `chosen` what is to be done,
-// which returns an exit code and throws InputError for bad input.
+// subcommand and a callback. The callback checks the flags and stores the work in
+// `chosen`, which returns an exit code and throws InputError for bad input.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -20,8 +20,8 @@ std::string ChannelText(const CompareResult& r) {
   return text;
 }
 
-// How many values differ by more than their noise explains. Mean and deviation of the
-// z-scores are in the JSON: they say something only where the images differ by noise.
+// Says how many values differ by more than their noise explains. Mean and deviation of
+// the z-scores are in the JSON: they are useful only if images differ by noise.
 std::string NoiseText(const ZScores& z) {
   if (!z.available) return FactRow("noise", "unknown: no image carries variances");
   std::string text;

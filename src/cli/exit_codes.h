@@ -1,4 +1,4 @@
-// What `lanelight` returns to the shell (docs/output.md).
+// The exit codes of `lanelight` (docs/output.md).
 #pragma once
 
 namespace lanelight {

@@ -31,8 +31,8 @@ void OnSignal(int) {
   errno = saved;
 }
 
-// `ulimit -t` sets both limits of processor time, and at the hard one the process is
-// killed without a word: the soft one is moved ahead, so that there is time to write.
+// `ulimit -t` sets both limits of processor time, and at the hard one the kernel kills
+// the process. The soft limit is moved ahead, so that there is time to write.
 void MoveSoftLimitAhead(int threads) {
   rlimit limit;
   if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||

@@ -17,7 +17,7 @@ void WriteError(const std::string& text) {
   std::size_t left = text.size();
   while (left > 0) {
     const ssize_t n = write(STDERR_FILENO, at, left);
-    if (n <= 0) return;  // nobody reads it: the render goes on
+    if (n <= 0) return;  // no reader: the render continues
     at += n;
     left -= std::size_t(n);
   }

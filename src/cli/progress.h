@@ -68,7 +68,7 @@ class ProgressPrinter {
   bool drawn_ = false;
 };
 
-/// What is being done.
+/// A step of the work.
 struct WorkStep {
   double fraction = 0;  // of all
   std::string name;     // a plain line is printed when it changes, or when `part` grows

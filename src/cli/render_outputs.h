@@ -1,4 +1,4 @@
-// What `render` and `advise` write: the flags that say where to, and what is printed.
+// The outputs of `render` and `advise`: the flags that name them, and what is printed.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// What commands print for people: summaries, tables, and errors and notes in words.
+// Texts of commands: summaries, tables, errors and notes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -31,7 +31,7 @@ WORDS = {
     r"say as much as|says as much as": "is worth as much as",
 }
 # A comment that begins so and has no comma is a fragment.
-FRAGMENT = re.compile(r"(?:Of|What|Where|Whether|By|With|Whose|How|From where) [^,?]*[.:;]?$")
+FRAGMENT = re.compile(r"(?:Of|What|Where|Whether|By|With|Whose|How|From where) [^,?:]*[.;]?$")
 # (file, text) that may stay, with the reason.
 EXCEPTIONS = {}
 

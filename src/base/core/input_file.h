@@ -59,8 +59,9 @@ std::string ReadWholeFile(const std::string& path);
 /// hold.
 bool IsGzip(std::string_view path, std::string_view content);
 
-/// How many bytes a file of `packed` bytes may unpack to: 100 times its size, but at
-/// least 256 MiB and at most 4 GiB. So a small hostile file cannot fill the memory.
+/// Returns the maximum number of bytes that a file of `packed` bytes may unpack to: 100
+/// times its size, at least 256 MiB, at most 4 GiB. A small hostile file cannot fill the
+/// memory.
 std::size_t MaxUnpackedSize(std::size_t packed);
 
 /// Returns what the gzip members in `packed` hold, one after the other. Throws InputError

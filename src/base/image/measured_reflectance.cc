@@ -82,7 +82,7 @@ class Reader {
     return m;
   }
 
-  /// Of so many known directions.
+  /// Reads the spectra of this many known directions.
   MeasuredSpectra Spectra(std::size_t phis, std::size_t thetas) const {
     const std::uint64_t wavelengths = file_.Find("wavelengths").count;
     MeasuredSpectra spectra;

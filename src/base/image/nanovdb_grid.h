@@ -21,7 +21,7 @@ template <typename BuildT>
 class TypedGrid final : public SparseGrid {
  public:
   using Grid = nanovdb::NanoGrid<BuildT>;
-  /// Of bytes that TreeCheck has found no fault with.
+  /// Takes bytes that TreeCheck has accepted.
   explicit TypedGrid(GridBytes bytes) : data_(std::move(bytes)) {
     bytes_ = data_.size();
     SetPlace();
@@ -83,8 +83,8 @@ class TypedGrid final : public SparseGrid {
       range->second = value > range->second ? value : INFINITY;
   }
 
-  // What the part of a node in the box holds. By the place where the node hangs: the file
-  // need not be right about the place that the node itself has.
+  // Sums the part of a node in the box. The position is that of the node's place in its
+  // parent: the position stored in the node may be wrong.
   template <typename Node>
   static void AddNode(const Node& node, const nanovdb::Coord& origin, const Box& box,
                       Range* range) {

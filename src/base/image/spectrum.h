@@ -96,8 +96,8 @@ Rgb RgbOfBlackbody(double kelvin);
 /// film makes of `rgb` illuminants of (1, 1, 1) that nothing normalises.
 inline constexpr double kPhotometricIntegral = 106.856895;
 
-/// By bin of wavelengths: what a spectrum of 1, as that of a black body is at its
-/// maximum, is in units of D65, in the scale of RgbOfBlackbody.
+/// Returns, per wavelength bin, the value of a spectrum of 1 (a black body at its
+/// maximum) in units of D65, in the scale of RgbOfBlackbody.
 std::vector<float> UnitsOfBlackbody();
 
 }  // namespace lanelight

@@ -54,10 +54,10 @@ double HalfTangentOfGrey(double v);
 /// The polynomial through values at kUpsamplingNm: c[k] is the sum of row k times them.
 std::array<std::array<double, 3>, 3> PolynomialThrough();
 
-/// Sigmoid of a quadratic polynomial in the wavelength whose colour under D65 is `rgb`
-/// (each in [0, 1]) as nearly as such a spectrum can be (Jakob and Hanika 2019, "A
-/// Low-Dimensional Function Space for Efficient Spectral Upsampling"), fitted by damped
-/// least squares. Greys are constant spectra.
+/// Fits the sigmoid of a quadratic in the wavelength whose colour under D65 is closest to
+/// `rgb` (each in [0, 1]) by damped least squares (Jakob and Hanika 2019, "A
+/// Low-Dimensional Function Space for Efficient Spectral Upsampling"). Greys are constant
+/// spectra.
 Spectrum ReflectanceOfRgb(Rgb rgb);
 
 }  // namespace lanelight

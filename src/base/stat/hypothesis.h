@@ -36,10 +36,11 @@ double SidakLevel(double family, int n);
 /// `growth`.
 ///
 /// Robbins' normal mixture (1970, "Statistical methods related to the law of the iterated
-/// logarithm", Annals of Mathematical Statistics 41) with the variance of the mixture at
-/// the first look; for sums that are normal only in the limit, an asymptotic confidence
-/// sequence (Waudby-Smith, Arbour, Sinha, Kennedy and Ramdas 2024, "Time-uniform central
-/// limit theory and asymptotic confidence sequences", Annals of Statistics 52).
+/// logarithm", Annals of Mathematical Statistics 41), with the variance of the mixture at
+/// the first look. For sums that are normal only in the limit it is an asymptotic
+/// confidence sequence. Source: Waudby-Smith, Arbour, Sinha, Kennedy and Ramdas 2024,
+/// "Time-uniform central limit theory and asymptotic confidence sequences", Annals of
+/// Statistics 52.
 double TimeUniformQuantile(double growth, double confidence);
 
 /// Holm's (1979) step-down procedure: which hypotheses are rejected, as ascending
@@ -47,11 +48,10 @@ double TimeUniformQuantile(double growth, double confidence);
 /// however the tests depend on each other. A p-value of NaN is never rejected.
 std::vector<std::size_t> HolmRejections(std::span<const double> p, double family);
 
-/// Mean of independent measurements of one quantity, weighted by the inverses of their
-/// variances. Where they scatter more than their variances explain, as their chi-square
-/// says, its variance is multiplied by Birge's (1932) ratio, chi-square over its degrees
-/// of freedom: some variance is too small then, and nobody knows whose. Measurements of
-/// variance 0 (below `least_variance`) count as if they had `least_variance` > 0.
+/// Mean of independent measurements of one quantity, weighted by inverse variances. If
+/// their chi-square shows that they vary more than their variances explain, the variance
+/// of the mean is multiplied by Birge's (1932) ratio, chi-square over its degrees of
+/// freedom. Variances below `least_variance` count as `least_variance` > 0.
 struct Consensus {
   MeanEstimate estimate;
   double birge = 1;  // at least 1

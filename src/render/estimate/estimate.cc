@@ -73,7 +73,8 @@ struct ChannelTruth {
 struct Sums {
   Shares square, relative;
   double pooled = 0;  // relative error, by ChannelTruth::pooled
-  // How much the relative errors may grow: squares; the most, and the index of its pixel.
+  // Squares by which the relative errors may grow; the largest, and the index of its
+  // pixel.
   double up_squares = 0, most_up = 0;
   std::size_t most_up_at = 0;
   double squares = 0,
@@ -371,7 +372,7 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
   };
   ErrorEstimate out =
       EstimateError(WindowOf(film), pixel, film.groups().dependents, stop);
-  // How often samples are expected to have met a light.
+  // The expected number of samples that have met a light.
   const double met = TotalSamples(film) * film.chance_of_light();
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
   return Unseen(

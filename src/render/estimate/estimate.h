@@ -55,24 +55,24 @@ struct PixelEstimate {
 /// too large for long-tailed distributions: where rare samples carry the error, intervals
 /// are wide and cover more than they say.
 ///
-/// The relative error divides by the unknown mu^2 + kRelativeEpsilon. In place of m,
-/// whose error is that of v too, stands the mean of m and the mean n of the eight
-/// neighbours with weights a and v, a being the mean of (m - n)^2 - v around the pixel
-/// (at least 0): empirical Bayes with the neighbourhood as prior. It has the variance
-/// b = a v / (a + v), and what is known of mu is taken to be a gamma distribution of this
-/// mean and variance (of shape 1 at least: mean^2 / variance counts the bright samples
-/// that a pixel has met, and it has met one). The median of mu gives the estimate; by how
-/// much v / (mu^2 + kRelativeEpsilon) is larger at the lower end of mu is how much a
-/// pixel may add, and the independent pixels' additions are squared, summed, and joined
-/// with the upper end (the method of variance estimates recovery, Zou and Donner 2008).
-/// So a few pixels with one bright sample each, at the edge of a lamp, say, widen the
-/// interval upwards by what they may cost if they are really dark.
+/// The relative error divides by the unknown mu^2 + kRelativeEpsilon. The estimate
+/// replaces m, whose error is also that of v, by the mean of m and the mean n of the
+/// eight neighbours with weights a and v. a is the mean of (m - n)^2 - v around the
+/// pixel, at least 0 (empirical Bayes with the neighbourhood as prior). Its variance is b
+/// = a v / (a + v). The distribution of mu is taken to be a gamma distribution of this
+/// mean and variance, of shape at least 1: mean^2 / variance counts the bright samples
+/// that a pixel has met, and it has met one. The median of mu gives the estimate. The
+/// increase of v / (mu^2 + kRelativeEpsilon) at the lower end of mu is what a pixel may
+/// add. The additions of independent pixels are squared, summed, and joined with the
+/// upper end (method of variance estimates recovery, Zou and Donner 2008). A few pixels
+/// with one bright sample each, as at the edge of a lamp, thus widen the interval upwards
+/// by what they cost if they are really dark.
 ///
-/// Where the noise is as large as the image, n is noisy as well, and 1 / n^2 too large on
-/// average, by 3 var(n) / n^4 to second order: 1 / (n^2 + 3 var(n)) is not. The estimate
-/// with weights a and the neighbourhood's mean variance, which does not mistake a pixel
-/// without bright samples for one without noise, is the other extreme; the lower end is
-/// moved by the logarithm of their ratio, as variances add.
+/// Where the noise is as large as the image, n is noisy as well, and 1 / n^2 is too large
+/// on average, by 3 var(n) / n^4 to second order; 1 / (n^2 + 3 var(n)) is not. The other
+/// extreme is the estimate with weights a and the neighbourhood's mean variance, which
+/// does not mistake a pixel without bright samples for one without noise. The logarithm
+/// of their ratio moves the lower end, as variances add.
 ///
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes

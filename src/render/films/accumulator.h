@@ -1,6 +1,6 @@
-// The film: sums in double, per pixel and channel, of samples by observation, so that a
-// billion samples lose nothing and dependent samples (one randomisation of a
-// low-discrepancy sequence) count as one observation.
+// The film: sums in double, per pixel and channel, of samples by observation. A billion
+// samples lose nothing, and dependent samples (one randomisation of a low-discrepancy
+// sequence) count as one observation.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class FilmAccumulator {
   const SampleGroups& groups() const { return groups_; }
   /// Sets SampleGroups::dependents: a trial run may have chosen path reuse.
   void set_dependents(double dependents) { groups_.dependents = dependents; }
-  /// Of ChanceOfLight (src/scene/prepare/prepared_scene.h).
+  /// Returns the probability of ChanceOfLight (src/scene/prepare/prepared_scene.h).
   double chance_of_light() const { return chance_of_light_; }
   void set_chance_of_light(double chance) { chance_of_light_ = chance; }
   bool has_aov() const { return !aov_.empty(); }
@@ -90,7 +90,7 @@ class FilmAccumulator {
   std::vector<MutableStateColumn> Columns();
 
  private:
-  // Of a pixel whose observations are single units.
+  // Sums of a pixel whose observations are single units.
   struct UnitSums {
     double sum[3] = {};
     double squares[3] = {};  // of the units' means

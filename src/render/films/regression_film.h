@@ -44,10 +44,10 @@ struct ReplicateSums {
     for (const auto& sum : of) total += sum[channel];
     return total;
   }
-  /// Estimated variance of Total() / samples in one channel. The variance of a
-  /// replicate's sum is taken to be in proportion to its samples n_r, so that with the
-  /// deviations D_r from n_r times the mean, E[sum D_r^2] is that of one sample times n -
-  /// sum n_r^2 / n.
+  /// Returns the estimated variance of Total() / samples in one channel. The variance of
+  /// a replicate's sum is taken to be proportional to its samples n_r. With the
+  /// deviations D_r from n_r times the mean, E[sum D_r^2] is then that of one sample
+  /// times n - sum n_r^2 / n.
   double VarianceOfMean(int channel, std::uint64_t samples,
                         const SampleGroups& groups) const;
 };

@@ -49,7 +49,7 @@ StateContent ContentOf(const nlohmann::json& identity, nlohmann::json about, Fil
 /// where it differs from what ContentOf writes.
 RunRecord ReadRecord(const StateFile& file, const nlohmann::json& report);
 
-/// Whether a render resumes from a state.
+/// How a render resumes from a state.
 enum class Resume {
   kNever,  // a state that is there already is an error: it would be lost
   kIfAny,  // from the state if there is one
@@ -76,10 +76,10 @@ std::optional<Decide> DecisionOfState(const CheckpointSettings& settings);
 
 class Checkpoint : public RunKeeper {
  public:
-  /// `head`: the head of the report (HeadJson). `on_problem` is called at once, from any
-  /// thread, for states that cannot be written. Throws InputError if the state to resume
-  /// from is missing, damaged, or of another render (naming each difference), if one
-  /// exists that would be lost, or if another process keeps it.
+  /// Opens the state. `head` is the head of the report (HeadJson). `on_problem` is called
+  /// at once, from any thread, for states that cannot be written. Throws InputError if
+  /// the state to resume from is missing, damaged, or of another render (naming each
+  /// difference). Also throws if a state would be lost, or if another process writes it.
   Checkpoint(const Job& job, const CheckpointSettings& settings,
              const nlohmann::json& head,
              std::function<void(const std::string&)> on_problem);

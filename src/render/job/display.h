@@ -18,7 +18,7 @@
 
 namespace lanelight {
 
-/// Where tev listens.
+/// The default port of tev.
 inline constexpr EndpointType kDisplayEndpoint{14158};
 
 /// Sends changed tiles of a film four times a second, from its own thread: a slow viewer

@@ -36,7 +36,7 @@ class ErrorSoFar {
   const ErrorTarget target_;
   mutable std::mutex mutex_;
   std::optional<ErrorEstimate> error_;
-  // Of all pixels together: samples of the estimate, and that a target needs.
+  // Over all pixels: samples of the estimate, and samples that a target needs.
   double samples_ = 0, needed_ = 0;
 };
 

@@ -13,7 +13,7 @@
 
 namespace lanelight {
 
-/// Of the variances of the film (src/base/image/image.h).
+/// Returns the exponent of the film's variances (src/base/image/image.h).
 int VarianceExponent(const FilmAccumulator& film);
 /// Adds the attribute with that exponent, unless it is 0.
 void NoteVarianceUnit(const FilmAccumulator& film, ExrOptions& options);

@@ -136,7 +136,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
     shown.options.tiles = checkpoint->tiles();
     shown.options.keeper = &*checkpoint;
   }
-  // With --part only the pixels of its tiles.
+  // A part shows the pixels of its tiles only.
   const std::vector<PixelRect>& tiles = shown.options.tiles;
   facts.pixels = tiles.empty() ? job.window.pixels() : PixelsOf(tiles);
   if (hooks.group != nullptr) AgreeOnJob(job, *hooks.group);

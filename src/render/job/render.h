@@ -16,7 +16,7 @@
 
 namespace lanelight {
 
-/// Where results go; an empty path: nowhere.
+/// Destinations of results; an empty path means none.
 struct RenderTargets {
   std::string exr, png;
   std::string json;  // "-": only into Rendering::json

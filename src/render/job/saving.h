@@ -26,7 +26,7 @@ class Saver {
   std::vector<std::string> problems_;
 };
 
-/// What a command writes.
+/// The outputs of a command.
 struct OutputPaths {
   std::vector<std::string> files;         // empty, and "-", standard output: none
   std::vector<std::string> folders = {};  // whose content is the command's

@@ -21,7 +21,7 @@ struct Job;
 /// window is four integers.
 enum class ValueForm { kFlag, kInteger, kNumber, kText, kSize, kWindow };
 
-/// Where a setting is used.
+/// The uses of a setting.
 enum SettingUse : unsigned {
   kSceneFlag = 1u << 0,      // commands that read one scene have a flag for it
   kAmountFlag = 1u << 1,     // `render` has: how much

@@ -28,14 +28,14 @@ enum class DefaultDecision {
   kAlways,
 };
 
-/// What paths are to carry; kByScene: see ChooseTransport (src/render/job/transport.h).
+/// What paths carry; kByScene: see ChooseTransport (src/render/job/transport.h).
 enum class AskedTransport { kRgb, kSpectral, kByScene };
 
 /// Default limit of triangles of instances that are copied into the world: about 25 MB.
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
 inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
 
-/// How images are written.
+/// Format of written images.
 struct ImageSettings {
   bool half = false;    // colours of the EXR in 16 bits
   bool png = false;     // in a sweep: beside each EXR
@@ -60,7 +60,7 @@ struct RenderSettings {
   /// Strategies that will be rendered in turn (WithStrategy), besides the scene's:
   /// kByScene chooses a transport that none of them refuses.
   std::vector<Strategy> compared;
-  std::optional<BuildQuality> build;                  // of the trees over shapes
+  std::optional<BuildQuality> build;                  // of the BVHs
   std::shared_ptr<const KnownTree> known_tree;        // as in CompileOptions
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
   std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
@@ -74,7 +74,7 @@ struct RenderSettings {
 
 bool HasTarget(const RenderSettings& settings);
 
-/// What may be asked for at most.
+/// The maximum that may be requested.
 inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;

@@ -1,4 +1,4 @@
-// What the paths of a render carry if the scene is to decide (--transport scene).
+// Chooses what the paths of a render carry if the scene decides (--transport scene).
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// How a program joins the ranks that were started together. There are two of these:
-// alone.cc, and mpi_group.cc; a program is linked with one of them.
+// Joins the ranks that were started together. alone.cc and mpi_group.cc implement it; a
+// program links one of them.
 #pragma once
 
 #include <memory>

@@ -42,7 +42,7 @@ class MpiGroup : public RankGroup {
   int rank_ = 0;
   std::vector<std::string> hosts_;  // by rank
   std::uint64_t bytes_ = 0;
-  // What MPI may still be working on when this rank has given up:
+  // Operations that MPI may still be working on when this rank has given up:
   RankStatus sum_;
   std::uint64_t out_size_ = 0, in_size_ = 0;
   std::string out_, in_;

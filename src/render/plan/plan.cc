@@ -183,9 +183,9 @@ Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
   plan.ray_kernels = FindRayKernels(plan);
   FindShadowKernels(registered, plan);
   plan.bytes_per_path = plan.live_fields.size() * sizeof(float);
-  // New samples start only while the live paths fit (kernels/generate/generate.cc), and
-  // slots are taken from the top of a stack, so most of the room for copies is seldom
-  // touched: the cache is to hold twice the paths.
+  // New samples start only while the live paths fit (kernels/generate/generate.cc). Slots
+  // are taken from the top of a stack, so most of the room for copies is rarely used: the
+  // cache must hold twice the paths.
   const std::size_t copies = plan.features.Has(Feature::kSplitting) ? 2 : 1;
   plan.wavefront = options.wavefront > 0
                        ? options.wavefront

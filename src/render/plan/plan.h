@@ -25,7 +25,7 @@ struct PhaseInfo {
   const char* prefix;  // of the names of its stages in a profile; may be empty
   const char* meaning;
 };
-/// By PhaseId.
+/// The phases, by PhaseId.
 inline constexpr PhaseInfo kPhases[] = {
     {"", "paths of a range of samples"},
     {"", "path reuse: one sample of all pixels of a tile"},

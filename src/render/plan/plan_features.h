@@ -1,4 +1,4 @@
-// What a render needs: the features of the scene, as changed by its strategy and by the
+// Finds the features that a render needs: those of the scene, changed by its strategy and
 // options.
 #pragma once
 

@@ -40,10 +40,9 @@ inline std::uint64_t SamplesToGive(const RankLoad& from, const RankLoad& to) {
   return excess > kMinSecondsGained * from.speed ? std::uint64_t(excess) : 0;
 }
 
-/// How often ranks exchange their status. At most 100 ms: a fraction of the time that a
-/// signal leaves to a rank. Shorter towards the end of a round, so that no rank sleeps
-/// through it. All ranks compute it from the same sums, so they meet at about the same
-/// time.
+/// The interval at which ranks exchange their status. At most 100 ms, a fraction of the
+/// time that a signal leaves to a rank; shorter towards the end of a round. All ranks
+/// compute it from the same sums, so they meet at about the same time.
 class PollInterval {
  public:
   std::chrono::duration<double> UntilNext() const {

@@ -1,5 +1,5 @@
-// What ranks send each other: tiles with all that the films have of their pixels, and
-// what workers are told before a run and after the training.
+// Messages between ranks: tiles with the film data of their pixels, and what workers
+// receive before a run and after the training.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// How a render whose number of samples is not fixed proceeds: how many samples it takes
-// at a time, and when it checks its own error. Uses no clock and no image, so that tests
-// can play through its decisions.
+// Schedules a render whose number of samples is not fixed: how many samples it takes at a
+// time, and when it checks its error. Uses no clock and no image, so tests can play
+// through its decisions.
 #pragma once
 
 #include <cstdint>

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kMissing = 3;  // standard errors
 
-// Pixels that must carry a candidate's error: its sum is known to a quarter then. In last
-// rounds of advice for 10 s, five seeds each, adjoint had 1.0 to 7.1 where caustics carry
-// its error (material-testball, media: 0.46 times as efficient in long renders, although
-// each of these rounds had it ahead), and 32 to 75 where it pays (corridor, veach-ajar;
-// 14 once).
+// Minimum number of pixels that carry a candidate's error; its sum is then known to 25 %.
+// In last rounds of advice for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
+// carry its error (material-testball, media: 0.46x the efficiency in long renders,
+// although each of these rounds preferred it). It had 32 to 75 where it is efficient
+// (corridor, veach-ajar; 14 once).
 constexpr double kLeastPixels = 16;
 
 // A mean over pixels whose standard error is below this part of it needs no second

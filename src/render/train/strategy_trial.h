@@ -140,12 +140,11 @@ class StrategyTrial {
   /// one is `gain`. Where the chosen one splits paths, reuse takes its place beside the
   /// usual one if it gains more; where both split, nothing is tried.
   ///
-  /// Renders about so many samples of whole tiles with blocks of 64 paths, and with
-  /// blocks of 32 if those pay by pixels and not after a filter: smaller blocks gain less
-  /// by pixels, and more after a filter. The last result is the one to take, if it pays:
-  /// clearly by pixels (also without any one tile, tiles being independent), and without
-  /// a loss by squares. Empty where the scene or the strategy refuses reuse, or after an
-  /// interrupt.
+  /// Renders about this many samples of whole tiles with blocks of 64 paths. Also renders
+  /// blocks of 32 if 64 gain by pixels but lose after a filter: smaller blocks gain less
+  /// by pixels and more after a filter. The last result is the one to use if it gains
+  /// significantly by pixels, also without any one tile, and loses nothing by squares.
+  /// Empty if the scene or the strategy refuses reuse, or after an interrupt.
   std::vector<TriedBlocks> TryBlocks(const TriedStrategy& usual,
                                      const TriedStrategy& chosen, double gain,
                                      std::uint64_t samples);

@@ -15,7 +15,7 @@
 // live longer and that is all, no sample of it varies more; where few pixels carry the
 // error all others decide.
 //
-// Paths that serve their block are tried beside what has been chosen, on whole tiles.
+// Path reuse is tried beside the chosen strategy, on whole tiles.
 //
 // Shares of the planned samples: 1/100 for each candidate that learns (adjoint), 1/120
 // for each that is compared, twice 1/200 on tiles: 4.5 percent, before the chosen one
@@ -40,11 +40,11 @@ constexpr std::uint64_t kCompared = 120;  // of so many planned samples one is c
 constexpr std::uint64_t kTiled = 200;     // and so many with paths that serve blocks
 constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a quarter
 constexpr std::uint64_t kLeastToCompare = 256;
-// A change is made that is better by what it must gain and half a standard error. What is
-// made by mistake gains about that, and costs little; what is missed may be a factor of
-// three: pilots of 4 million planned samples find adjoint on veach-ajar in 16 seeds of 16
-// with half of one, in 12 with one, and in none by one standard error of means without
-// the worst thousandth of the pixels.
+// A change must gain its least gain and half a standard error. A change made by mistake
+// costs little; a missed one may cost a factor of three. On veach-ajar, trials of 4
+// million planned samples find adjoint in 16 seeds of 16 with half a standard error, in
+// 12 with one, and in none by one standard error of means without the worst thousandth of
+// the pixels.
 constexpr double kStandardErrors = 0.5;
 
 class Decider {

@@ -19,7 +19,7 @@ class TaskWatcher;  // src/render/wave/task_watcher.h
 /// shading.
 inline constexpr double kShadowRayCost = 0.5;
 
-/// What a pass renders with.
+/// The parameters of a pass.
 struct TrainingPass {
   const PreparedScene& scene;
   /// `training` says what is recorded (default: nothing). Auxiliary planes are omitted.

@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
 /// seed. Whole turns of the longest randomisations (src/scene/prepare/parameters.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
-/// What a profile gathers beside the times of stages.
+/// What a profile gathers besides stage times.
 struct ProfileOptions {
   bool counters = false;         // of the processor (src/base/core/hardware_counters.h)
   std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
@@ -41,10 +41,10 @@ struct RunOptions {
   /// Time budget of all of Run in seconds, 0 = none. Every pixel gets a sample, unless
   /// paths do not end (TimeLimit).
   double seconds = 0;
-  /// If set, it is called at certain numbers of samples per pixel
-  /// (src/render/schedule/schedule.h) and returns how many the image is estimated to
-  /// need, of which `done` are in its film. The render ends at `done` or less; below 0:
-  /// no number is enough.
+  /// If set, this is called at certain numbers of samples per pixel
+  /// (src/render/schedule/schedule.h). It returns the number that the image is estimated
+  /// to need; `done` of them are in its film. The render ends if that is `done` or less;
+  /// below 0, no number is enough.
   std::function<double(const FilmAccumulator& film, std::uint64_t done)> samples_needed;
   std::uint64_t seed = 0;
   int threads = 0;                                   // at most; 0: all cores

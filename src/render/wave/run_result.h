@@ -30,16 +30,16 @@ struct StageProfile {
   double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
 
-/// What a task does besides running stages. Items are samples.
+/// The parts of a task besides its stages. Items are samples.
 enum class TaskPart : int {
   kSetUp,   // lists the pixels of the tile, empties the wavefront
   kCopies,  // adds up the copies of paths that split
-  kSeen,    // light that the camera sees itself, with seen-lights=apart
+  kSeen,    // directly visible lights, with seen-lights=apart
   kFilm,    // adds the samples to the film
   kCount
 };
 inline constexpr int kNumTaskParts = int(TaskPart::kCount);
-/// "task set-up", "sum of copies", "seen lights", "film".
+/// Returns "task set-up", "sum of copies", "seen lights" or "film".
 const char* Name(TaskPart part);
 
 /// One stage call (row: its index in RunResult::stages) or part of a task (row: number of

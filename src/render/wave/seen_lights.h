@@ -3,13 +3,12 @@
 // Of all that scatters in an image the edges of bright lights are the rarest and
 // brightest: a lamp of radiance 17 that covers a hundredth of a pixel, say.
 //
-// Which pixels these are is a property of the scene: a few camera rays of each pixel and
-// its neighbours tell, and more where a light lies that is smaller than pixels (with a
-// seed of their own, so nothing is biased). What a path
-// adds there is corrected at the end of its task: minus the emission that its own camera
-// ray sees (traced again with the same numbers), plus the mean emission that
-// kSeenLightRays others see. These rays run PhaseId::kVisibleLights in the wavefront of
-// the task's thread.
+// Which pixels these are is a property of the scene. A few camera rays of each pixel and
+// its neighbours tell, and more around lights smaller than pixels; they have their own
+// seed, so nothing is biased. A path's pixel is corrected at the end of its task: minus
+// the emission that its own camera ray sees (traced again with the same numbers), plus
+// the mean emission that kSeenLightRays others see. These rays run
+// PhaseId::kVisibleLights in the wavefront of the task's thread.
 #pragma once
 
 #include <cstdint>
@@ -105,7 +104,7 @@ struct SeenLightSamples {
 
 class SeenLightEdges {
  public:
-  /// Of this many tiles. Refers to the scene.
+  /// Makes room for this many tiles. Refers to the scene.
   SeenLightEdges(const PreparedScene& scene, std::size_t tiles);
 
   /// Finds the edges in a tile of the image, once; other threads that call it wait. Safe

@@ -21,7 +21,7 @@
 
 namespace lanelight {
 
-/// What a thread keeps between tasks.
+/// Memory that a thread keeps between tasks.
 struct Workspace {
   Workspace(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
             const RunOptions& options)

@@ -1,4 +1,4 @@
-// How a render is cut into tasks: (tile x sample range), independent of the number of
+// Splits a render into tasks (tile x sample range), independently of the number of
 // threads, so that the sums of a pixel always run in the same order.
 #pragma once
 

@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::size_t kLanesPerLine = kCacheLine / sizeof(std::uint32_t);
 
-// Lanes from one column to the next: padded by a full vector, on whole cache lines, and
-// an odd number of lines, so that strides never are multiples of 2 KiB (loads and stores
-// whose addresses agree in the low 12 bits block each other).
+// Returns the lanes from one column to the next: padded by a full vector, on whole cache
+// lines, and an odd number of lines. Strides are then never multiples of 2 KiB: loads and
+// stores whose addresses agree in the low 12 bits block each other.
 std::size_t ColumnStride(std::uint32_t capacity) {
   const std::size_t lines = (capacity + kLanesPerLine - 1) / kLanesPerLine + 1;
   return (lines | 1) * kLanesPerLine;

@@ -101,8 +101,8 @@ struct ChildOdds {
 float BlockingOdds(float area, float half_area_of_box);
 
 /// Sets `shadow_octants` and `shadow_first` of a node. The first hit may end a shadow
-/// ray, so the cost of an order is the sum over children of the cost of following rays
-/// that nothing before has blocked (after Nah and Manocha 2014, "SATO: Surface Area
+/// ray. The cost of an order is therefore the sum over children of the cost of following
+/// rays that nothing before has blocked (after Nah and Manocha 2014, "SATO: Surface Area
 /// Traversal Order for Shadow Ray Tracing"). The best first slot is used if it saves
 /// enough over the order along rays.
 void SetBlockerOrder(const ChildOdds (&odds)[kBvhWidth], WideNode& node);

@@ -95,8 +95,8 @@ struct MaterialTable {
   AlignedVector<std::int32_t> mix0, mix1;
   // Heights, and normal maps: a texture or -1; empty where no material has one.
   AlignedVector<std::int32_t> displacement_texture, normal_map_texture;
-  // With kSpectral: rows of SpectrumTable; negative if the colour varies by path, with
-  // its use (PathColor). For `eta`: a row of SpectrumTable::indices, or -1 if it does not
+  // Rows of SpectrumTable with kSpectral; negative if the colour varies by path, with its
+  // use (PathColor). For `eta`: a row of SpectrumTable::indices, or -1 if it does not
   // depend on the wavelength.
   AlignedVector<std::int32_t> color0_spectrum, color1_spectrum, coat_albedo_spectrum;
   AlignedVector<std::int32_t> eta_spectrum;
@@ -104,10 +104,10 @@ struct MaterialTable {
   AlignedVector<float> coat_transmittance;  // kCoatTableSize per table
   AlignedVector<float> coat_internals;      // per table; used where coats vary
   MeasuredTable measured;
-  // With kRegularizes: the material that replaces this one behind a bounce that is not
-  // specular.
+  // The material that replaces this one behind a bounce that is not specular, with
+  // kRegularizes.
   AlignedVector<std::int32_t> regular;
-  // With kForcedDiffuse: the material that replaces all others, and their kinds, one bit
+  // The material that replaces all others with kForcedDiffuse, and their kinds, one bit
   // each.
   std::uint32_t forced = 0, forced_kinds = 0;
   std::vector<std::string> names;

@@ -20,7 +20,7 @@ struct PlyMesh {
   TriangleMesh mesh;  // quads are split in two; without uvs in the file, meshes that have
                       // quads get pbrt's default: the corners of the unit square
   std::size_t bent_quads = 0;  // quads that are not flat, where the split shows
-  // What src/scene/parse/ply.h did: vertices, vertices, triangles, faces.
+  // Counts of repairs: vertices, vertices, triangles, faces.
   std::size_t bad_normals = 0, bad_uvs = 0, lost_triangles = 0, other_faces = 0;
 };
 

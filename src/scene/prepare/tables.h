@@ -45,7 +45,7 @@ struct ShadowWorth {
 };
 
 /// Tracing a ray that adds v to a pixel of colour I with probability s adds v^2 (1/s - 1)
-/// to the variance of the sample and saves (1 - s) of the ray's cost t. Variance times
+/// to the variance of the sample. It saves (1 - s) of the ray's cost t. Variance times
 /// cost is least with s = v / worth, where
 ///   worth = sqrt(variance of a sample * t / cost of a sample)
 /// (the efficiency-optimised roulette of Veach 1997, section 10.4, per ray). As relative
