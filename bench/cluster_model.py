@@ -131,7 +131,7 @@ def ranks(machine, scene, core_seconds, shares):
     the last: any failure ends it. All wait for the slowest part, and at every state until
     rank 0 has the parts of all. Returns what fixed_parts does."""
     k, nodes, cores = machine.k, machine.nodes, machine.cores
-    # What all agree on goes through a tree.
+    # A reduction of all goes through a tree.
     sums = math.ceil(math.log2(max(2, nodes))) * k["latency"]
     gather = sums + machine.film_seconds(k["network_bytes_per_second"])
     gather += nodes * k["message"]

@@ -85,7 +85,7 @@ def main():
         print(f"{kind:10} {m['seconds']:8.2f} {m['render_cpu']:10.2f} {m['cpu']:8.2f} "
               f"{m['bytes'] / m['samples']:12.2f}")
     m = medians
-    # What two cores that nobody else uses would give, as far as processor time tells.
+    # The result on two idle cores, as far as processor time tells.
     for name in "seconds", "render_cpu":
         two = m["alone"][name] / m["ranks 2"][name] * (2 if name == "render_cpu" else 1)
         eight = m["ranks 8"][name] / m["threads 2"][name] - 1

@@ -25,6 +25,6 @@ set(CMAKE_CXX_COMPILER_TARGET aarch64-linux-gnu)
 set(CMAKE_EXE_LINKER_FLAGS_INIT -fuse-ld=lld)
 set(CMAKE_MODULE_LINKER_FLAGS_INIT -fuse-ld=lld)
 
-# What runs a program for ARM here. It opens files of the root before this machine's.
+# Runs programs for ARM on this machine. It opens files of the root before this machine's.
 find_program(LANELIGHT_QEMU qemu-aarch64 REQUIRED)
 set(CMAKE_CROSSCOMPILING_EMULATOR ${LANELIGHT_QEMU} -L ${ARM64_ROOT})

@@ -32,7 +32,7 @@ def main():
     everything = ask(binary, "--list-test-names-only")
     wrong = [f"{count} times: {spec}" for spec, count in runs.items() if count != 1]
     wrong += [f"no such file: {spec}" for spec in runs if spec not in known]
-    # What no entry runs has to be empty. (An empty specification would select all.)
+    # Every case has an entry. (An empty specification would select all.)
     left_out = ",".join(sorted(known - set(runs)))
     if left_out:
         wrong += [f"0 times: {name}"

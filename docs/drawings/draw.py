@@ -52,7 +52,7 @@ STAGES = [
     ("accumulate", "Done", "Free"),
     ("pack", "Scattered", ""),
 ]
-# What the driver (src/render/wave/task_runner.cc) does between stages.
+# The driver (src/render/wave/phase_driver.cc) moves these between stages.
 DRIVER = [("Scattered", "Active", "the next wave"),
           ("Surface", "Vertex", "the same, unless media scatter as well")]
 

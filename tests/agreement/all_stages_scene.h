@@ -109,9 +109,10 @@ Translate -2 0 0
 Shape "trianglemesh" "integer indices" [ 0 1 2 ] "point3 P" [ -1 -1 0  1 -1 0  0 1 1 ]
 )";
 
-/// What the other one lacks: images of lights (sky.pfm) and of environments, one behind a
-/// portal, mixed materials, the other diffuse models, a normal map (the same file), a
-/// lens, instances, a cut-out, a lamp with holes, a sphere far larger than its distance.
+/// The features that the other scene lacks: images of lights (sky.pfm) and environments,
+/// one behind a portal, mixed materials, the other diffuse models. Also a normal map (the
+/// same file), a lens, instances, a cut-out, a lamp with holes, and a sphere far larger
+/// than its distance.
 inline constexpr const char* kOtherStagesScene = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "orthographic" "float screenwindow" [ -3 3 -3 3 ] "float lensradius" 0.05 "float focaldistance" 6

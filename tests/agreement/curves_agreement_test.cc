@@ -1,5 +1,5 @@
-// Curves and hair: the wavefront against the scalar reference, and what scenes without
-// them are spared.
+// Curves and hair: the wavefront agrees with the scalar reference, and scenes without
+// them have no column or stage for them.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -125,8 +125,8 @@ TEST_CASE("wavefront agrees on stretched curves", "[agreement][curves]") {
 }
 
 TEST_CASE("a stretched curve is as wide as its object's space says", "[curves]") {
-  // Along x, seen from z = 5: a ray of slope s passes the middle line, in the space of
-  // the object, at 5 (s / 3) / sqrt(1 + (s / 3)^2), which is at most half the width.
+  // Along x, seen from z = 5: in object space, a ray of slope s passes the middle line at
+  // a distance of 5 (s / 3) / sqrt(1 + (s / 3)^2), which is at most half the width.
   SceneBuilder b(1, 1);
   b.Depth(0).Perspective({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 20);
   b.AddEnvironment(Grey(1));

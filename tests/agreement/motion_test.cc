@@ -1,5 +1,5 @@
-// What moves: the wavefront against closed forms, and against the scalar reference, which
-// renders stills; and what still scenes are spared.
+// Motion: the wavefront agrees with closed forms, and with the scalar reference, which
+// renders stills. Still scenes have no column or stage for it.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>

@@ -38,7 +38,7 @@ Bent Refracted(Vec3d d, Vec3d n, double a, double b) {
   return {d * ratio + n * (ratio * ci - ct), 1 - (s * s + p * p) / 2};
 }
 
-// Where o + t d meets the line through a and b.
+// Returns the point at which o + t d meets the line through a and b.
 Vec3d Meet(Vec3d o, Vec3d d, Vec3d a, Vec3d b) {
   const Vec3d normal = {b.z - a.z, 0, a.x - b.x};
   return o + d * (Dot(normal, a - o) / Dot(normal, d));
@@ -86,7 +86,7 @@ SceneDescription PrismScene(double cut) {
   return b.Build();
 }
 
-// What reaches the camera from above the cut.
+// Returns the light that reaches the camera from above the cut.
 Rgb ByLaw(double cut) {
   const Spectrum index = *SpectrumOfName("glass-F11");
   constexpr double kStep = 0.02;

@@ -28,7 +28,7 @@ inline double LargestDifference(const stat::ImageEstimate& a,
   return largest;
 }
 
-// What a film sees of light in units of D65.
+// Returns the film's colour of light in units of D65.
 inline Rgb Seen(const Spectrum& light) {
   Rgb sum;
   for (double nm = 380.125; nm < 780; nm += 0.25) sum += WhiteShare(nm) * light(nm) / 4;
@@ -58,7 +58,7 @@ struct AtTriple {
     const auto in_d65 = [&](double nm) { return (*own)(nm) / d65(nm); };
     return Of(in_d65) * (Luminance(color) / Luminance(ColorOfBins(BinMeans(in_d65))));
   }
-  // Of colours at voxels.
+  // Sets the colours of voxels.
   void Voxels(std::vector<float>& colors) const {
     for (std::size_t v = 0; v < colors.size(); v += 3) {
       const Rgb at = Of(UpsampledColor({colors[v], colors[v + 1], colors[v + 2]}));

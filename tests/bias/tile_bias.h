@@ -1,5 +1,5 @@
-// Tests whether a strategy has the mean of another one in every tile of 8 x 8 pixels,
-// from renders of several seeds, which is valid however pixels and samples depend on each
+// Tests whether two strategies have the same mean in every tile of 8 x 8 pixels, from
+// renders of several seeds. This is valid however pixels and samples depend on each
 // other.
 //
 // A tile's statistic is the mean of (test - base) / (value + 0.1 image mean) over its
@@ -36,7 +36,7 @@ struct BiasRound {
 std::vector<BiasRound> ScreeningRounds();
 std::vector<BiasRound> LongRounds();
 
-/// What a comparison has found.
+/// The result of a comparison.
 struct BiasVerdict {
   bool biased = false;
   bool identical = false;  // the strategy changes no bit of this scene

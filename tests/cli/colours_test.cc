@@ -29,7 +29,7 @@ std::string OnTerminal(const char* variable, const char* value) {
   std::string shown;
   std::thread reader([&] {
     char buffer[4096];
-    // Fails once nobody has the terminal open.
+    // Fails once no process has the terminal open.
     for (ssize_t n; (n = read(master, buffer, sizeof(buffer))) > 0;) {
       shown.append(buffer, static_cast<std::size_t>(n));
     }

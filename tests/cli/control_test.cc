@@ -1,4 +1,4 @@
-// What `lanelight render` says of control variates.
+// `lanelight render` reports control variates.
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>

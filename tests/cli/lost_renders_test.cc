@@ -93,7 +93,7 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   for (const char* read : {"scene.pbrt", "part.pbrt", "mesh.ply", "sky.exr"}) {
     refused({"profile", scene, "--json", directory / read}, read);
   }
-  // What the film names is where an output goes.
+  // The film's name decides where the output goes.
   const std::string film = directory / "film.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
   CHECK(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);

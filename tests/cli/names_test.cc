@@ -1,6 +1,5 @@
-// Names are bytes: a directory, a scene, a mesh, a material, an output whose names are
-// not UTF-8 are read, rendered and written like all others, and JSON says U+FFFD for such
-// bytes.
+// Names are bytes. Directories, scenes, meshes, materials and outputs whose names are not
+// UTF-8 are read, rendered and written like all others; JSON has U+FFFD for such bytes.
 #include <catch2/catch.hpp>
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// `lanelight plan` says what a scene gets and what it is spared; `compare` sets exit
+// `lanelight plan` prints the stages of a scene and the omitted ones; `compare` sets exit
 // codes.
 #include <catch2/catch.hpp>
 

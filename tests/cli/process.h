@@ -17,7 +17,7 @@ struct ProcessResult {
 
 struct ProcessOptions {
   std::string stdout_path;                // instead of capturing, e.g. /dev/full
-  bool close_stdout_reader = false;       // standard output is a pipe that nobody reads
+  bool close_stdout_reader = false;       // close the reading end of standard output
   std::string trigger;                    // once this appears in standard error ...
   std::function<void(int child)> action;  // ... this is called with the process id
   long file_size_limit = 0;    // bytes; writes beyond it fail, as on a full disk

@@ -1,5 +1,5 @@
-// What is no file, in every place where a file is read: a FIFO that nobody writes to, a
-// device without an end, a directory. None is waited for.
+// Special files in every place where a file is read: a FIFO without a writer, an endless
+// device, a directory. The program waits for none of them.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <sys/stat.h>

@@ -72,7 +72,7 @@ TEST_CASE("a target that is not reached exits with 5, and the image is there", "
 }
 
 TEST_CASE("a target that no number of samples can show ends the render", "[cli]") {
-  // A lamp that is too small to be met: nobody knows what the image lacks.
+  // A lamp too small to be hit: samples cannot show what the image lacks.
   TempDirectory directory;
   const std::string scene = directory / "dot.pbrt", json = directory / "dot.json";
   std::ofstream(scene) << R"(

@@ -140,7 +140,7 @@ std::string Layers(std::span<const double> index, double gap) {
 
 Point Stack(std::span<const double> index, double gap, int depth, const Effort& effort) {
   const double expected = LayersAtNormal(index, depth);
-  // What the depth cuts off may be in a few paths only.
+  // The light beyond the maximum depth may be carried by few paths.
   return WithRare(
       Expect(expected, Layers(index, gap), {.quick = 256, .depth = depth}, effort),
       1 - expected, 1);

@@ -57,9 +57,9 @@ MeshText SphereMesh(int rings, int segments, Vec3d center, double radius);
 MeshText SquareMesh(Vec3d center, Vec3d n, double side = 1);
 /// Diffuse shapes under a sky, seen from `eye` downwards.
 std::string RayScene(const std::string& shapes, Vec3d eye = {0, 0, 5});
-/// Renders it twice: paths that find the sky by hitting it, where every sample of a
-/// convex shape is its albedo exactly, and, with 16 times the samples, the usual ones
-/// with shadow rays. Two series.
+/// Renders it twice, as two series. Once with paths that find the sky by hitting it:
+/// every sample of a convex shape is then exactly its albedo. Once with 16 times the
+/// samples and shadow rays.
 std::vector<Point> ExpectBothWays(double expected, const std::string& text,
                                   Quality quality, const Effort& effort);
 /// The largest of errors, which must not exceed the bound.

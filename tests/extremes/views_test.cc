@@ -126,8 +126,8 @@ std::string Lamp(double x0, double x1) {
   return Block(Glow(1, true) + Rectangle({x0, -2, 0}, {x1, 2, 0}));
 }
 
-// One pixel, half of it a lamp: to one side of its middle (the pair of a sample is on the
-// other side), or around its middle (it is on the same side), or aside by a little.
+// One pixel, half of it covered by a lamp: to one side of its middle (the other sample of
+// a pair is on the other side), around its middle (the same side), or slightly aside.
 std::vector<Point> ByEdge(double aside, const Effort& effort) {
   std::vector<Point> points;
   for (const char* pairs : {"none", "antithetic:pixel", "antithetic:all"}) {

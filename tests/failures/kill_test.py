@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""SIGKILL at random moments, and at every single change of a file: a render that is
-started again ends with the bits of one that nobody disturbed; merging too."""
+"""SIGKILL at random moments, and at every single change of a file: a resumed render is
+bit-identical to an undisturbed one, and so is merging."""
 import collections
 import signal
 import time

@@ -1,5 +1,5 @@
-// What `lanelight advise` advises: the same each time, what decide=pilot decides, and
-// what pays.
+// `lanelight advise` gives the same advice each time, agrees with decide=pilot, and
+// advises what is more efficient.
 #include "src/measure/advise/advise.h"
 
 #include <catch2/catch.hpp>

@@ -115,7 +115,7 @@ TEST_CASE("a socket opens for its own page alone", "[live]") {
   const std::string own = "http://" + server.host;
   const std::string good = Request(server, UpgradeText(server, own), 200);
   CHECK(good.rfind("HTTP/1.1 101", 0) == 0);
-  // By the example of RFC 6455.
+  // The example of RFC 6455.
   CHECK_THAT(good, Catch::Contains("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="));
   const std::string other = Request(server, UpgradeText(server, "http://evil.example"));
   CHECK(other.rfind("HTTP/1.1 403", 0) == 0);

@@ -11,7 +11,7 @@ namespace lanelight {
 
 inline constexpr int kRepetitions = 5;  // of the synthetic study
 
-/// What the numbers and images of a strategy are made of.
+/// The recipe for the numbers and images of a strategy.
 struct Recipe {
   std::string name, text;
   int figure;      // 0: none

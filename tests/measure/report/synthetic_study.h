@@ -14,9 +14,10 @@ struct SyntheticStudy {
   std::vector<ReportImage> images;
 };
 
-/// Five scenes: one complete (eight strategies, one refused, one failed, hostile names),
-/// one with a single repetition and every optional member null, one that could not be
-/// studied, one whose only strategy failed, one of many strategies. Deterministic.
+/// Makes five scenes, deterministically: one complete (eight strategies, one refused, one
+/// failed, hostile names); one with a single repetition and null for every optional
+/// member; one that could not be studied; one whose only strategy failed; one of many
+/// strategies.
 SyntheticStudy MakeSyntheticStudy();
 
 /// The name that would end its script block if it could.

@@ -1,6 +1,6 @@
-// Renders know their own error: over many seeds, the error against a converged image lies
-// inside the interval that a render states of itself about as often as it says, and where
-// the samples cannot tell how large the error may be, none is stated.
+// Stated intervals hold: over many seeds, the error against a converged image lies inside
+// the render's interval about as often as stated. Where samples cannot bound the error,
+// no interval is stated.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -24,7 +24,7 @@ SceneDescription Scene(const std::string& path, int max_depth) {
 }
 SceneDescription CornellBox() { return Scene("scenes/cornell-box.pbrt", 4); }
 
-// What a render is worth; squared errors less the reference's own.
+// The true error of a render; the reference's own squared error is subtracted.
 struct TrueError {
   double mse = 0, relmse = 0;
 
@@ -56,7 +56,7 @@ double AtMost(int k, int n, double p) {
   return k >= n ? 1 : stat::BetaI(double(n - k), double(k + 1), 1 - p);
 }
 
-// How often intervals held.
+// Counts of intervals that held.
 struct Held {
   int total = 0, held = 0, halves = 0;
 

@@ -16,7 +16,7 @@ struct Coverage {
   int variance = 0, bias = 0, bias2 = 0, rejected = 0, runs = 0;
 };
 
-// Of images whose every pixel is `factor` times what it should be.
+// Returns the coverage for images whose every pixel is `factor` times its true value.
 Coverage Cover(int runs, int repetitions, double factor, bool forget_reference) {
   Random random(31);
   Coverage coverage;

@@ -1,4 +1,4 @@
-// A reference is put down and picked up again.
+// An interrupted reference resumes.
 #include <catch2/catch.hpp>
 #include <filesystem>
 

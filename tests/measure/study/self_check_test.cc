@@ -25,7 +25,7 @@ struct Studied {
   SceneRuns runs;
   SceneAnalysis analysis;
 
-  // Of a strategy whose render of seed i holds where `holds` says so.
+  // Returns cells of a strategy whose render of seed i holds if `holds` says so.
   template <class Holds>
   void Add(const std::string& name, int seeds, const Holds& holds,
            double reference_share = 0) {

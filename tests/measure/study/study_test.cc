@@ -283,7 +283,7 @@ TEST_CASE("a wrong reference is blamed on itself, not on the strategies", "[stud
   CHECK_THAT(studies[0].analysis.verdict, Contains("points at the reference"));
   const Json json = ReadJson(options.out + "/study.json");
   CHECK(json["scenes"][0]["bias"]["alike"] == Json({0, 1, 2}));
-  // With nobody else to ask, the reference is believed.
+  // With no other strategy to compare, the reference counts as right.
   options.strategies = {"default"};
   options.out = folder.File("third");
   CHECK(Study(options, {})[0].analysis.biased.size() == 1);

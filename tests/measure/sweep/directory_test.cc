@@ -45,7 +45,7 @@ TEST_CASE("sweep: what killed processes left in its directory is removed",
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out, {"--part", "1/11"}).exit_code == kExitGood);
-  // Of a process that was killed while it tried whether it can write.
+  // Left by a process that was killed while it checked that it can write.
   WriteFileAtomically(out + "/cells/.probe.4711.0.tmp", "");
   WriteFileAtomically(out + "/cells/.probed", "the user's");
   CHECK_FALSE(Rubbish(out).empty());

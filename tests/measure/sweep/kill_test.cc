@@ -12,8 +12,8 @@
 namespace lanelight {
 namespace {
 
-// Kills a sweep `kills` times, each time at a moment between start and end, and compares
-// what comes of it with a sweep that nobody disturbed.
+// Kills a sweep `kills` times at moments between start and end, and compares the result
+// with an undisturbed sweep.
 void KillAndResume(int kills, std::uint32_t seed) {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory);

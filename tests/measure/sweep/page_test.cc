@@ -119,7 +119,7 @@ Json SyntheticJson(const Sweep& sweep) {
   return SweepJson(sweep, cells, GroupCells(sweep, cells));
 }
 
-// With a grey picture of the first cell of each group but the last one.
+// Returns the page with a grey picture of the first cell of each group but the last one.
 std::string SyntheticPage(const Sweep& sweep) {
   const std::vector<Json> cells = SyntheticCells(sweep);
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);

@@ -67,7 +67,7 @@ inline bool SamePixels(const std::map<std::string, std::vector<float>>& a,
          });
 }
 
-/// Files that nobody needs: temporary ones, and images without a report.
+/// Returns superfluous files: temporary ones, and images without a report.
 inline std::vector<std::string> Rubbish(const std::string& out) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {

@@ -16,7 +16,7 @@ ProcessResult Sweep(const std::string& file, const std::string& out,
 /// "22 of 22 cells are done, 5 of them by this process": 5. -1 if it says nothing.
 int RenderedBy(const ProcessResult& r);
 
-/// Of a file.
+/// Returns the content of a file.
 std::string Contents(const std::string& path);
 /// Replaces the first `from` in a file.
 void Replace(const std::string& path, const std::string& from, const std::string& to);

@@ -134,7 +134,7 @@ TEST_CASE("efficiency is the rate over that of as many times one thread",
   const Interval ratio = RateRatioOf(rows[1].Rate(), rows[0].Rate());
   CHECK(two["value"].get<double>() == Approx(ratio.value / 2));
   CHECK(two["high"].get<double>() == Approx(ratio.high / 2));
-  // Without a row of one thread nobody knows.
+  // Unknown without a row of one thread.
   CHECK(ToJson({rows[1]}, 1)["rows"][0]["parallel_efficiency"].is_null());
 }
 

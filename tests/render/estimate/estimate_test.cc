@@ -50,7 +50,7 @@ struct SimulatedImage {
     return u < Covered(x, y) ? kLamp : (equal ? 0.3 : 0.1 + 0.03 * x + 0.01 * y);
   }
 
-  // What `copies` > 1 wrongly takes for independent.
+  // Draws what `copies` > 1 wrongly counts as independent.
   PixelEstimate Draw(int x, int y, std::mt19937_64& random) const {
     double sum = 0, squares = 0;
     for (int g = 0; g < groups; ++g) {
@@ -322,7 +322,7 @@ TEST_CASE("an image of one pixel has the estimate of that pixel", "[study]") {
   });
   CHECK(one.available);
   CHECK(one.rmse.value == Approx(2));
-  // What its skewness took away is given back.
+  // The correction for skewness is undone here.
   CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));
 }
 

@@ -63,7 +63,7 @@ class Viewer {
       if (n <= 0) break;
       bytes_.append(buffer, static_cast<std::size_t>(n));
     }
-    // With unread bytes this resets the connection.
+    // Unread bytes reset the connection.
     close(client);
   }
 
@@ -100,8 +100,8 @@ class Fields {
   std::string_view bytes_;
 };
 
-// What a viewer would show. As tev does, it knows an image from when it is created, and
-// nobody but its user closes it.
+// The images of a viewer. As tev does, it knows an image once it is created, and only its
+// user closes it.
 struct Shown {
   std::string name;
   int width = 0, height = 0, updates = 0;

@@ -1,4 +1,4 @@
-// What a render knows of its error while it goes on.
+// A running render knows its error so far.
 #include "src/render/job/error_so_far.h"
 
 #include <catch2/catch.hpp>

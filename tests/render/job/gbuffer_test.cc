@@ -12,9 +12,9 @@ namespace {
 constexpr int kWidth = 24, kHeight = 18;
 enum Plane { kHit, kP, kN = 4, kNs = 7, kU = 10, kV, kDzDx, kDzDy };
 
-// A tilted rectangle whose u and v are a third of x and a half of y, and whose shading
-// normals are (0, 0.6, -0.8), in the left half of the picture of a camera of half units,
-// which goes to the right by `move` meanwhile.
+// Returns a scene with a tilted rectangle in the left half of the picture, for a camera
+// of half units that moves to the right by `move`. Its u and v are a third of x and a
+// half of y, its shading normals (0, 0.6, -0.8).
 std::string Scene(const char* space, double far, double move = 0) {
   return fmt::format(R"(
     Scale 2 2 2

@@ -103,7 +103,8 @@ TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]"
   RenderSettings small = Samples(1u << 12);
   small.resolution = {32, 32};
   CHECK(DecisionOf(small) == Decide::kNone);
-  // Where the pilot has stopped growing fewer samples of each pixel do.
+  // Beyond the size at which the trial stops growing, fewer samples of each pixel
+  // suffice.
   RenderSettings large = Samples(17);
   large.resolution = {1920, 1080};
   CHECK(DecisionOf(large) == Decide::kPilot);

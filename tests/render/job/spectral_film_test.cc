@@ -186,8 +186,7 @@ TEST_CASE("spectral film: buckets seen by the observer are the colours of the im
 
 TEST_CASE("spectral film: colours that are composed leave buckets as they are",
           "[render][spectral][buckets]") {
-  // The plain samples, whatever a control variate or the rays to seen lights do to
-  // colours.
+  // The plain samples: control variates and directly visible lights change colours only.
   const std::string text = SpectralText(
       "", kOneEnvironment +
               "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 20 20 20 ]\n"

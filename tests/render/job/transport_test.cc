@@ -1,5 +1,5 @@
-// Unless --transport says otherwise what paths carry hangs on what has a spectrum, and on
-// what refuses to carry wavelengths.
+// Unless --transport decides, what paths carry depends on what has a spectrum, and on
+// what refuses wavelengths.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <optional>
@@ -73,7 +73,7 @@ TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spe
   CHECK_THAT(glows.why,
              Catch::Contains("the light of the medium \"fire\" has a spectrum"));
   CHECK(ChoiceFor(fire + kLamp + kRed).transport == Transport::kRgb);
-  // What no shape has does not count.
+  // Materials that no shape has do not count.
   const std::string unused =
       "MakeNamedMaterial \"m\" \"string type\" \"conductor\"\n" + kLamp + kRed;
   CHECK(ChoiceFor(unused).transport == Transport::kRgb);
@@ -102,7 +102,7 @@ TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
   CHECK(rgb.scene.compiled->integrator.transport == Transport::kRgb);
   CHECK(rgb.loaded->transport_why.empty());
   CHECK_FALSE(rgb.plan.features.Has(Feature::kSpectral));
-  // By the scene if nothing is said.
+  // The scene decides by default.
   for (const auto asked :
        {std::optional<AskedTransport>(), std::optional(AskedTransport::kByScene)}) {
     const Job chosen = JobOf(scene, asked);

@@ -36,7 +36,7 @@ bool HasField(const Plan& plan, Field field) {
   return std::count(plan.live_fields.begin(), plan.live_fields.end(), field) > 0;
 }
 
-// Of the message of the InputError.
+// Returns the message of the InputError.
 std::string Refusal(const std::function<void()>& act) {
   try {
     act();

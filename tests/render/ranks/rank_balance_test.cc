@@ -31,7 +31,7 @@ TEST_CASE("what is given lets both end at the same time", "[ranks]") {
         Approx(double(fast.left + samples) / fast.speed));
   CHECK(SamplesToGive(fast, slow) == 0);
   CHECK(SamplesToGive(slow, slow) == 0);
-  // Nobody knows how fast it is, or how long the other will take.
+  // The speed of this rank and the time of the other are unknown.
   CHECK(SamplesToGive({3000000, 0}, fast) == 0);
   CHECK(SamplesToGive(slow, {0, 0}) == slow.left / 2);
   // A message for a millisecond.

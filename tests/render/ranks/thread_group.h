@@ -15,7 +15,7 @@
 
 namespace lanelight {
 
-/// Where all ranks of a group meet.
+/// The barrier of all ranks of a group.
 class Meeting {
  public:
   explicit Meeting(int ranks) : brought_(static_cast<std::size_t>(ranks)) {}

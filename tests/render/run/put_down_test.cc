@@ -1,4 +1,4 @@
-// Paths that do not end: what is in flight is put down, and nothing else changes.
+// Endless paths: tasks in flight are cancelled, and nothing else changes.
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -120,7 +120,7 @@ TEST_CASE("a time budget ends where paths do not", "[put_down]") {
   options.seconds = 0.05;
   const Rendered r = Run(options);
   CHECK(r.result.stop_reason == StopReason::kTime);
-  // What ends is there; how much of the rest is depends on the machine.
+  // Finished tasks are there; how much of the rest is there depends on the machine.
   CHECK(PixelsWith(r.film, 0) <= 512);
 }
 

@@ -88,9 +88,9 @@ TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
   }
 }
 
-// What ranks send to the leader does not grow with their number. A tile that it gives or
-// is given on the way brings its part of the film once more, and whether any does hangs
-// on time: one render of a few has none.
+// The traffic to the leader does not grow with the number of ranks. A tile that is
+// transferred on the way brings its part of the film once more. Whether any is
+// transferred depends on time: one render of a few has none.
 TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]") {
   Request request;
   request.strategy = "points=sobol";

@@ -15,7 +15,7 @@
 namespace lanelight {
 namespace {
 
-// Of samples that record something too.
+// A pass with records besides samples.
 struct PassFixture {
   PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(40, 40, 4), "test.pbrt", "."), {});

@@ -1,4 +1,4 @@
-// Runs that are put down and picked up again, with what they leave in memory.
+// Runs that stop and resume, with their state in memory.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@ namespace lanelight::resume {
 
 inline constexpr int kWidth = 70, kHeight = 37;  // of the image
 
-/// What a run leaves.
+/// The state that a run leaves.
 struct Rest : RunRecord {
   bool taken = false;
   std::vector<KeptColumn> columns;

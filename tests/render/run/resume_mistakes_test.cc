@@ -29,7 +29,7 @@ FilmAccumulator RestOf(Request request, Rest rest) {
   return Render(request).film;
 }
 
-// What is said of what is left; nothing if a run goes on from it.
+// Returns the error of resuming from a state; empty if a run resumes.
 std::string ErrorOf(const Request& request, const Rest& rest) {
   try {
     RestOf(request, rest);

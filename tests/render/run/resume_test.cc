@@ -1,5 +1,5 @@
-// A run that is put down anywhere and picked up by another one, with other threads, other
-// tasks and another end in mind, ends at the same bits as one that was never stopped.
+// A run that stops anywhere and resumes, with other threads, tasks and another end, is
+// bit-identical to one that never stopped.
 #include <catch2/catch.hpp>
 
 #include "tests/render/run/resume_fixture.h"

@@ -68,7 +68,7 @@ double Efficiency(const Rendered& r) {
 }  // namespace
 
 TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
-  // With a control variate paths serve no others.
+  // Path reuse is not available with a control variate.
   const Rendered r = Decide(Room(0.9, 100), "control=regression,decide=pilot");
   INFO(r.result.training.note);
   CHECK(r.result.roulette == Roulette::kThroughput);
@@ -189,7 +189,7 @@ TEST_CASE("what the pilot chooses is not far below the best candidate", "[decisi
     }
     const Rendered chosen = Decide(scene, "decide=pilot", kPlanned, kRenderSpp);
     INFO(name << ": " << found << chosen.result.training.note);
-    // What must be gained is 8 to 21 percent. Each efficiency has a standard error of 4
+    // The required gain is 8 to 21 percent. Each efficiency has a standard error of 4
     // percent (576 pixels of four observations each).
     CHECK(Efficiency(chosen) > 0.75 * best);
   }

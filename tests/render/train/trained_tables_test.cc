@@ -1,4 +1,4 @@
-// What a training has learned comes back; tables that kernels must not be given do not.
+// Trained tables are restored; tables that kernels must not read are refused.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -12,7 +12,7 @@ using Catch::Contains;
 
 constexpr std::uint64_t kPixels = 6;
 
-// Of a grid of two cells; every value is another one.
+// Tables of a grid of two cells with all values different.
 StrategyTables SmallTables() {
   StrategyTables tables;
   PathValues& p = tables.path_values;
@@ -75,7 +75,7 @@ TEST_CASE("a trained table of the wrong size is named, with the right one", "[st
     }
   }
   CHECK(ErrorOf(good, kPixels) == "");
-  // Of another image.
+  // Tables of another image.
   CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
 }
 

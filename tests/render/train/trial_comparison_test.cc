@@ -1,4 +1,4 @@
-// What a trial concludes of the variances and costs that it has measured.
+// A trial concludes from the variances and costs that it has measured.
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
@@ -30,7 +30,7 @@ TEST_CASE("one strategy is clearly better only by variance times cost", "[decisi
   CHECK(IsClearlyBetter(MeasureOf(6, 0.4), usual, 0.95));
   CHECK(IsClearlyBetter(MeasureOf(2, 1.2), usual, 0.95));
   CHECK_FALSE(IsClearlyBetter(usual, MeasureOf(6, 0.4), 0.95));
-  // By less than the margin.
+  // Better by less than the margin.
   CHECK(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.95));
   CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.87));
 }

@@ -1,4 +1,4 @@
-// Films that are put down and picked up go on exactly where they were.
+// Restored films continue exactly where they stopped.
 #include "src/render/wave/films.h"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ TEST_CASE("films: each column is needed, and named for itself", "[films]") {
       CHECK_FALSE(first.films.Columns()[i].meaning.empty());
       std::vector<KeptColumn> damaged = state;
       std::fill(damaged[i].bytes.begin(), damaged[i].bytes.end(), 0);
-      // Of single samples none is open.
+      // Without groups of samples, no group is open.
       if (c.groups.unit == 1 && state[i].name == "control_open") continue;
       CHECK(Continued(c, damaged) != whole.State());
     }

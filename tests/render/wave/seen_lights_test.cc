@@ -126,7 +126,7 @@ TEST_CASE("only scenes with lights that can be seen have stages for their edges"
   const Phase* const visible = plan.Find(PhaseId::kVisibleLights);
   REQUIRE(visible != nullptr);
   CHECK(plan.Find(PhaseId::kFindEdges) == nullptr);  // the scene is not spectral
-  // What shades and samples lights is not among them; all of them are stages of the
+  // Stages that shade or sample lights are not among them; all of them are stages of the
   // paths.
   for (const PlannedStage& seen : visible->stages) {
     INFO(seen.stage.name);

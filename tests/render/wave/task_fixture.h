@@ -85,7 +85,7 @@ class TaskFixture {
 
   std::uint32_t Rows() const { return 32 * 32 * kSamples * copies_; }
 
-  // What roulettes that have a pilot go by.
+  // Makes the tables that roulettes with training use.
   void MakeTrainedTables() {
     TrainingOptions options;
     options.planned_samples = 100000;

@@ -1,4 +1,4 @@
-// What several trainings of one strategy come to.
+// Several trainings of one strategy are combined.
 #include <catch2/catch.hpp>
 
 #include "src/render/wave/run_state.h"
