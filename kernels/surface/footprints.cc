@@ -1,5 +1,5 @@
 // The footprint of a pixel at surface hits, in surface coordinates (src/scene/compiled/
-// footprint.h). The step from one pixel to the next, at the distance of the hit, is
+// view.h). The step from one pixel to the next, at the distance of the hit, is
 // carried along the line of sight into the tangent plane; least squares give the steps in
 // u and v (as in pbrt-v4, SurfaceInteraction::ComputeDifferentials).
 #include "kernels/simd/each_target-inl.h"

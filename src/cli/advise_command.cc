@@ -60,7 +60,7 @@ std::string AdviceText(const Advice& advice) {
          SkippedText(advice) + SummaryRow("tried", kTriedByAdvice) +
          SummaryRow("advice", advice.why) +
          SummaryRow("strategy", ToText(advice.chosen)) +
-         SummaryRow("pilot",
+         SummaryRow("trial",
                     fmt::format("{}, {:.3g} rays", DurationText(advice.pilot_seconds),
                                 double(advice.rays)));
 }
@@ -116,7 +116,7 @@ int RunAdvise(const AdviseCommandOptions& options) {
 
 void AddAdviseCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "advise", "Find the strategy with the least error for the time, render with it");
+      "advise", "Find the most efficient strategy, and render with it");
   auto options = std::make_shared<AdviseCommandOptions>();
   AddSetting(*command, "time", options->scene.settings)
       ->required()

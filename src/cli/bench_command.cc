@@ -96,7 +96,7 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
   AddSetting(command, "spp", bench.settings)
       ->description(WithDefault(
           "Samples per pixel of a render",
-          fmt::format("a fixed number for each scene; {} for scene files", kFileSpp)));
+          fmt::format("fixed for each built-in scene, {} for scene files", kFileSpp)));
   AddSetting(command, "strategy", bench.settings);
   AddSetting(command, "sampler", bench.settings);
   AddOption(command, "--threads T,...", bench.threads,
@@ -105,17 +105,17 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
       ->transform(ValueFrom(1, kMaxThreads));
   CLI::Option* targets =
       AddOption(command, "--simd NAME,...", bench.targets,
-                WithDefault("SIMD targets, one row each", "the best there is"))
+                WithDefault("SIMD targets, one row each", "the best available"))
           ->delimiter(',')
           ->transform(ValueOf(TargetType(AvailableTargets())));
   command.add_flag("--all-targets", options.all_targets, "Measure all SIMD targets")
       ->excludes(targets);
   AddOption(command, "--within X", bench.within,
-            WithDefault("Repeat until medians are known so well, of 1", bench.within))
+            WithDefault("Repeat until each median's interval is within this fraction",
+                        bench.within))
       ->transform(ValueFrom(1e-4, 1.0));
   AddOption(command, "--time TIME", bench.seconds,
-            WithDefault("Time by the clock for each row at most, unless six "
-                        "repeats take longer",
+            WithDefault("Maximum wall time of each row, unless six repeats take longer",
                         bench.seconds))
       ->transform(ValueOf(SecondsType{0.01, 1e6}));
 }
@@ -123,7 +123,7 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
 void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   AddOption(command, "--json FILE", options.json,
             "Write all numbers as JSON ('-': print it)");
-  AddOption(command, "--csv FILE", options.csv, "Write one line a row");
+  AddOption(command, "--csv FILE", options.csv, "Write one line per row");
   AddOption(command, "--markdown FILE", options.markdown, "Write the tables in Markdown");
   AddOption(command, "--html FILE", options.html, "Write a page with plots of all rows")
       ->check(EndsIn(".html"));
@@ -131,7 +131,7 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
             "Compare with this JSON of an earlier run and print all ratios; exit with 9 "
             "if a row is significantly slower, with 10 if they cannot be compared");
   AddOption(command, "--tolerance X", options.tolerance,
-            WithDefault("Part by which a row may be slower", options.tolerance))
+            WithDefault("Fraction by which a row may be slower", options.tolerance))
       ->transform(ValueFrom(0.0, 1.0));
   command.add_flag("--quiet", options.quiet, "No progress");
 }

@@ -145,7 +145,7 @@ int Compare(CompareCommandOptions options) {
 void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {
   AddOption(command, "A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
       ->required();
-  AddOption(command, "B", options.second, "Image it should equal")->required();
+  AddOption(command, "B", options.second, "Image that it should equal")->required();
   AddOption(command, "C", options.more,
             "More images, of which all should equal the last one, the reference; "
             "default: B is the reference");

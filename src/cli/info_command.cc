@@ -68,15 +68,13 @@ int PrintImageInfo(const InfoOptions& options) {
 
 void AddInfoCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "info",
-      "Print the machine, the SIMD target, threads, and versions of libraries; "
-      "or what an image says of itself");
+      "info", "Print machine, SIMD target and versions, or the metadata of an image");
   auto options = std::make_shared<InfoOptions>();
   AddOption(*command, "IMAGE", options->image,
-            "Print what this file says of itself: size, channels, error, samples, "
-            "strategy, scene, settings; default: print what this build is");
+            "Print the metadata of this file: size, channels, error, samples, strategy, "
+            "scene, settings; default: print machine and build");
   AddSetting(*command, "simd", options->settings)
-      ->description(WithDefault("SIMD target to show", "the best there is"));
+      ->description(WithDefault("SIMD target to show", "the best available"));
   AddSetting(*command, "threads", options->settings);
   command->add_flag("--json", options->json, "Print JSON");
   command->add_flag("--format", options->format,

@@ -36,9 +36,8 @@ std::string MissingText(const MergedRender& merged) {
 void CheckComplete(const MergedRender& merged, bool partial) {
   if (partial) return;
   if (merged.missing > 0) {
-    throw InputError(
-        MissingText(merged) +
-        ": give the missing parts, or --partial for an image of what is there");
+    throw InputError(MissingText(merged) +
+                     ": add the missing parts, or use --partial for an incomplete image");
   }
   if (merged.least == merged.most) return;
   throw InputError(
@@ -89,8 +88,8 @@ int Merge(const MergeOptions& options) {
 }  // namespace
 
 void AddMergeCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command = root.add_subcommand(
-      "merge", "Put the states of a render's parts together, or of different seeds");
+  CLI::App* command =
+      root.add_subcommand("merge", "Combine states of parts, or of different seeds");
   auto options = std::make_shared<MergeOptions>();
   AddOption(*command, "STATES", options->states, "States of `render --checkpoint`")
       ->required();

@@ -85,7 +85,7 @@ std::string ShellWord(const std::string& text) {
 void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
   CheckpointSettings& s = flags.settings;
   AddOption(command, "--checkpoint FILE", s.path,
-            "Keep the state of the render in this file, for --resume")
+            "Save the state of the render in this file, for --resume")
       ->check([](const std::string& path) {  // an empty variable of a script
         return std::string(path.empty() ? "the name of the file is empty" : "");
       });
@@ -97,8 +97,7 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
                                 "--checkpoint, if it exists")
                           ->expected(0, 1);
   AddOption(command, "--watch FILE", s.watch,
-            "Write the image so far with every state (.exr or .png; may be given "
-            "twice)")
+            "Write the image so far at every --every (.exr or .png; may be given twice)")
       ->allow_extra_args(false)
       ->check([](const std::string& path) {
         const std::filesystem::path extension = std::filesystem::path(path).extension();
@@ -106,9 +105,9 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
                    ? std::string()
                    : "'" + path + "' does not end in .exr or .png";
       });
-  AddOption(command, "--part I/N", flags.part,
-            "Render only part I of N, into --checkpoint; `lanelight merge` puts "
-            "parts together");
+  AddOption(
+      command, "--part I/N", flags.part,
+      "Render only part I of N into --checkpoint; `lanelight merge` combines parts");
 }
 
 Part ParsePart(const std::string& text) {

@@ -1,4 +1,5 @@
-// `lanelight plan SCENE`: what a render of this scene would run and hold, and what not.
+// `lanelight plan SCENE` prints the stages that a render of this scene would run; with -v
+// also features, fields, and all that is omitted.
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +22,7 @@ namespace {
 
 struct PlanCommandOptions {
   SceneOptions scene;
-  bool json = false;
+  bool json = false, verbose = false;
 };
 
 // A line of a list of what has names.
@@ -67,7 +68,11 @@ std::string Stages(const Plan& plan) {
                         InfoOf(phase.id).meaning, phase.stages.size());
     text += again ? NamesOf(phase) : StagesOf(phase);
   }
-  text += fmt::format("\nstages left out ({}):\n", plan.omitted.size());
+  return text;
+}
+
+std::string OmittedStages(const Plan& plan) {
+  std::string text = fmt::format("omitted stages ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
     text += NamedRow(s.stage.name, s.reason);
   }
@@ -93,7 +98,7 @@ std::string Fields(const Plan& plan) {
     text += FactRow(fmt::format("  {:<22} {:<4}", FieldName(f), FieldType(f)),
                     FieldMeaning(f), 29);
   }
-  text += fmt::format("\nfields left out ({}):\n", plan.absent_fields.size());
+  text += fmt::format("\nomitted fields ({}):\n", plan.absent_fields.size());
   for (Field f : plan.absent_fields) {
     text += NamedRow(FieldName(f), NeededBy(f));
   }
@@ -116,7 +121,13 @@ std::string StrategyWords(const Job& job) {
          "roulette or reuse is more efficient, and `render` says which";
 }
 
-std::string Text(const Job& job, const std::string& scene) {
+// Everything that runs comes last.
+std::string Details(const Plan& plan) {
+  return OmittedStages(plan) + "\n" + Fields(plan) +
+         "\nfeatures of scene and options:\n" + Features(plan.features) + "\n";
+}
+
+std::string Text(const Job& job, const std::string& scene, bool verbose) {
   const Plan& plan = job.plan;
   return fmt::format("plan of {}\n\n", scene) +
          fmt::format("target     {} ({} lanes)\n", plan.options.target.name(),
@@ -128,8 +139,11 @@ std::string Text(const Job& job, const std::string& scene) {
          SummaryRow("strategy", StrategyWords(job)) +
          SummaryRow("transport", TransportText(job)) +
          SummaryRow("points", PointsText(job.scene.strategy, job.spp)) + "\n" +
-         Notes(plan) + "the scene and options have:\n" + Features(plan.features) + "\n" +
-         Stages(plan) + "\n" + Fields(plan) + DiffersRow(job.loaded->description.notes);
+         Notes(plan) + (verbose ? Details(plan) : "") + Stages(plan) +
+         (verbose ? ""
+                  : fmt::format("\n{} stages and {} fields are omitted; -v lists them\n",
+                                plan.omitted.size(), plan.absent_fields.size())) +
+         DiffersRow(job.loaded->description.notes);
 }
 
 std::string JsonText(const Job& job, const std::string& scene) {
@@ -148,18 +162,20 @@ int PrintPlan(const PlanCommandOptions& options) {
   RenderSettings settings = scene.settings;
   settings.decision = DefaultDecision::kIfLong;  // as `render` has it
   const Job job = PrepareJob(scene.scene, settings);
-  Print(options.json ? JsonText(job, scene.scene) : Text(job, scene.scene));
+  Print(options.json ? JsonText(job, scene.scene)
+                     : Text(job, scene.scene, options.verbose));
   return kExitGood;
 }
 
 }  // namespace
 
 void AddPlanCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command = root.add_subcommand(
-      "plan", "Print the stages and fields that a scene needs, and those left out");
+  CLI::App* command = root.add_subcommand("plan", "Print the stages that a scene needs");
   auto options = std::make_shared<PlanCommandOptions>();
   AddSettings(*command, kAmountFlag, options->scene.settings);
   AddSceneOptions(*command, options->scene);
+  command->add_flag("-v,--verbose", options->verbose,
+                    "Also print features, fields, and omitted stages with reasons");
   command->add_flag("--json", options->json, "Print JSON");
   command->footer("\nExample:\n  lanelight plan scenes/glass.pbrt --max-depth 1");
   command->callback(

@@ -77,12 +77,13 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   AddOption(command, "--json FILE", options.json,
             "Write the profile as JSON ('-': print it)");
   AddOption(command, "--trace FILE", options.trace,
-            "Write every stage call, for ui.perfetto.dev or chrome://tracing")
+            "Write every stage call as a trace for ui.perfetto.dev")
       ->check([](const std::string& path) {
         return path == "-" ? std::string("a trace goes to a file, not to '-'") : "";
       });
   AddOption(command, "--trace-events N", options.trace_events,
-            WithDefault("Stage calls a thread writes down at most", options.trace_events))
+            WithDefault("Maximum number of stage calls that a thread records",
+                        options.trace_events))
       ->transform(ValueFrom(std::size_t{1}, std::size_t{1} << 26));
   command.add_flag("--quiet", options.quiet, "No progress and no notes");
 }

@@ -33,15 +33,14 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
   const double spp = double(r.samples) / double(job.window.pixels());
-  PrintError(
-      r.stop_reason == StopReason::kHopeless
-          ? fmt::format("error: the target cannot be shown to be reached, with any "
-                        "number of samples; ended after {:.0f} per pixel, {:.0f} times "
-                        "what the estimate asks for: {}",
-                        spp, kHopeless, error)
-          : fmt::format(
-                "error: the target was not reached before the end by {}; error {}", limit,
-                error));
+  PrintError(r.stop_reason == StopReason::kHopeless
+                 ? fmt::format(
+                       "error: no number of samples can show that the target is reached; "
+                       "stopped after {:.0f} per pixel, {:.0f} times the estimate: {}",
+                       spp, kHopeless, error)
+                 : fmt::format(
+                       "error: the target was not reached before the end by {}; error {}",
+                       limit, error));
   return kExitTargetMissed;
 }
 
@@ -92,9 +91,9 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options,
   AddSettings(command, kImageFlag, settings);
   AddOption(command, "--json FILE", options.targets.json,
             "Write a report for scripts ('-': print it)");
-  CLI::Option* verbose = command.add_flag(
-      "-v,--verbose", options.verbose,
-      "Print what it took as well: strategy, machine, times, the cost of each stage");
+  CLI::Option* verbose =
+      command.add_flag("-v,--verbose", options.verbose,
+                       "Also print strategy, machine, times and the cost of each stage");
   command.add_flag("--quiet", options.quiet, "Print errors only")->excludes(verbose);
 }
 
@@ -189,7 +188,7 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
     hooks.on_progress = [&](const RenderProgress& p) { progress.Update(p); };
     hooks.tells_error = true;
     hooks.on_training = [&] {
-      progress.Say("trial run: measuring what this scene needs", /*always=*/true);
+      progress.Say("trial run: choosing a strategy for this scene", /*always=*/true);
     };
   }
   hooks.on_rendered = [&] { progress.Finish(); };

@@ -31,8 +31,8 @@ struct StressCommandOptions {
 };
 
 constexpr const char* kStressInterruptText =
-    "\nstopping: finishing the point in hand, then writing what there is (once more to "
-    "abort)\n";
+    "\nstopping: finishing the current point, then writing the results so far (press "
+    "again to abort)\n";
 
 std::vector<stress::Case> Selected(const StressCommandOptions& options) {
   try {
@@ -104,7 +104,7 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
   AddOption(command, "CASE TEXT", options.words,
             WithDefault("Cases, groups, or patterns of them ('ggx-*')", "all"));
   command.add_flag("--list", options.list,
-                   "Print the cases: what is extreme, and what must be true there");
+                   "Print the cases: the extreme, and what must hold there");
   command.add_flag("--full", options.suite.effort.full,
                    "Every value of each map, with the samples that a sharp answer needs");
   AddOption(command, "--out DIR", options.out, "Write stress.json and report.html there");
@@ -113,7 +113,7 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
   AddOption(command, "--simd NAME", options.targets,
             WithDefault("SIMD targets (see `lanelight info`), or all that this "
                         "machine has",
-                        "the best there is"))
+                        "the best available"))
       ->transform(CLI::Validator(
           [target](std::string& text) {
             return text == "all" ? std::string() : target(text);
@@ -129,8 +129,8 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
 }  // namespace
 
 void AddStressCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command = root.add_subcommand(
-      "stress", "Take the renderer to its limits, and measure where they are");
+  CLI::App* command =
+      root.add_subcommand("stress", "Measure the numerical limits of the renderer");
   auto options = std::make_shared<StressCommandOptions>();
   AddStressOptions(*command, *options);
   command->footer(

@@ -48,8 +48,8 @@ int RunStudyCommand(StudyCommandOptions& options) {
   CheckCombination(options.study);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
-      "\nstopping: the report covers what is finished; --resume continues (once more to "
-      "abort)\n",
+      "\nstopping: the report covers the finished renders; --resume continues (press "
+      "again to abort)\n",
       options.study.settings.threads);
   StudyHooks hooks;
   hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
@@ -93,8 +93,7 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
                 return std::string();
               },
               ""));
-  command
-      .add_flag("--all", s.all_strategies, "Every choice of every key, and the presets")
+  command.add_flag("--all", s.all_strategies, "All choices of all keys, and the presets")
       ->excludes(list);
   CLI::Option* spp =
       AddOption(command, "--spp N,...", s.spp,
@@ -112,7 +111,7 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
             "Independent renders of each; default: enough for the confidence")
       ->transform(ValueFrom(1, 10000));
   AddOption(command, "--confidence C", s.confidence,
-            WithDefault("Of all intervals", s.confidence))
+            WithDefault("Confidence of all intervals", s.confidence))
       ->transform(ValueFrom(0.5, 0.9999));
   AddOption(command, "--reference FILE", s.references,
             "Converged image; several independent ones measure their own noise; "
@@ -147,7 +146,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
       ->required();
   AddMeasureOptions(*command, *options);
   command->add_flag("--resume", options->study.resume,
-                    "Continue the study in DIR; what is finished is not done again");
+                    "Continue the study in DIR; finished renders are kept");
   command->add_flag("--paper", options->study.paper,
                     "Write DIR/index.html too: the founding paper's figures on one page");
   AddSettings(*command, kStudyFlag, options->study.settings);

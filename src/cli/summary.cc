@@ -108,10 +108,10 @@ std::string StrategyRow(const RunResult& r, const Job& job) {
   return SummaryRow("strategy", changes + by);
 }
 
-std::string PilotRow(const RunResult& r) {
+std::string TrialRow(const RunResult& r) {
   if (r.training.note.empty()) return "";
   return SummaryRow(
-      "pilot", fmt::format("{} ({:.1f} %): {}", DurationText(r.training.seconds),
+      "trial", fmt::format("{} ({:.1f} %): {}", DurationText(r.training.seconds),
                            100 * r.training.seconds / SecondsOf(r), r.training.note));
 }
 
@@ -143,7 +143,7 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   const SimdTarget target = job.plan.options.target;
   return "\n" + SummaryRow("strategy", ToText(StrategyInForce(r, job))) +
-         SummaryRow("points", PointsText(job)) + PilotRow(r) +
+         SummaryRow("points", PointsText(job)) + TrialRow(r) +
          SummaryRow("errors", ErrorText(report.error)) +
          ControlRow(r, job.scene.strategy) + RaysRow(r) +
          SummaryRow("health", HealthText(r.health)) +

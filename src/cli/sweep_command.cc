@@ -110,13 +110,12 @@ int RunSweepCommand(SweepCommandOptions& options) {
 
 void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
   AddOption(command, "--part I/N", options.part,
-            "Render every N-th cell only, from the I-th on; each process with a "
-            "part of its own needs no locks");
-  command.add_flag("--wait", options.sweep.wait,
-                   "Wait for the cells that other processes render, and do them if those "
-                   "die");
-  command.add_flag_callback(
-      "--resume", [] {}, "Leave out what is finished; this is what happens anyway");
+            "Render only every N-th cell, from the I-th on; processes with different "
+            "parts need no locks");
+  command.add_flag(
+      "--wait", options.sweep.wait,
+      "Wait for cells of other processes, and render them if those processes die");
+  command.add_flag_callback("--resume", [] {}, "Skip finished cells (always on)");
 }
 
 }  // namespace
@@ -127,12 +126,12 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<SweepCommandOptions>();
   AddOption(*command, "SWEEP", options->file, "The grid, a TOML file (docs/sweep.md)")
       ->required();
-  AddOption(*command, "--out DIR", options->sweep.out, "Directory that the cells go to")
+  AddOption(*command, "--out DIR", options->sweep.out, "Directory of the cells")
       ->required();
   AddSharingOptions(*command, *options);
-  CLI::Option* dry = command->add_flag(
-      "--dry-run", options->dry_run,
-      "Print the cells, and the time and space they will take, and render none");
+  CLI::Option* dry =
+      command->add_flag("--dry-run", options->dry_run,
+                        "Print the cells with predicted time and space, and render none");
   AddOption(*command, "--pilots N", options->pilots,
             WithDefault("Most short renders that --dry-run predicts from; 0: no times",
                         options->pilots))
@@ -140,7 +139,7 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
       ->needs(dry);
   command
       ->add_flag("--table-only", options->sweep.table_only,
-                 "Write the table and the page of what there is, and render nothing")
+                 "Write table and page of the finished cells, and render nothing")
       ->excludes(dry);
   command->add_flag("--quiet", options->quiet, "Print errors only");
   command->footer(

@@ -74,7 +74,7 @@ Shape "sphere"
 }
 
 constexpr const char* kDiffers =
-    "the image is not what the scene file asks for: skipped: "
+    "the image differs from the scene file: skipped: "
     "an area light cannot move";
 
 TEST_CASE("an image that is not what the file asks for has an exit code", "[cli]") {
@@ -108,7 +108,7 @@ TEST_CASE("a study and a sweep say that images are not what the file asks for", 
                     "--spp", "1", "--repetitions", "2", "--skip-unsupported"});
   INFO(study.out << study.err);
   CHECK(study.exit_code == kExitGood);
-  CHECK_THAT(study.out, Contains("not what the scene file asks for"));
+  CHECK_THAT(study.out, Contains("differs from the scene file"));
   const std::string file = WriteText(directory / "sweep.toml",
                                      "[grid]\nscene = [\"moves.pbrt\"]\nspp = [1, "
                                      "2]\n[settings]\nskip-unsupported = true\n");

@@ -32,15 +32,20 @@ std::string WriteFlat(const std::string& path, float value, float variance) {
 
 }  // namespace
 
-TEST_CASE("plan prints what runs, what does not, and why", "[cli]") {
+TEST_CASE("plan prints what runs; with -v omitted stages and fields with reasons",
+          "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
-  const ProcessResult r = RunLanelight({"plan", scene});
-  INFO(r.err);
-  REQUIRE(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("bytes per path") && Contains("stages left out") &&
-                        Contains("fields left out") && Contains("wavefront"));
-  CHECK_THAT(r.out, Contains("no triangle"));
+  const ProcessResult brief = RunLanelight({"plan", scene});
+  INFO(brief.err);
+  REQUIRE(brief.exit_code == kExitGood);
+  CHECK_THAT(brief.out, Contains("intersect_spheres") && Contains("bytes = ") &&
+                            Contains("are omitted; -v lists them"));
+  CHECK_THAT(brief.out, !Contains("no triangle"));
+  CHECK(std::count(brief.out.begin(), brief.out.end(), '\n') < 60);
+  const ProcessResult all = RunLanelight({"plan", scene, "-v"});
+  CHECK_THAT(all.out, Contains("bytes per path") && Contains("omitted stages (") &&
+                          Contains("omitted fields (") && Contains("no triangle"));
 }
 
 TEST_CASE("what a scene lacks is said without articles", "[cli]") {

@@ -95,7 +95,7 @@ TEST_CASE("stress: an interruption keeps what was measured", "[cli][stress]") {
       RunLanelight({"stress", "unit-of-length", "--full", "--out", out}, interrupt);
   CHECK(r.signal == 0);
   CHECK(r.exit_code == kExitInterrupted);
-  CHECK_THAT(r.err, Contains("finishing the point in hand"));
+  CHECK_THAT(r.err, Contains("finishing the current point"));
   CHECK_THAT(r.out, Contains("not measured to the end"));
   CHECK(Parsed(out + "/stress.json").at("interrupted") == true);
 }

@@ -128,7 +128,7 @@ TEST_CASE("facts of images fit a terminal, and are lines of their own in a pipe"
 TEST_CASE("lists fit a terminal, and are lines of their own in a pipe", "[cli]") {
   TempDirectory directory;
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
-           {"plan", WriteSphereScene(directory)}, {"strategies"}}) {
+           {"plan", WriteSphereScene(directory), "-v"}, {"strategies"}}) {
     const ProcessResult fitted = RunLanelight(command, InColumns("70"));
     INFO(fitted.out);
     REQUIRE(fitted.exit_code == kExitGood);

@@ -60,7 +60,7 @@ std::string VerdictOf(const ImageComparison& c) {
     case AgreementVerdict::kCannotTell:
       break;
   }
-  return text + "; whether noise explains it cannot be told: " + c.agreement.why;
+  return text + "; it is unknown whether noise explains it: " + c.agreement.why;
 }
 
 }  // namespace

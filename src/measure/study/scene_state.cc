@@ -46,10 +46,10 @@ void SceneRunner::CheckState() {
   for (const auto& [name, value] : identity.items()) {
     const nlohmann::json& had = state_["identity"][name];
     if (had == value) continue;
-    throw OtherStudy(fmt::format(
-        "'{}' has a study with {} {}, and now it is {}: continue it with what it had, or "
-        "give another directory",
-        scene_.folder, name, DumpJson(had), DumpJson(value)));
+    throw OtherStudy(
+        fmt::format("'{}' has a study with {} {}, now it is {}: use the earlier value, "
+                    "or another directory",
+                    scene_.folder, name, DumpJson(had), DumpJson(value)));
   }
 }
 

@@ -53,7 +53,7 @@ void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
       throw InputError(
           value.where,
           fmt::format("no cell of the grid has {} {}; {}", Name(axis), Quoted(value.text),
-                      known.empty() ? "the grid has no such axis"
+                      known.empty() ? "the grid does not have this axis"
                                     : "its values there: " +
                                           QuotedList({known.begin(), known.end()})));
     }

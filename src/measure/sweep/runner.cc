@@ -67,10 +67,10 @@ class Runner {
 
 void Runner::Run(SweepOutcome& outcome) {
   if (!claims_.locking() && options_.part.count == 1) {
-    throw InputError(fmt::format(
-        "the file system of '{}' has no locks, by which processes agree on who renders "
-        "what; give each process a part of its own with --part I/N",
-        claims_.path()));
+    throw InputError(
+        fmt::format("the file system of '{}' has no locks, which processes need to share "
+                    "cells; give each process its own --part I/N",
+                    claims_.path()));
   }
   FindPart();
   FirstOfAll();

@@ -97,7 +97,7 @@ void CheckRenderable(const SubGrid& grid, const fs::path& folder) {
   const auto scenes = grid.axes.find(Axis::kScene);
   if (scenes == grid.axes.end()) {
     throw InputError(grid.where,
-                     "there is no scene; add a line such as scene = \"box.pbrt\"");
+                     "no scene is given; add a line such as scene = \"box.pbrt\"");
   }
   for (const GridValue& scene : scenes->second) {
     const fs::path path = folder / scene.text;

@@ -375,12 +375,11 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
   // The expected number of samples that have met a light.
   const double met = TotalSamples(film) * film.chance_of_light();
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
-  return Unseen(
-      std::move(out),
-      fmt::format("lamps are met by chance alone, by {:.2g} of the samples, and may be "
-                  "missing: an interval takes {:.2g} times as many, or "
-                  "directions=mis, which samples lights",
-                  met, kLeastMet / met));
+  return Unseen(std::move(out),
+                fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
+                            "be missing: an interval needs {:.2g} times as many samples, "
+                            "or directions=mis, which samples lights",
+                            met, kLeastMet / met));
 }
 
 Interval ErrorInterval(double estimate, double k1, double k2) {

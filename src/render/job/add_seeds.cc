@@ -27,8 +27,7 @@ void CheckWhole(const MergedRender& render) {
   if (render.least == render.most && whole_turns) return;
   throw InputError(
       fmt::format("seed {} has {} to {} samples per pixel: renders of different seeds "
-                  "can be added if "
-                  "all their pixels have as many, a multiple of {}",
+                  "can be added if all pixels have the same number, a multiple of {}",
                   render.seeds.front(), render.least, render.most, turn));
 }
 

@@ -41,7 +41,7 @@ std::vector<Setting> Amounts() {
       Declare({"spp", "N", "Samples per pixel", OfScene(Sampler{}.spp)},
               CountType{1, kMaxSpp}, &S::spp, kAmountFlag | kReported),
       Declare({"time", "TIME",
-               "Render for so long by the wall clock instead: seconds, 5m, 2h", "",
+               "Render for this wall time instead of --spp: 90 (seconds), 5m, 2h", "",
                "time_budget"},
               SecondsType{1e-3, 1e9}, &S::seconds, kAmountFlag | kReported),
       Declare({"target", "X%",
@@ -50,10 +50,11 @@ std::vector<Setting> Amounts() {
                "then are the most it may take",
                "", "", "target-relmse"},
               PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
-      Declare({"target-relmse", "X", "Stop once the relative MSE is below X, likewise"},
+      Declare({"target-relmse", "X",
+               "Stop once the relative MSE is below X with 95 % confidence"},
               error, &S::target_relmse, kAmountFlag | kReported),
-      Declare({"target-rmse", "X", "Stop once the RMSE is below X, likewise"}, error,
-              &S::target_rmse, kAmountFlag | kReported),
+      Declare({"target-rmse", "X", "Stop once the RMSE is below X with 95 % confidence"},
+              error, &S::target_rmse, kAmountFlag | kReported),
       Declare({"seed", "S", "Seed of the random numbers", OfScene(Sampler{}.seed)},
               NumberType<std::uint64_t>{0, kMostSeed}, &S::seed,
               kAmountFlag | kStudyFlag | kEverySame | kReported)};
@@ -66,19 +67,19 @@ std::vector<Setting> Contents() {
                OfScene(SizeType{}.Write({film.width, film.height}))},
               SizeType{kMaxImageSide}, &S::resolution,
               kEveryFlag | kEverySame | kReported),
-      Declare({"crop", "x0,y0,x1,y1", "Render these pixels only; x1 and y1 are exclusive",
+      Declare({"crop", "x0,y0,x1,y1", "Render only these pixels; x1 and y1 are exclusive",
                OfScene("all")},
               WindowType{}, &S::crop, kEveryFlag | kSweepKey | kEverySame | kReported),
-      Declare({"aov", "", "Write albedo, normal and depth of the first hit too"},
+      Declare({"aov", "", "Also write albedo, normal and depth of the first hit"},
               FlagType{}, &S::aov, kSceneFlag | kSweepKey | kIdentity | kReported),
       Declare(
           {"gbuffer", "",
-           "Write these, and point, normals, u, v and slopes of the first hit in that "
+           "Write --aov and point, normals, u, v and slopes of the first hit in that "
            "space"},
           NamesType<Gbuffer>{{{"camera", Gbuffer::kCamera}, {"world", Gbuffer::kWorld}}},
           &S::gbuffer, kSceneFlag | kSweepKey | kIdentity | kReported),
       Declare({"strategy", "TEXT",
-               "How to sample: key=value,... (see `lanelight strategies`)",
+               "Sampling strategy: key=value,... (see `lanelight strategies`)",
                OfScene(fmt::format("'{}'", kDefaultStrategyName))},
               ChangesType{}, &S::strategy, kSceneFlag),
       Declare({"sampler", "", "Sample points", "those of the strategy"},
@@ -92,11 +93,11 @@ std::vector<Setting> Contents() {
                                      {"spectral", AskedTransport::kSpectral},
                                      {"scene", AskedTransport::kByScene}}},
           &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
-      Declare({"max-depth", "D", "Most scattering events of a path",
+      Declare({"max-depth", "D", "Maximum number of scattering events of a path",
                OfScene(Integrator{}.max_depth)},
               NumberType<int>{0, kMaxDepth}, &S::max_depth,
               kEveryFlag | kEverySame | kReported),
-      Declare({"scattering", "", "Model of all diffuse materials",
+      Declare({"scattering", "", "Scattering model of all diffuse materials",
                OfScene(ScatteringNames().Write(Material{}.scattering))},
               ScatteringNames(), &S::scattering, kEveryFlag | kSweepKey | kEverySame)};
 }
@@ -118,27 +119,25 @@ std::vector<Setting> Images() {
 std::vector<Setting> Execution() {
   const NamesType<BuildQuality> builds = {
       {{"fast", BuildQuality::kFast}, {"high", BuildQuality::kHigh}}};
-  return {
-      Declare({"wavefront", "N", "Paths in flight per thread; 0 = fit the cache"},
-              NumberType<std::uint32_t>{0, kMaxWavefront}, &S::wavefront,
-              kEveryFlag | kSweepKey),
-      Declare({"build", "", "How to build the BVH: in less time, or for faster rays",
-               builds.Write(CompileOptions{}.build)},
-              builds, &S::build, kEveryFlag | kReported),
-      Declare(
-          {"copied-triangles", "N",
-           "Copy small instances into the world, as long as that makes at most so many "
-           "triangles more; 0: none"},
-          NumberType<std::uint64_t>{0, kMostCopiedTriangles}, &S::copied_triangles,
-          kEveryFlag | kSweepKey | kEverySame | kReported),
-      Declare({"threads", "T", "Threads; 0 = all cores"}, NumberType<int>{0, kMaxThreads},
-              &S::threads, kEveryFlag | kReported),
-      Declare({"simd", "NAME", "SIMD target (see `lanelight info`)", "the best there is",
-               "target"},
-              TargetType(AvailableTargets()), &S::target, kEveryFlag | kEverySame),
-      Declare({"skip-unsupported", "",
-               "Leave out what cannot be rendered (media) instead of refusing the scene"},
-              FlagType{}, &S::skip_unsupported, kEveryFlag | kSweepKey | kIdentity)};
+  return {Declare({"wavefront", "N", "Paths in flight per thread; 0 = fit the cache"},
+                  NumberType<std::uint32_t>{0, kMaxWavefront}, &S::wavefront,
+                  kEveryFlag | kSweepKey),
+          Declare({"build", "", "How to build the BVH: in less time, or for faster rays",
+                   builds.Write(CompileOptions{}.build)},
+                  builds, &S::build, kEveryFlag | kReported),
+          Declare({"copied-triangles", "N",
+                   "Copy small instances into world space while the scene grows by at "
+                   "most N triangles; 0: none"},
+                  NumberType<std::uint64_t>{0, kMostCopiedTriangles},
+                  &S::copied_triangles, kEveryFlag | kSweepKey | kEverySame | kReported),
+          Declare({"threads", "T", "Threads; 0 = all cores"},
+                  NumberType<int>{0, kMaxThreads}, &S::threads, kEveryFlag | kReported),
+          Declare({"simd", "NAME", "SIMD target (see `lanelight info`)",
+                   "the best available", "target"},
+                  TargetType(AvailableTargets()), &S::target, kEveryFlag | kEverySame),
+          Declare({"skip-unsupported", "",
+                   "Leave out unsupported parts instead of refusing the scene"},
+                  FlagType{}, &S::skip_unsupported, kEveryFlag | kSweepKey | kIdentity)};
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ void NoteLights(const Checked& c) {
   }
   if (s.directions == Directions::kLight && !c.scene.Has(Feature::kLights)) {
     c.notes.push_back(
-        "directions=light: there is no light to sample, only what the camera "
-        "sees itself or in mirrors");
+        "directions=light: no light can be sampled; the image has directly visible and "
+        "mirrored lights only");
   }
   if (s.shadow_roulette != ShadowRoulette::kNone && !c.plan.Has(Feature::kLights)) {
     c.Note("shadow-roulette=contribution", ": no light is sampled");

@@ -108,8 +108,8 @@ class Decider {
     TriedStrategy reused = chosen.splits ? entries_.front() : chosen;
     for (const TriedBlocks& blocks :
          trial_.TryBlocks(entries_.front(), chosen, gain, planned_ / kTiled)) {
-      note_ += fmt::format("; {} is {:.2f} times as efficient, {:.2f} after a filter",
-                           blocks.changes, blocks.per_pixel, blocks.filtered);
+      note_ += fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", blocks.changes,
+                           blocks.per_pixel, blocks.filtered);
       if (!blocks.pays) continue;
       reused.changes = JoinedChanges(reused.changes, blocks.changes);
       chosen = std::move(reused);
@@ -137,9 +137,8 @@ class Decider {
       others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
                             std::exp(entry.Told().log));
     }
-    note_ = fmt::format(
-        "efficiency relative to the strategy as given, by {} samples of a few pixels: {}",
-        trial_.samples(), others);
+    note_ = fmt::format("efficiency over the given strategy ({} samples): {}",
+                        trial_.samples(), others);
   }
 
   void TrainFor(TriedStrategy& chosen) {

@@ -137,11 +137,10 @@ bool IsTooFar(Vec3d p) {
 }
 
 [[noreturn]] void RefuseFar(const SourceLocation& where, const char* what) {
-  throw InputError(
-      where,
-      fmt::format("{} reaches beyond {:g} units from the origin of the world; what "
-                  "is nearer is supported: scale the scene down",
-                  what, kFarthest));
+  throw InputError(where,
+                   fmt::format("{} reaches beyond {:g} units from the origin of the "
+                               "world, the supported range: scale the scene down",
+                               what, kFarthest));
 }
 
 // Returns the box of a mesh, or nothing if it reaches too far. Vertices that are not

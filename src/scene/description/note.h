@@ -26,7 +26,7 @@ inline std::size_t CountImageChanges(const std::vector<Note>& notes) {
       notes.begin(), notes.end(), [](const Note& note) { return note.changes_image; }));
 }
 
-/// "the image is not what the scene file asks for: <message>, and 2 more"; "" if it is.
+/// "the image differs from the scene file: <message>, and 2 more"; "" if it is.
 inline std::string ImageChangesText(const std::vector<Note>& notes) {
   std::set<std::string> different;  // the same of many objects counts once
   std::string first;
@@ -36,7 +36,7 @@ inline std::string ImageChangesText(const std::vector<Note>& notes) {
     different.insert(note.message);
   }
   if (different.empty()) return "";
-  std::string text = "the image is not what the scene file asks for: " + first;
+  std::string text = "the image differs from the scene file: " + first;
   const std::size_t more = different.size() - 1;
   return more == 0 ? text : text + ", and " + std::to_string(more) + " more";
 }

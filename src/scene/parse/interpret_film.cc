@@ -120,9 +120,9 @@ void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
   const double low = edge[1], high = edge[kWavelengthBins - 1];
   if (buckets.first >= low && buckets.last <= high) return;
   state.AddNote(params.where(),
-                "film \"spectral\": paths carry {} to {} nm and tell none apart below "
-                "{:.0f} and above {:.0f} nm: buckets beyond are zero, those that reach "
-                "beyond are means of what is within",
+                "film \"spectral\": paths carry {} to {} nm, with one bin each below "
+                "{:.0f} and above {:.0f} nm; buckets outside are zero, buckets that "
+                "reach outside are means of the part inside",
                 kFirstCarriedNm, kLastCarriedNm, low, high);
 }
 

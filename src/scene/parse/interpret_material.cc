@@ -160,9 +160,9 @@ void ReadMix(ParseState& state, ParamSet& params, Material* material) {
     material->mix[i] =
         Resolve(state, {{NameKind::kMaterial, names.strings[i]}, names.where});
     if (state.scene.materials[material->mix[i]].inside != kNone) {
-      params.Fail(names,
-                  "mixing a \"subsurface\" material is not supported: what is in a shape "
-                  "is the same behind all of its surface");
+      params.Fail(
+          names,
+          "mixing a \"subsurface\" material is not supported: a shape has one inside");
     }
   }
   material->mix_amount = TexturedFloat(state, params, "amount", 0.5, {0, 1});

@@ -45,7 +45,7 @@ SourceFilePtr OpenSource(ParseState& state, const std::string& path,
 
 void ParseState::Unsupported(const SourceLocation& where, const std::string& message) {
   if (!options.skip_unsupported) {
-    throw InputError(where, message + " (--skip-unsupported goes on without it)");
+    throw InputError(where, message + " (--skip-unsupported renders without it)");
   }
   AddImageNote(where, "skipped: " + message);
 }

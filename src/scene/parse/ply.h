@@ -30,8 +30,9 @@ struct PlyMesh {
 PlyMesh ParsePly(std::string_view bytes, const std::string& name);
 
 /// Normals that are not finite become zero: there the faces' own normals count
-/// (src/scene/compile/mesh.h). Surface coordinates that are not finite become (0, 0).
-/// Triangles with a corner that is nowhere are left out. Counts all that in `ply`.
+/// (src/scene/compile/shape_records.h). Surface coordinates that are not finite become
+/// (0, 0). Triangles with a corner that is nowhere are left out. Counts all that in
+/// `ply`.
 void RepairPly(PlyMesh* ply);
 
 /// One sentence for each kind of thing that was repaired, left out or approximated in the

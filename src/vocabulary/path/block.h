@@ -107,9 +107,9 @@ struct ReuseColumns {
   X(f32, light_x, "direction of the light sample, unit, scene")                       \
   X(f32, light_y, "direction of the light sample")                                    \
   X(f32, light_z, "direction of the light sample")                                    \
-  X(f32, next_x, "direction in which the path goes on, unit, scene")                  \
-  X(f32, next_y, "direction in which the path goes on")                               \
-  X(f32, next_z, "direction in which the path goes on")                               \
+  X(f32, next_x, "direction of the next ray, unit, scene")                            \
+  X(f32, next_y, "direction of the next ray")                                         \
+  X(f32, next_z, "direction of the next ray")                                         \
   X(f32, lit_r, "of the light sample")                                                \
   X(f32, lit_g, "of the light sample")                                                \
   X(f32, lit_b, "of the light sample")                                                \

@@ -96,9 +96,9 @@ namespace lanelight {
   X(kProjectedLights, "light-points=projected")                              \
   X(kProjectedHits, "light-points=projected, and hits weighed against it")   \
   X(kLightCandidates, "further candidates for each light sample")            \
-  X(kReuse, "paths that serve the pixels of their block (reuse=block)")      \
-  X(kReuseGlossy, "glossy surfaces that serve the pixels of a block")        \
-  X(kDecides, "a strategy chosen by a pilot")                                \
+  X(kReuse, "path reuse in pixel blocks (reuse=block)")                      \
+  X(kReuseGlossy, "glossy surfaces whose light is reused")                   \
+  X(kDecides, "a strategy chosen by a trial run")                            \
   X(kRecordsSinglePaths, "a training pass that records what single paths bring")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.

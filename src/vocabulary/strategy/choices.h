@@ -100,18 +100,18 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 
 #define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)                                              \
   X(Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
-  X(Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by what it would add unshadowed", \
+  X(Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, chosen by its unshadowed contribution", \
     "f(y) / h(y) 1/M sum h(x_i) / p(x_i), h = f without visibility", "Talbot, Cline and Egbert 2005")
 
 #define LANELIGHT_ENVIRONMENT_CHOICES(X)                                                  \
   X(Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
     "p ~ L", "")                                                                          \
-  X(Compensated, PLAIN, ({}), "compensated", "", "the same less its mean, with directions=mis: what is dim is left to the material", \
+  X(Compensated, PLAIN, ({}), "compensated", "", "the same minus its mean, with directions=mis: BSDF samples find the dim parts", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
 
 #define LANELIGHT_SHADOW_ROULETTES(X)                                                     \
   X(None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
-  X(Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with what they can still add", \
+  X(Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with their contribution", \
     "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
 #define LANELIGHT_DISTANCES(X)                                                            \

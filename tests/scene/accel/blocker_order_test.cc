@@ -1,4 +1,4 @@
-// The order of children for shadow rays (blocker_order.h), against enumeration and random
+// The order of children for shadow rays (src/scene/accel/blocker_order.cc), against enumeration and random
 // lines.
 #include "src/scene/accel/binary_tree.h"
 
