@@ -1,4 +1,4 @@
-// What any bytes must come to as a file of measured reflectance.
+// Checks the result of reading any bytes as a file of measured reflectance.
 #pragma once
 
 #include <cmath>

@@ -51,8 +51,8 @@ std::optional<BsdfSample> SampleMeasured(const MeasuredReflectance& m, Vec3d wo,
 }  // namespace
 
 // Lambert: cos / pi. Uniform: 1 / (2 pi). In-sphere: a ball of radius 1 around the tip of
-// the unit normal touches the surface at the origin; along a direction at angle theta the
-// ray stays in it for a length 2 cos, so the ball holds the volume (2 cos)^3 / 3 per
+// the unit normal touches the surface at the origin. Along a direction at angle theta the
+// ray stays in it for a length 2 cos. The ball thus holds the volume (2 cos)^3 / 3 per
 // solid angle, out of 4 pi / 3: density 2 cos^3 / pi.
 double DiffuseDensity(Scattering scattering, double cosine) {
   switch (scattering) {

@@ -12,7 +12,7 @@ namespace lanelight::reference {
 /// Box, triangle and gaussian only (CheckFailure otherwise): the sample weight is 1.
 double SampleFilter(const Filter& filter, double radius, Random& random);
 
-/// What a camera sends out; `weight` 0: nothing, lenses have stopped it.
+/// A sample of the camera; `weight` 0: lenses have stopped it.
 struct CameraSample {
   Ray ray;
   double weight = 1;

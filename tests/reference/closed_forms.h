@@ -74,9 +74,9 @@ inline double PointLightOnPlane(Scattering scattering, double albedo, double int
          (distance * distance);
 }
 
-/// Irradiance from a sphere of uniform radiance whose whole disk is above the horizon:
-/// pi L (radius / distance)^2 cos, distance to the centre (the projected solid angle of a
-/// cone of half angle asin(r/d) tilted by theta is pi sin^2 cos theta).
+/// Returns the irradiance from a sphere of uniform radiance whose whole disk is above the
+/// horizon: pi L (radius / distance)^2 cos, distance to the centre. (The projected solid
+/// angle of a cone of half angle asin(r/d) tilted by theta is pi sin^2 cos theta.)
 inline double SphereLightIrradiance(double radiance, double radius, double distance,
                                     double cosine) {
   const double sine = radius / distance;

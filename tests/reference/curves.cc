@@ -36,9 +36,9 @@ Vec3d SlopeAt(const Vec3d p[4], double u) {
 
 double DotAcross(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y; }
 
-// How often c . c', half the change of the squared distance, changes its sign at most: as
-// often as the coefficients of its Bernstein form do, that of a product (Descartes'
-// rule). Those that vanish, as at ends where points coincide, do not count.
+// Upper bound of the sign changes of c . c', half the change of the squared distance:
+// those of the coefficients of its Bernstein form, that of a product (Descartes' rule).
+// Coefficients that vanish, as at ends where points coincide, do not count.
 struct Changes {
   int count = 0;
   bool falls_first = false;

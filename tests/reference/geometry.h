@@ -1,7 +1,7 @@
-// Brute-force geometry of the reference tracer: every instance is flattened, triangles
-// are in world space, and spheres, disks, cylinders, planes and curves are intersected in
-// their own object space (an affine map keeps the ray parameter), so no record, bound or
-// tessellation of the renderer is used.
+// Brute-force geometry of the reference tracer. Every instance is flattened, and
+// triangles are in world space. Spheres, disks, cylinders, planes and curves are
+// intersected in their own object space (an affine map keeps the ray parameter). No
+// record, bound or tessellation of the renderer is used.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace lanelight::reference {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where a texture is looked up; p and n (unit, either way) in the world.
+/// The point of a texture lookup; p and n (unit, either side) in world space.
 struct TexturePoint {
   double u = 0, v = 0;
   Vec3d p, n;

@@ -53,7 +53,8 @@ Lenses::Lenses(const Camera& camera) {
   for (Surface& s : surfaces_) s.z += low, s.center += low;
 }
 
-// Where a ray from the middle of the film comes back to the axis; below 0: nowhere ahead.
+// Returns where a ray from the middle of the film returns to the axis; below 0: nowhere
+// ahead.
 double Lenses::Crossing() const {
   const auto ray = Trace({0, 0, 0}, {1e-4, 0, rear()});
   LL_CHECK(ray.has_value());

@@ -45,7 +45,8 @@ Rgb AbsorptionFromReflectance(Rgb r) {
   return {k(r.x), k(r.y), k(r.z)};
 }
 
-// What makes much hair reflect that colour (Chiang et al. 2016, equation 9).
+// Returns the absorption that gives much hair this colour (Chiang et al. 2016, equation
+// 9).
 Rgb HairAbsorption(Rgb r, double n) {
   const double k = 5.969 - 0.215 * n + 2.532 * n * n - 10.73 * std::pow(n, 3) +
                    5.574 * std::pow(n, 4) + 0.245 * std::pow(n, 5);

@@ -47,7 +47,7 @@ double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d sha
   return Blend(at, [&](Vec3d i) { return Voxel(size, values, i, channels, channel); });
 }
 
-// Of a point of the medium's space.
+// Returns the position of a point of the medium's space in its box.
 Vec3d ShareOfBox(const Medium& m, Vec3d p) {
   const Vec3d local = p - m.box_min, size = m.box_max - m.box_min;
   return {local.x / size.x, local.y / size.y, local.z / size.z};

@@ -27,7 +27,7 @@ struct Coefficients {
 /// voxels, one of NanoVDB between its points, and zero outside of its box.
 Coefficients MediumAt(const Medium& medium, Vec3d p);
 
-/// What a ray meets in a medium.
+/// A collision of a ray in a medium.
 struct Collision {
   double t = kInfinity;
   Coefficients at;

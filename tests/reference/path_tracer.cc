@@ -38,7 +38,7 @@ struct Tracer {
   Rgb Trace(Ray ray) const;
 };
 
-// What surfaces and media leave on the first `reach` of a ray.
+// Returns the transmittance of surfaces and media over the first `reach` of a ray.
 Rgb Tracer::Unoccluded(Ray shadow, double reach, Index medium) const {
   Rgb left = {1, 1, 1};
   for (;;) {

@@ -8,7 +8,7 @@ namespace lanelight::reference {
 /// Value of a normal map, the texel as it is in the file (0..1), at (u, v).
 using NormalMapLookup = std::function<Rgb(const std::string& path, double u, double v)>;
 
-/// What the slopes of a displacement texture are measured with.
+/// The steps that measure the slopes of a displacement texture.
 struct UvSteps {
   double u = 0.0005, v = 0.0005;
 };

@@ -41,7 +41,7 @@ struct Path {
   double q = 1;  // probability with which it is kept
 };
 
-// Of a first and a second vertex.
+// A pair of a first and a second vertex.
 struct Pair {
   Rgb f;
   double pdf_area = 0;

@@ -32,11 +32,11 @@ struct Parts {
   Transform rest;
 };
 
-// Of a rotation.
+// Returns the quaternion of a rotation.
 Quaternion QuaternionOf(const Transform& r) {
   Quaternion q = {r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1),
                   1 + r(0, 0) + r(1, 1) + r(2, 2)};
-  // Where w is small the largest of the others leads.
+  // If w is small, the largest of the others leads.
   if (q.w < 0.1) {
     const double xx = 1 + r(0, 0) - r(1, 1) - r(2, 2);
     const double yy = 1 - r(0, 0) + r(1, 1) - r(2, 2);

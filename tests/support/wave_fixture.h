@@ -110,7 +110,7 @@ class WaveFixture {
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }
 
-  /// Of a scene whose lights are not sampled.
+  /// Makes the wave of a scene whose lights are not sampled.
   WaveFixture(const CompiledScene& scene, std::uint32_t capacity)
       : WaveFixture(PartsOf(scene, scene.view, nullptr), capacity) {}
 

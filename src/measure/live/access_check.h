@@ -7,7 +7,7 @@
 
 namespace lanelight::live {
 
-/// What a request says of itself; what it does not have is empty.
+/// The parts of a request that are checked; missing ones are empty.
 struct HttpRequest {
   std::string method, target, host, origin;
   bool upgrade = false;  // it asks for a WebSocket

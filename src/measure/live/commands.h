@@ -20,7 +20,7 @@ nlohmann::json ParseMessage(std::string_view text);
 /// Returns an InputError that says what is wrong with a message.
 InputError NotUnderstood(const nlohmann::json::exception& error);
 
-/// What is being rendered may not be wanted any more.
+/// Returns whether a message can make the current work obsolete.
 bool ChangesWork(const nlohmann::json& message);
 
 }  // namespace lanelight::live

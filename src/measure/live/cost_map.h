@@ -20,7 +20,7 @@ class CostMap {
   /// Safe for one call at a time.
   void Add(const PixelRect& tile, const RunCounts& counts);
 
-  /// Of the cell that the pixel is in; 0 where nothing has been counted yet.
+  /// Returns the mean of the pixel's cell; 0 if nothing has been counted yet.
   double RaysPerSample(int x, int y) const;
   /// Rays that look for the nearest surface: the mean number of segments of a path.
   double SegmentsPerSample(int x, int y) const;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name that nobody else has; the file is gone when this is.
+// A file with a unique name, removed on destruction.
 class TemporaryFile {
  public:
   TemporaryFile() : path_(fs::temp_directory_path() / ("lanelight-" + MakeToken())) {}

@@ -59,7 +59,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   bool open_ = false, leaving_ = false;
 };
 
-/// What all connections share. One thread.
+/// State shared by all connections; used by one thread.
 struct SharedState {
   // Before what ends them; of each address of a client.
   std::map<asio::ip::address, int> connections;

@@ -24,7 +24,7 @@ class PassObserver {
   virtual void Observe() = 0;
 };
 
-/// How far the error had fallen after so many samples per pixel.
+/// The error after some number of samples per pixel.
 struct Look {
   std::uint64_t spp = 0;
   double seconds = 0;  // processor time until then

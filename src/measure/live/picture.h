@@ -10,7 +10,7 @@
 
 namespace lanelight::live {
 
-/// What lies over the colours.
+/// The overlay of a picture.
 enum class Layer { kNone, kError, kRelative, kRays, kSegments };
 /// X(enumerator, name in messages, meaning with its unit)
 #define LANELIGHT_LIVE_LAYERS(X)                                           \
@@ -25,7 +25,7 @@ Layer LayerNamed(const std::string& name);
 /// [{"name", "meaning"}, ...].
 nlohmann::json LayersJson();
 
-/// What a page has been sent of one renderer.
+/// What a page has received of one renderer.
 struct SentPicture {
   std::uint64_t view = 0;  // which one: a number of its own
   Layer layer = Layer::kNone;

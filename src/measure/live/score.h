@@ -20,8 +20,8 @@ struct Ratio {
   bool available = false;  // both have estimated their error
   Interval interval;       // infinite or 0 where an end is not known
   std::string why;         // an end is not known; or it is not available
-  /// By the last look whose interval excluded 1; it stays until a look shows the
-  /// contrary.
+  /// The last look whose interval excluded 1 decides; it stays until a look shows the
+  /// opposite.
   Ahead ahead = Ahead::kUnknown;
   std::uint64_t since = 0;  // samples per pixel of A at the first look that showed it
 };

@@ -72,7 +72,7 @@ void HttpClient::Answer() {
 void HttpClient::Reply(unsigned status, const char* type, std::string body) {
   response_.result(status);
   response_.set(http::field::content_type, type);
-  // Nobody else gets the address, nor a copy; and no other page may frame this one.
+  // The address is sent to no other site, and no other page may frame this one.
   response_.set("Referrer-Policy", "no-referrer");
   response_.set(http::field::cache_control, "no-store");
   response_.set("X-Content-Type-Options", "nosniff");

@@ -20,7 +20,7 @@ namespace lanelight::live {
 /// To the page; `binary`: no text.
 using Send = std::function<void(std::string message, bool binary)>;
 
-/// What the session's thread is to render next.
+/// The next work of the session's thread.
 struct Work {
   std::shared_ptr<PassRenderer> renderer;
   std::uint64_t spp = 0;  // that all of its pixels are to have then
@@ -42,13 +42,13 @@ class Session {
   /// Throws InputError that says what is wrong and what would be right.
   void Do(const nlohmann::json& message);
 
-  /// What to render now; nothing if the page waits for nothing, or not before When().
+  /// Returns the next work; nothing if the page waits for nothing, or not before When().
   std::optional<Work> Next();
   /// While the camera moves, nothing but previews is rendered: until then.
   std::chrono::steady_clock::time_point When() const { return settled_; }
   /// The work has been done, or stopped.
   void Done(const Work& work, bool stopped);
-  /// What this slot renders cannot be rendered.
+  /// Marks the work of this slot as impossible.
   void Refuse(int slot, const std::string& why);
 
   /// Sends pictures that have changed, and the state, if the page has drawn those before.

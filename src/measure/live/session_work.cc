@@ -19,8 +19,8 @@ constexpr double kPreviewSeconds = 0.04;
 constexpr double kFirstPreviewSamples = 16384;
 constexpr int kMostReduced = 16;
 
-// How many samples per pixel there are after the next pass of `seconds`; twice as many at
-// most, since rates are not known well at first.
+// Returns the samples per pixel after the next pass of `seconds`: at most twice as many,
+// since rates are uncertain at first.
 std::uint64_t NextSpp(const PassRenderer& renderer, double seconds) {
   const std::uint64_t unit = renderer.film().groups().unit, spp = renderer.spp();
   const double step = std::min(renderer.rate() * seconds, std::max(1.0, double(spp)));
@@ -62,7 +62,7 @@ std::optional<Work> Session::NextPreview() {
     };
     if (factor == 1 && !slot.renderer) slot.renderer = Make(i);
     auto preview = factor == 1 ? slot.renderer : reduced(*slot.strategy);
-    // What has to be learned first would not be there in time.
+    // Training would take too long for a preview.
     if (NeedsTraining(preview->plan())) preview = reduced(Strategy{});
     const std::uint64_t unit = preview->film().groups().unit;
     return Work{std::move(preview), unit, i, true};

@@ -56,7 +56,7 @@ View MakeView(const LiveScene& live_scene, const CameraPose& pose, int factor) {
   view.described = MovedCamera(scene.camera, live_scene.pose, pose);
   view.film = factor > 1 ? ReducedFilm(scene.film, factor) : scene.film;
   Camera camera = view.described;
-  // What is seen does not change by a rounded size.
+  // Rounding the size does not change the view.
   if (factor > 1 && !(camera.frame_aspect > 0)) {
     camera.frame_aspect = double(scene.film.width) / scene.film.height;
   }

@@ -37,8 +37,8 @@ double RefractedCosine(double cosine, double eta);
 /// Reflectance of a metal of index eta + i k, by Fresnel's amplitudes in complex numbers.
 double FresnelConductor(double cosine, double eta, double k);
 
-/// Share of the light that a GGX surface sends back and lets through in single
-/// scattering, for light from a direction of this cosine in the plane of x and z.
+/// Fractions of light that a GGX surface reflects and transmits in single scattering, for
+/// light from a direction of this cosine in the plane of x and z.
 struct GgxAlbedo {
   double reflected = 0, transmitted = 0;
 };

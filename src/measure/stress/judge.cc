@@ -1,4 +1,4 @@
-// What follows from the points of a run.
+// Judges the points of a run.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ PointVerdict VerdictOf(const JudgedPoint& judged, double level) {
   return verdict;
 }
 
-// How much of what a point may be off it is off; above 1: it fails.
+// Returns the deviation of a point relative to the allowed one; above 1 it fails.
 double Used(const JudgedPoint& judged) {
   if (!judged.verdict.good()) return std::numeric_limits<double>::infinity();
   const double off = std::abs(judged.point.measured - judged.point.expected);

@@ -21,10 +21,10 @@ Job PrepareText(const SceneText& scene);
 /// The same, and renders.
 JobRun RenderText(const SceneText& scene);
 
-/// Mean over all pixels and the three channels, with its standard error from the pixels'
-/// own variances, at most where they depend on each other (NaN where a pixel has fewer
-/// than two observations, so that the point cannot pass), counts of rays, invalid
-/// samples, lanes and seconds.
+/// Returns the mean over all pixels and channels, counts of rays, invalid samples, lanes
+/// and seconds. The standard error comes from the pixels' own variances; where pixels
+/// depend on each other it is an upper bound. It is NaN if a pixel has fewer than two
+/// observations, so that the point cannot pass.
 Point MeanOf(const JobRun& rendered);
 
 }  // namespace lanelight::stress

@@ -1,4 +1,4 @@
-// Which cases somebody means.
+// Selects cases by name, group or pattern.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@
 
 namespace lanelight::stress {
 
-/// What the expected value comes from.
+/// The source of the expected value.
 enum class Truth {
   kClosedForm,  // a formula, evaluated in double precision
   kInvariance,  // the same scene told otherwise (other units, place, order)
@@ -53,7 +53,7 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-/// How much work a point may be.
+/// The work that a point may take.
 struct Effort {
   bool full = false;  // as many samples and rays as give a sharp answer; else a glance
   std::uint64_t seed = 1;

@@ -52,7 +52,7 @@ struct CaseResult {
   Case about;
   std::vector<JudgedPoint> points;  // by parameter, then target, then series
   bool finished = false;
-  // What follows is made of these by JudgeSuite.
+  // JudgeSuite computes the following members.
   Outcome outcome = Outcome::kUnfinished;
   std::string why;  // of a failure
   /// Index of the promised point that says most: the first that is not good, else the

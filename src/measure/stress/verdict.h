@@ -19,7 +19,7 @@ inline constexpr double kPower = 0.9, kWeakFrom = 0.1;
 /// same scene under several SIMD targets has nearly the same noise.
 double LevelOf(double family, std::size_t points);
 
-/// What is wrong with a point.
+/// The reason why a point is wrong.
 enum class Fault {
   kNone,
   kOff,        // further from the expected value than tolerance and noise allow

@@ -13,7 +13,7 @@ constexpr const char* kX86 =
     "model name\t: Intel(R) Xeon(R) CPU           @ 2.20GHz\nflags\t\t: fpu vme\n\n"
     "processor\t: 1\nmodel name\t: Intel(R) Xeon(R) CPU           @ 2.20GHz\n\n";
 
-// Of two kinds of cores; a Raspberry Pi's last line is of the whole.
+// Two kinds of cores; the last line of a Raspberry Pi describes the whole.
 constexpr const char* kArm =
     "processor\t: 0\nBogoMIPS\t: 48.00\nCPU implementer\t: 0x41\n"
     "CPU architecture: 8\nCPU variant\t: 0x0\nCPU part\t: 0xd05\nCPU revision\t: 0\n\n"

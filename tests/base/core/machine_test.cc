@@ -1,5 +1,4 @@
-// What differs between processors stays in src/base/core/machine.*; and what is there
-// works.
+// Code that depends on the processor stays in src/base/core/machine.*, and works.
 #include "src/base/core/machine.h"
 
 #include <catch2/catch.hpp>
@@ -16,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where such words may stand. Highway's own names of targets are not among the words:
-// kernels/targets.h lists them, and a kernel may choose a way by its target.
+// Files that may contain such words. Highway's own names of targets are not among the
+// words: kernels/targets.h lists them, and a kernel may depend on its target.
 const std::set<std::string> kMachineFiles = {"src/base/core/machine.h",
                                              "src/base/core/machine.cc",
                                              "tests/base/core/machine_test.cc"};

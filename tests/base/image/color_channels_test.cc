@@ -26,7 +26,7 @@ namespace {
 using Catch::Contains;
 using ChannelValues = std::vector<std::pair<std::string, float>>;
 
-// What is read of an image whose channels are constant; nothing: an error.
+// The result of reading an image whose channels are constant; nothing: an error.
 struct ChannelCase {
   ChannelValues planes;
   std::optional<Rgb> light, texture;

@@ -66,7 +66,7 @@ TEST_CASE("GIF is decoded", "[image]") {
   const std::string file = Gif(2, 1, {1, 3});
   CHECK(Samples("a.gif", file) == Bytes{40, 50, 60, 255, 255, 0, 0, 255});
   CheckCuts("a.gif", file, 4);  // the last code, block and frame carry no pixels
-  // Of several frames the first one counts.
+  // The first of several frames counts.
   const std::string two =
       file.substr(0, file.size() - 1) + Gif(2, 1, {0, 0}).substr(13 + 12);
   CHECK(Samples("a.gif", two)[0] == 40);

@@ -46,7 +46,7 @@ class Planes {
   float At(int plane, std::uint64_t sample) const {
     return values_[plane][sample % kLength];
   }
-  // Of kTask samples from this one on.
+  // Returns kTask samples from this one on.
   const float* From(int plane, std::uint64_t sample) const {
     return values_[plane].data() + sample % kLength;
   }

@@ -53,7 +53,7 @@ TEST_CASE("PNG: grey of any depth is scaled to bytes", "[image]") {
   CHECK(PngSamples({4, 1, 2, kPngGrey, 0, "", Raw({0, 0x1b})}) == Bytes{0, 85, 170, 255});
   CHECK(PngSamples({2, 1, 4, kPngGrey, 0, "", Raw({0, 0x1f})}) == Bytes{17, 255});
   CHECK(PngSamples({2, 1, 8, kPngGrey, 0, "", Raw({0, 7, 200})}) == Bytes{7, 200});
-  // Of 16 bits the upper eight.
+  // The upper eight of 16 bits.
   CHECK(PngSamples({2, 1, 16, kPngGrey, 0, "", Raw({0, 7, 255, 200, 0})}) ==
         Bytes{7, 200});
 }

@@ -20,8 +20,8 @@ MeanEstimate Measure(Random& random, double deviation) {
   return {deviation * Normal(random), deviation * deviation * squares, 40};
 }
 
-// How often the first of n departs from the others at the level 0.01. `understated`: the
-// variances are all said to be so many times smaller than they are.
+// Returns how often the first of n departs from the others at the level 0.01.
+// `understated` is the factor by which all variances are understated.
 double Rejected(int n, double bias, double understated, int trials) {
   return Share(trials, 3, [&](Random& random) {
     std::vector<MeanEstimate> others;

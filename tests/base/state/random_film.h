@@ -52,7 +52,7 @@ struct RandomFilm {
   }
   std::vector<StateColumn> Columns() const { return ColumnsOf<StateColumn>(*this); }
 
-  /// Of the pixels of these tiles.
+  /// Returns the content of the pixels of these tiles.
   StateContent Content(const std::vector<PixelRect>& tiles) const {
     return {R"({"scene": "box"})",
             "{\"hours\": 7, \"wo\": \"Köln\"}",

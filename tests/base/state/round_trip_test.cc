@@ -1,4 +1,4 @@
-// What is read is what was written.
+// Reading returns what was written.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>

@@ -25,7 +25,7 @@ std::string BytesOfState(unsigned seed) {
   return StateBytes(film.Content({film.window}));
 }
 
-// What permissions say holds for root too while this lives; `folder` becomes that user's.
+// While this lives, permissions hold for root too; `folder` becomes that user's.
 class WithoutPrivileges {
  public:
   explicit WithoutPrivileges(const std::string& folder) {

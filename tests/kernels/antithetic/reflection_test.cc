@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kPaths = 101;
 constexpr float kUnit = 0x1p-24f;
 
-// What becomes of a number of an odd sample.
+// The change of a number in an odd sample.
 enum class Change { kNone, kReflect, kTurn };
 
 // The columns, and what each choice of pairs does to them at a depth.

@@ -1,4 +1,4 @@
-// What the kernel and the checks of heuristic_test.cc share.
+// Shared by the kernel and the checks of heuristic_test.cc.
 #pragma once
 
 #include "src/vocabulary/path/run_parameters.h"

@@ -29,7 +29,7 @@ TEST_CASE("packets take the frustum while they meet few leaves") {
     const Accel accel = LeavesOf(triangles);
     FrustumTrial trial(accel);
     CHECK(Taken(trial, 1000, 4 * unit) == 1000);
-    // What was saved before does not pay for many leaves later.
+    // Earlier savings do not offset many leaves later.
     const int dense = Taken(trial, 1000, 20 * unit);
     CHECK(dense >= 1000 / 20);
     CHECK(dense <= 1000 / 10);

@@ -33,7 +33,7 @@ Candidates Known() {
           {{0, 0, 1}, {0.2, 0.1, 2}, 0}};
 }
 
-// What a Lambertian surface of normal +z sends on towards the path's origin; with
+// Returns what a Lambertian surface of normal +z sends towards the path's origin; with
 // `weighs`, by the power heuristic against its cosine density.
 Rgb Carried(const Candidate& c, bool weighs) {
   const double pdf = std::max(c.direction.z, 0.0) / std::numbers::pi;

@@ -1,6 +1,6 @@
-// Emitting shapes with images, chi-square: where samples fall against the density that
-// rays to the same shape know, that density against its integral, and what samples and
-// rays see of the image against the reference's surfaces.
+// Emitting shapes with images. Chi-square tests compare samples with the density that
+// rays to the same shape know, and that density with its integral. What samples and rays
+// see of the image is compared with the reference's surfaces.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -25,12 +25,14 @@ struct Flat {
 };
 
 double TriangleAngle(Vec3d a, Vec3d b, Vec3d c);
-/// Of the parallelogram between two corners of the sides' coordinates.
+/// Returns the solid angle of the parallelogram between two corners, in the sides'
+/// coordinates.
 double PartAngle(const Flat& f, double u0, double v0, double u1, double v1);
 double AngleOf(const Flat& f);
 
-/// From grazing to straight on, from 1.2e-4 rad (by area) and 5e-4 rad (by solid angle)
-/// to 1000 times the distance, from beside the light to 1e-3 of its size above it.
+/// Returns lights from grazing to frontal: from 1.2e-4 rad (by area) and 5e-4 rad (by
+/// solid angle) to 1000 times the distance, and from beside the light to 1e-3 of its size
+/// above it.
 std::vector<Flat> FlatLights();
 /// What the kernels see: positions and edges are floats.
 Flat Rounded(Flat f);

@@ -121,7 +121,7 @@ SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d 
   seen.radiance = ToVec(&e.rgb[3 * static_cast<std::size_t>(y * e.size + x)]);
   double total = 0;
   for (std::size_t i = 0; i < e.rgb.size(); i += 3) total += Luminance(ToVec(&e.rgb[i]));
-  // Of a matrix with determinant 1.
+  // The factor of a matrix with determinant 1.
   const double stretch = 1 / std::pow(Length(local), 3);
   seen.pdf = Luminance(seen.radiance) / total * e.size * e.size / (4 * kPi) * stretch;
   return seen;

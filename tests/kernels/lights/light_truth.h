@@ -28,7 +28,7 @@ struct LightScene {
   SceneParts Parts() const { return PartsOf(scene, scene.view, &chances); }
   /// Only light `i`; what emitted otherwise is dark.
   void Keep(std::size_t i);
-  /// `count` point lights more, that nobody selects.
+  /// Adds `count` point lights with selection probability 0.
   void AddOthers(int count);
 
  private:

@@ -12,8 +12,8 @@ struct Square {
 
 double Cosine(Vec3d a, Vec3d b);
 
-/// How much farther the receiver's foot is outside of a rectangle along x than along y;
-/// where it is, u0 goes along y. Near 0 rounding decides.
+/// Returns how much farther outside of a rectangle the receiver's foot is along x than
+/// along y; if it is, u0 goes along y. Near 0 rounding decides.
 double FartherAlongX(const Flat& f);
 
 /// u0 is the part of the solid angle cut off by the plane through the point (a, b) and

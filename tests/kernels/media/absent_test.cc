@@ -1,4 +1,4 @@
-// What a scene does not have of media it does not pay for.
+// Scenes without media have no column or stage for them.
 #include <catch2/catch.hpp>
 #include <algorithm>
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Rgb kThickness = {0.3, 1, 2.5};
 
-// What the slab emits where light of `emission` is seen through nothing else.
+// Returns the light of the slab for `emission`, without absorption in front.
 Rgb SlabOf(Rgb emission) {
   const auto share = [](double sigma) { return 1 - std::exp(-sigma * 0.8); };
   return emission * Rgb{share(kThickness.x), share(kThickness.y), share(kThickness.z)};

@@ -81,7 +81,7 @@ double LatticeSlope(const Integrand& integrand) {
   return LogSlope(n, rmse);
 }
 
-// Of the mean of u^2 over one scalar dimension.
+// Returns the slope for the mean of u^2 over one scalar dimension.
 double NumberSlope(Points points) {
   constexpr std::uint32_t kPixels = 256;
   std::vector<double> n, rmse;

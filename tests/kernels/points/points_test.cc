@@ -1,6 +1,6 @@
 // Sample points of every sampler: uniform in two dimensions and in one, on the grid that
-// antithetic reflection relies on, equal on all SIMD targets, and independent of those of
-// other keys, replicates, pixels and seeds.
+// antithetic reflection requires, and equal on all SIMD targets. They are independent of
+// those of other keys, replicates, pixels and seeds.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

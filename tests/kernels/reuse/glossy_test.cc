@@ -48,7 +48,7 @@ struct Named {
   }
 };
 
-// The narrow ones serve nobody, or with their bases alone.
+// Narrow lobes are not shared, or with their bases alone.
 std::vector<Named> GlossyMaterials() {
   return {{"smooth plastic", Plastic(0)},      {"narrow plastic", Plastic(0.02)},
           {"rough plastic", Plastic(0.3)},     {"glaze", Glaze(0.4)},

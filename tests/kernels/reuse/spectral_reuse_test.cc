@@ -1,5 +1,5 @@
-// Paths that carry wavelengths and serve their block: the mean is that of paths alone,
-// what is grey stays grey, and what a tile shares is even over its samples.
+// Path reuse with wavelengths: the mean is that of paths alone, greys stay grey, and the
+// wavelengths of a tile are even over its samples.
 #include <algorithm>
 #include <set>
 #include <vector>

@@ -1,7 +1,7 @@
-// reuse=block against the estimator written down plainly (tests/reference/reuse.h): not
-// only the means are the same, which any unbiased estimator has, but the variances of
-// pixels and of the whole image, which tell how pairs are weighed, which of them are
-// made, and what pixels of a block have in common.
+// reuse=block against a plain version of the estimator (tests/reference/reuse.h). Not
+// only the means agree, as for any unbiased estimator, but also the variances of pixels
+// and of the whole image. These depend on the weights of pairs, on which pairs are made,
+// and on what pixels of a block have in common.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -126,7 +126,7 @@ TEST_CASE("reuse=block is the estimator that it says", "[reuse]") {
   CHECK_FALSE(Alike(renderer.mean, twin({.forgets_visibility = true}).mean));
   CHECK_FALSE(Alike(renderer.mean, twin({.counts_owner_twice = true}).mean));
   CHECK_FALSE(Alike(renderer.mean, twin({.forgets_roulette = true}).mean));
-  // What has the right mean and is not that estimator.
+  // An estimator with the right mean that is not this one.
   CHECK_FALSE(Alike(renderer.pixel_variance, twin({.block = 8}).pixel_variance));
   CHECK_FALSE(Alike(renderer.pixel_variance, twin({.kept = 1}).pixel_variance));
   CHECK_FALSE(Alike(renderer.image_variance, twin({.kept = 0.05}).image_variance));

@@ -147,7 +147,7 @@ TEST_CASE("variances without splitting differ by second moments", "[roulette]") 
   const std::vector<double> own = RelativeVariances(samples, work, image);
   const auto single = SinglePathVariances(samples, work, image, values, 0.5f, own);
   CHECK(single[0] - own[0] == Approx(0.02 * image.ErrorWeight(0, 0)).epsilon(1e-5));
-  // What is black has no brightness to be about.
+  // Black pixels have no brightness.
   values.inverse_pixel.assign(3, 0);
   CHECK(MomentsAbout(values, 0.5f, 0) == 0);
 }

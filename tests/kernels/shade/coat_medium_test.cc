@@ -98,7 +98,7 @@ TEST_CASE("a white coat over a white base loses nothing", "[shade][stat]") {
 }
 
 TEST_CASE("walks end with their depth", "[shade]") {
-  // One event is the exit, which without another one nobody reaches.
+  // One event is the exit, which no path reaches without another one.
   const TestMaterial one = Haze(0, 0.5, 0, kWhole, kWhole, 1);
   const double r = Mirrored(0.7, 1.5);
   const Vec3d wo = {std::sqrt(1 - 0.49), 0, 0.7};

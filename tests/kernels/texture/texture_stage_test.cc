@@ -75,7 +75,8 @@ struct Fixture {
   void AddRoughness() {
     wave.path.alpha_x = columns[8].data(), wave.path.alpha_y = columns[9].data();
   }
-  // What channel c of a colour parameter whose first constant is `base` must be.
+  // Returns the right value of channel c of a colour parameter whose first constant is
+  // `base`.
   double Color(int i, int c, double base) const {
     const std::uint32_t m = material[i];
     const std::int32_t id = scene.materials.color0_texture[m];

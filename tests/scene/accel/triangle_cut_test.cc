@@ -34,7 +34,7 @@ TEST_CASE("parts of a triangle have tight boxes", "[accel]") {
   CutBoxes cut = CutTriangle(t, Whole(t), 0, 0.5f);
   CheckNear(cut.left, {0, 0, 0}, {0.5f, 2, 0.25f});
   CheckNear(cut.right, {0.5f, 0, 0.25f}, {2, 1.5f, 1});
-  // What was cut away before stays away.
+  // Parts that were cut away stay away.
   cut = CutTriangle(t, {{0, 0, 0}, {2, 1, 1}}, 0, 0.5f);
   CheckNear(cut.left, {0, 0, 0}, {0.5f, 1, 0.25f});
   CheckNear(cut.right, {0.5f, 0, 0.25f}, {2, 1, 1});

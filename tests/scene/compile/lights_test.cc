@@ -88,7 +88,7 @@ TEST_CASE("compile: power of area lights", "[scene][compile]") {
       SceneDescription d = LitSquare(light);
       d.shapes[0].world_from_object = Transform::Scale({size, size, size});
       const CompiledScene scene = CompileScene(d);
-      // Of each triangle.
+      // The area of each triangle.
       const double area = 2 * size * size, sides = two_sided ? 2 : 1;
       CHECK(scene.lights.lights[0].radiance[1] ==
             Approx(10 * 100 / (kPi * area * sides)));

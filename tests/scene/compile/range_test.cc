@@ -77,7 +77,7 @@ TEST_CASE("a camera and a plane beyond float32 are refused", "[compile]") {
   CHECK_THROWS_AS(Compile("", "Scale 1e-200 1e-200 1e-200\n" + camera), InputError);
   CHECK_THROWS_WITH(Compile("Translate 0 0 3.5e38\nShape \"plane\""),
                     Contains("far.pbrt:6:") && Contains("this plane"));
-  // Where in itself a plane has its origin is another matter.
+  // The position of a plane's origin in the plane does not matter.
   CHECK(Compile("Translate 3.5e38 0 2\nShape \"plane\"").geometry.planes[0].point[2] !=
         0);
   CHECK(std::isfinite(

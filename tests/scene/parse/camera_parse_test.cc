@@ -223,7 +223,7 @@ TEST_CASE("a film has a color space, a white balance and a limit", "[parse]") {
   CHECK(scene.notes.empty());
   CHECK(scene.film.color_space == "rec2020");
   CHECK(scene.film.response.max_component == 7);
-  // What has the colour of the balance's white is grey.
+  // Light of the balance's white is grey.
   const Vec3d light = Inverse(XyzFromSrgb()) * WhiteOfTemperature(4500).Xyz();
   const Vec3d seen = scene.film.response.matrix * light;
   CHECK(seen.x == Approx(1));

@@ -16,7 +16,7 @@ namespace lanelight {
 /// A name that nothing has.
 inline constexpr const char* kUnknown = "lanelightunknown";
 
-/// Of a directive that names one.
+/// Returns whether the directive names an object.
 inline bool HasObject(const FormatObject& object) { return !object.type.empty(); }
 
 /// The names that an error lists after "supported: ".

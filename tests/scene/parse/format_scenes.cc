@@ -20,7 +20,7 @@ const std::set<std::string> kBeforeWorld = {"Camera",  "Film",          "PixelFi
                                             "Sampler", "Integrator",    "Accelerator",
                                             "Option",  "TransformTimes"};
 
-// What the object under test may refer to.
+// The objects that the tested object may refer to.
 constexpr const char* kWorld = R"(
 Shape "sphere"
 LightSource "point" "point3 from" [ 0 2 -2 ]

@@ -9,7 +9,7 @@
 
 namespace lanelight {
 
-/// Of a scene that was parsed and compiled.
+/// The result of parsing and compiling a scene.
 struct FormatOutcome {
   std::string error;               // of the InputError; "" if there was none
   std::vector<std::string> notes;  // sorted

@@ -121,7 +121,7 @@ const std::map<std::string, Values> kValues = {
     {"string gridname", {"\"density\""}},
     {"string temperaturename", {"\"temperature\""}}};
 
-// By directive and operands.
+// The operands of each directive.
 const std::map<std::string, std::string> kOperands = {
     {"Translate x y z", "1 2 3"},
     {"Scale x y z", "1 2 3"},

@@ -14,7 +14,8 @@ namespace lanelight {
 std::vector<std::string> FormatValues(const FormatObject& object, const FormatLine& line,
                                       const std::string& parameter);
 
-/// What follows a directive without an object; or a text in which @ is the directive.
+/// Returns what follows a directive without an object, or a text in which @ is the
+/// directive.
 std::string FormatOperands(const FormatObject& object, const FormatLine& line);
 
 /// Parameters without which the object is none, as "type name".

@@ -100,10 +100,10 @@ TEST_CASE("colour, scale and target of a light multiply", "[parse]") {
 }
 
 // pbrt-v4 makes an image of one pixel of the sky behind a portal. SpectrumToXYZ divides
-// by the integral of the photometric curve and by nothing else, so a constant spectrum of
-// 1 has luminance 1, and so has D65, which pbrt keeps in that scale; of a black body the
-// maximum is 1, which at 6500 K lies at 446 nm. The pixel stands for the whole map when
-// that is scaled to an illuminance: 2 pi times it falls on a surface, by pbrt's sum.
+// by the integral of the photometric curve only. A constant spectrum of 1 thus has
+// luminance 1, and so has D65, which pbrt stores in that scale. The maximum of a black
+// body is 1; at 6500 K it lies at 446 nm. If the map is scaled to an illuminance, the
+// pixel stands for all of it: 2 pi times it falls on a surface, by pbrt's sum.
 TEST_CASE("a constant sky behind a portal is pbrt's", "[parse]") {
   const auto sky = [](const std::string& text) {
     return ParseLight("\"infinite\" \"point3 portal\" [ 0 0 0  0 1 0  2 1 0  2 0 0 ] " +

@@ -131,7 +131,7 @@ TEST_CASE("loop subdivision: normals along a boundary", "[parse]") {
   for (const std::uint32_t n : {1u, 2u, 3u, 4u, 9u}) {
     CAPTURE(n);
     const TriangleMesh mesh = Shaken(Fan(n), 0.2);
-    // Where the surface itself is flat and only the boundary is shaken.
+    // The surface is flat, and only the boundary is perturbed.
     TriangleMesh flat = mesh;
     for (Vec3d& p : flat.positions) p.z = 0;
     CHECK(Length(LoopSubdivide(flat, 1).normals[0] - Vec3d{0, 0, -1}) < 1e-12);

@@ -12,8 +12,9 @@
 namespace lanelight {
 namespace {
 
-// P_2: the mean squared error over random shifts of the sum of exp(2 pi i (h x + k y)) /
-// (h k)^2 over all frequencies, by the polynomial that these sums are on the lattice.
+// Returns P_2: the mean squared error over random shifts of the sum of exp(2 pi i (h x +
+// k y)) / (h k)^2 over all frequencies. It is computed by the polynomial that these sums
+// are on the lattice.
 double P2(std::uint32_t n, std::uint32_t z) {
   const auto factor = [](double x) {
     return 1 + 2 * std::numbers::pi * std::numbers::pi * (x * x - x + 1.0 / 6);

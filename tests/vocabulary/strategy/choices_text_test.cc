@@ -1,4 +1,4 @@
-// What differs between two strategies.
+// Lists the differences of two strategies.
 #include "src/base/core/source_location.h"
 #include "src/vocabulary/strategy/choices_text.h"
 

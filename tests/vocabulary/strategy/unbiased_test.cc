@@ -1,5 +1,5 @@
-// Every strategy, and every two choices of different axes together, render the same image
-// as the scalar reference or the closed form, on scenes that are hard for some of them.
+// Every strategy, and every pair of choices of different axes, renders the same image as
+// the scalar reference or the closed form, on scenes that are hard for some of them.
 //
 // Combinations come from a covering array. A choice that the scene refuses (a control
 // variate without its lights) is left out of the combination there, and the refusal is

@@ -14,7 +14,7 @@ namespace lanelight::stress {
 namespace {
 
 constexpr double kAlbedo = 0.5;
-// What a diffuse plane shows of an irradiance.
+// Returns the radiance of a diffuse plane under an irradiance.
 constexpr double Shown(double irradiance) { return kAlbedo / kPi * irradiance; }
 
 const Quality kDirect = {.depth = 1};

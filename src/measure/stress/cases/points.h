@@ -39,7 +39,7 @@ struct CaseAdder {
   }
 };
 
-/// How a text is rendered.
+/// The settings of a render.
 struct Quality {
   std::uint64_t quick = 64, full = 4096;  // samples per pixel
   int depth = 5;

@@ -1,5 +1,5 @@
-// Paths that serve their block (reuse=block): first and second vertices at any distance,
-// in a corner, and behind metals on both sides of the least alpha that is shared.
+// Path reuse (reuse=block): first and second vertices at any distance, in a corner, and
+// behind metals on both sides of the least alpha that is shared.
 #include <fmt/format.h>
 
 #include <cmath>

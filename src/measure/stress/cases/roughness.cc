@@ -20,7 +20,7 @@ std::string Shiny(double alpha_x, double alpha_y) { return Metal(0.9, alpha_x, a
 
 double MetalFresnel(double c) { return FresnelConductor(c, 1, kMetalK); }
 
-// What a plane of metal reflects of a sky of radiance 1.
+// Returns what a plane of metal reflects of a sky of radiance 1.
 double MetalFurnace(double alpha_x, double alpha_y, double cosine) {
   if (std::max(alpha_x, alpha_y) < kSmoothAlpha) return MetalFresnel(cosine);
   return IntegrateGgx(alpha_x, alpha_y, cosine, 0, MetalFresnel).reflected;
@@ -101,7 +101,7 @@ std::vector<Point> Grazing(double cosine, const Effort& effort) {
                  "\"coateddiffuse\" \"float roughness\" 0 \"float thickness\" 0 "
                  "\"integer maxdepth\" 1000 \"rgb reflectance\" [0.5 0.5 0.5]",
                  CoatFurnace({0.5, 1.5, 0, 500}, cosine), cosine, effort)};
-  // What little a face does not reflect comes by as few samples.
+  // Light that a face transmits weakly is carried by as few samples.
   for (Point& point : points) {
     const bool glass = point.series == "glass" || point.series == "coat";
     if (glass && cosine < 0.01) point = WithRare(point, 1 - point.expected, 1);
