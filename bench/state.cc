@@ -1,6 +1,6 @@
-// Measures the state file of a film: bytes, wall and processor seconds, and GB/s to copy
-// it, to compress and write the copy, to check the file and to read it back, beside a
-// copy of its memory. Verifies the result first.
+// Measures the state file of a film: its size; wall and processor seconds and GB/s to
+// copy the film, to compress and write it, to check the file, and to read it. A copy of
+// memory is measured beside. Verifies the result first.
 //
 //   bench_state [--resolution WxH] [--spp N] [--group N] [--threads N] [--repeats N]
 //               [--folder .]

@@ -1,6 +1,6 @@
 // Measures rays per second of processor time of the intersect stages on ray sets of
-// meshes, one thread, beside every entry of Embree 3 if it was found at build time.
-// bench/README.md describes the method.
+// meshes, on one thread. Every entry of Embree 3 is measured too, if it was found at
+// build time. bench/README.md describes the method.
 #include <fmt/format.h>
 
 #include <cstdio>

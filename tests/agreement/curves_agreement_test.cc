@@ -126,7 +126,7 @@ TEST_CASE("wavefront agrees on stretched curves", "[agreement][curves]") {
 
 TEST_CASE("a stretched curve is as wide as its object's space says", "[curves]") {
   // Along x, seen from z = 5: in object space, a ray of slope s passes the middle line at
-  // a distance of 5 (s / 3) / sqrt(1 + (s / 3)^2), which is at most half the width.
+  // a distance of 5 (s / 3) / sqrt(1 + (s / 3)^2). This is at most half the width.
   SceneBuilder b(1, 1);
   b.Depth(0).Perspective({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 20);
   b.AddEnvironment(Grey(1));

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds the program for this machine's best SIMD target alone, as `./run demo` does, and
-# compares its images with those of LANELIGHT with that target, bit by bit, for all scenes of
-# our own: one_target_test.sh CMAKE SOURCE CXX LANELIGHT
+# Builds the program for this machine's best SIMD target alone, as `./run demo` does. Its images
+# of all own scenes must be bit-identical to those of LANELIGHT with that target:
+# one_target_test.sh CMAKE SOURCE CXX LANELIGHT
 set -euo pipefail
 cmake=$1 source=$2 cxx=$3 lanelight=$4
 folder=$(mktemp -d)

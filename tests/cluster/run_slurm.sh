@@ -60,7 +60,7 @@ finish 1800 limit
 [[ $(restarts | sort -n | tail -1) -ge 1 ]] || fail "nothing was requeued: $(restarts)"
 same_as_whole limit/image.exr "${flags[@]}"
 
-# What somebody cancels stays cancelled, with its state.
+# A cancelled job stays cancelled, and its state is kept.
 submit cancelled --time=30 -- "${flags[@]}" --every 0.2 || fail "not submitted"
 wait_for 120 test -e cancelled/part-1.state || fail "no state of task 1"
 scancel "$array"

@@ -4,7 +4,7 @@
 cluster=$folder/slurm
 export SLURM_CONF=$cluster/slurm.conf
 
-# A port that nobody listens on.
+# Prints a free port.
 free_port() {
   python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'
 }

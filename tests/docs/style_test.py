@@ -62,7 +62,7 @@ def comment_blocks(path, text):
     block, last = [], None
     for number, line in (texts.comments(path, text) or []) + [(None, "")]:
         behind = number is not None and not re.match(r"\s*(//|/?\*|#|\"|')", lines[number - 1])
-        table = re.search(r"\S {2,}\S", line)
+        table = re.search(r"\S {2,}\S|^/? {3,}\S", line)
         line = re.sub(r"^[/!#]*<?\s*", "", line.strip()).strip()
         if block and (last is None or number != last + 1 or not line or behind or table):
             yield block[0][0], " ".join(part for _, part in block)

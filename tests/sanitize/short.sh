@@ -63,7 +63,7 @@ sed 's/^Film "rgb"/Film "spectral"/' prism.pbrt > "$out/spectra.pbrt"
 render "$out/spectra.pbrt" --resolution 41x33 --spp 4
 # Media with what else there is to paths.
 render media.pbrt --resolution 40x30 --spp 4 --strategy roulette=adjoint,pairs=antithetic
-# Paths that serve their block: tiles that are cut off, all kinds of materials.
+# Path reuse: tiles that are cut off, all kinds of materials.
 for layout in random compact apart; do
   render cornell-box.pbrt --resolution 81x61 --spp 5 --strategy "reuse=block:16:$layout"
 done
@@ -76,7 +76,7 @@ render cornell-box.pbrt --resolution 41x33 --spp 4 --strategy reuse=block,direct
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
-# What learns before the image.
+# Strategies with training.
 for strategy in roulette=adjoint shadow-roulette=contribution; do
   render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
 done

@@ -55,9 +55,9 @@ double HalfTangentOfGrey(double v);
 std::array<std::array<double, 3>, 3> PolynomialThrough();
 
 /// Fits the sigmoid of a quadratic in the wavelength whose colour under D65 is closest to
-/// `rgb` (each in [0, 1]) by damped least squares (Jakob and Hanika 2019, "A
-/// Low-Dimensional Function Space for Efficient Spectral Upsampling"). Greys are constant
-/// spectra.
+/// `rgb` (each in [0, 1]), by damped least squares. Greys are constant spectra. Source:
+/// Jakob and Hanika 2019, "A Low-Dimensional Function Space for Efficient Spectral
+/// Upsampling".
 Spectrum ReflectanceOfRgb(Rgb rgb);
 
 }  // namespace lanelight

@@ -68,11 +68,11 @@ struct PixelEstimate {
 /// with one bright sample each, as at the edge of a lamp, thus widen the interval upwards
 /// by what they cost if they are really dark.
 ///
-/// Where the noise is as large as the image, n is noisy as well, and 1 / n^2 is too large
-/// on average, by 3 var(n) / n^4 to second order; 1 / (n^2 + 3 var(n)) is not. The other
-/// extreme is the estimate with weights a and the neighbourhood's mean variance, which
-/// does not mistake a pixel without bright samples for one without noise. The logarithm
-/// of their ratio moves the lower end, as variances add.
+/// Where the noise is as large as the image, n is noisy as well. Then 1 / n^2 is too
+/// large on average, by 3 var(n) / n^4 to second order; 1 / (n^2 + 3 var(n)) is not. The
+/// other extreme is the estimate with weights a and the neighbourhood's mean variance,
+/// which does not mistake a pixel without bright samples for one without noise. The
+/// logarithm of their ratio moves the lower end, as variances add.
 ///
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes

@@ -49,7 +49,7 @@ StateContent ContentOf(const nlohmann::json& identity, nlohmann::json about, Fil
 /// where it differs from what ContentOf writes.
 RunRecord ReadRecord(const StateFile& file, const nlohmann::json& report);
 
-/// How a render resumes from a state.
+/// The ways to resume from a state.
 enum class Resume {
   kNever,  // a state that is there already is an error: it would be lost
   kIfAny,  // from the state if there is one

@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-/// What all jobs of a scene share besides the compiled scene.
+/// Data that all jobs of a scene share besides the compiled scene.
 struct LoadedScene {
   SceneDescription description;  // overrides applied; meshes released after compiling
   std::set<std::string> files;   // that the scene reads, its own among them

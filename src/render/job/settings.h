@@ -28,7 +28,7 @@ enum class DefaultDecision {
   kAlways,
 };
 
-/// What paths carry; kByScene: see ChooseTransport (src/render/job/transport.h).
+/// The requested transport; kByScene: see ChooseTransport (src/render/job/transport.h).
 enum class AskedTransport { kRgb, kSpectral, kByScene };
 
 /// Default limit of triangles of instances that are copied into the world: about 25 MB.

@@ -42,9 +42,9 @@ constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a qu
 constexpr std::uint64_t kLeastToCompare = 256;
 // A change must gain its least gain and half a standard error. A change made by mistake
 // costs little; a missed one may cost a factor of three. On veach-ajar, trials of 4
-// million planned samples find adjoint in 16 seeds of 16 with half a standard error, in
-// 12 with one, and in none by one standard error of means without the worst thousandth of
-// the pixels.
+// million planned samples find adjoint in 16 seeds of 16 with half a standard error, and
+// in 12 with one. With one standard error of means without the worst thousandth of the
+// pixels, they find it in none.
 constexpr double kStandardErrors = 0.5;
 
 class Decider {

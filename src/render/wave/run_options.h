@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
 /// seed. Whole turns of the longest randomisations (src/scene/prepare/parameters.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 
-/// What a profile gathers besides stage times.
+/// Data that a profile gathers besides stage times.
 struct ProfileOptions {
   bool counters = false;         // of the processor (src/base/core/hardware_counters.h)
   std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none

@@ -39,7 +39,7 @@ enum class TaskPart : int {
   kCount
 };
 inline constexpr int kNumTaskParts = int(TaskPart::kCount);
-/// Returns "task set-up", "sum of copies", "seen lights" or "film".
+/// Returns the part's name in a profile.
 const char* Name(TaskPart part);
 
 /// One stage call (row: its index in RunResult::stages) or part of a task (row: number of

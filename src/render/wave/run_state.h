@@ -43,7 +43,7 @@ struct TrainedTable {
   std::vector<double> values;
 };
 
-/// What a strategy has learned before the image (src/render/train/training.h).
+/// The result of the training before the image (src/render/train/training.h).
 struct TrainingOutcome {
   /// Changes of the strategy, as in --strategy, that the image is rendered with; may be
   /// empty.

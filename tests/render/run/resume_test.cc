@@ -77,7 +77,7 @@ TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
       CHECK(parts.result.stop_reason == StopReason::kTarget);
       CHECK(Identical(parts.film, whole.film));
       CHECK(Same(parts.result, whole.result));
-      // What is reached already is not rendered again.
+      // Finished samples are not rendered again.
       Pauser pauser(rest, 1 << 30, true);
       request.keeper = &pauser;
       CHECK(Same(Render(request).result, whole.result));

@@ -1,5 +1,5 @@
 // Every strategy, and every pair of choices of different axes, renders the same image as
-// the scalar reference or the closed form, on scenes that are hard for some of them.
+// the scalar reference or the closed form. The scenes are hard for some of them.
 //
 // Combinations come from a covering array. A choice that the scene refuses (a control
 // variate without its lights) is left out of the combination there, and the refusal is
