@@ -2,7 +2,7 @@
 // zeros that the camera stage wrote.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/materials.h"

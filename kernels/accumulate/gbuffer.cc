@@ -2,7 +2,7 @@
 // section 5.4.3). A miss leaves the zeros that the camera stage wrote.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
 #include "src/scene/compiled/camera.h"
 #include "src/vocabulary/path/scene_kinds.h"

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "kernels/intersect/last_blockers-inl.h"
-#include "kernels/intersect/packet_deferred-inl.h"
-#include "kernels/intersect/packet_singles-inl.h"
+#include "kernels/intersect/packet_shadows-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"

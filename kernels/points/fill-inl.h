@@ -14,7 +14,6 @@
 #include "kernels/points/group-inl.h"
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/queue/key-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -19,7 +19,7 @@
 #define LANELIGHT_POINTS_WAVELENGTH_INL_H_
 
 #include "kernels/points/sobol-inl.h"
-#include "kernels/simd/pixel-inl.h"
+#include "kernels/simd/math-inl.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -6,11 +6,9 @@
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 
 #include "src/vocabulary/path/features.h"
@@ -145,7 +143,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
-  X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/vocabulary/path/first_numbers.h)") \
+  X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/vocabulary/path/dimensions.h)") \
   X(u32, first_bsdf, ({kRegressionControl}), kPath, (0u), "u_bsdf of the first event that is not specular; 0 = none") \
   X(u32, first_light, ({kRegressionControl}), kPath, (0u), "u_light of that event; 0 = none") \
   X(u32, choices, ({kRegressionControl}), kPath, (0u), "the first two choices of lobes; 0 = none") \
@@ -194,29 +192,7 @@ struct PathColumns {
 };
 
 /// A set of columns, for what a stage reads and writes.
-class FieldSet {
- public:
-  constexpr FieldSet() = default;
-  constexpr FieldSet(std::initializer_list<Field> fields) {
-    for (Field f : fields) words_[Word(f)] |= Bit(f);
-  }
-  constexpr bool Has(Field f) const { return (words_[Word(f)] & Bit(f)) != 0; }
-  constexpr FieldSet operator|(const FieldSet& o) const {
-    FieldSet r = *this;
-    for (std::size_t i = 0; i < words_.size(); ++i) r.words_[i] |= o.words_[i];
-    return r;
-  }
-
- private:
-  static constexpr std::size_t Word(Field f) { return static_cast<std::size_t>(f) / 64; }
-  static constexpr std::uint64_t Bit(Field f) {
-    return std::uint64_t{1} << (static_cast<std::size_t>(f) % 64);
-  }
-
-  // Not a bitset: sets of fields are known when kernels are compiled, so that nothing of
-  // a kernel file runs before main has looked at the processor.
-  std::array<std::uint64_t, (kNumFields + 63) / 64> words_{};
-};
+using FieldSet = EnumSet<Field>;
 
 /// The 32 bits that a column begins with.
 struct FirstValue {

@@ -19,7 +19,7 @@ inline constexpr int kRecordedVertices = 4;
   X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
   X(Radiance, 3, ({kSpectralFilm}), true, "before the film makes a colour of it: at the long, the middle and the short wavelength of the path, weighed") \
   X(Triple, 1, ({kSpectralFilm}), false, "of bins that these wavelengths are of") \
-  X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (first_numbers.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
+  X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (dimensions.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
   X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
   X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting") \
   X(Weight, 1, ({kReuse}), false, "weight of the sample, which its colour does not have in it until its block has been connected")

@@ -15,6 +15,7 @@ namespace lanelight {
 struct SourceLocation;  // src/base/core/source_location.h
 
 enum class Heuristic : std::uint8_t { kPower, kBalance };
+inline constexpr const char* kHeuristicNames[] = {"power", "balance"};
 
 inline constexpr std::uint32_t kMostLightCandidates = 64;
 /// Numbers of paths that reuse=block connects: powers of two.

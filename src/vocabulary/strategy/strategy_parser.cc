@@ -9,7 +9,6 @@
 
 #include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
-#include "src/vocabulary/strategy/choice_names.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {

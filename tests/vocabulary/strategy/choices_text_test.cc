@@ -1,6 +1,6 @@
 // What differs between two strategies.
 #include "src/base/core/source_location.h"
-#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 #include <catch2/catch.hpp>
 
