@@ -8,7 +8,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/vec3-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 #include "src/scene/compiled/camera.h"
 #include "src/scene/compiled/media.h"
 
@@ -36,7 +36,8 @@ HWY_INLINE VF SampleFilterAxis(const float* cdf, const float* signs, float radiu
   return hn::MulAdd(position, Splat(bin_width), Splat(-radius));
 }
 
-/// Film position in pixels: pixel centre plus a point distributed like |filter|.
+/// Returns the film position in pixels: pixel centre plus a point distributed like
+/// |filter|.
 template <bool kBox>
 HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, VF* y) {
   const CompiledFilter& filter = *wave.filter;
@@ -62,7 +63,7 @@ HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, V
   *y = hn::Add(hn::Add(hn::ConvertTo(DF(), place.row), Splat(0.5f)), dy);
 }
 
-/// A camera, present where the plan has `projection`.
+/// Returns a camera's stage, for plans with the feature `projection`.
 inline Stage MakeCameraStage(const char* name, const char* meaning, Feature projection,
                              StageFn (*resolve)(const FeatureSet&)) {
   return {.name = name,
@@ -82,8 +83,8 @@ struct CameraRay {
   V3 origin, direction;
 };
 
-/// The ray from a point of a thin lens at `ray.origin` that meets `ray` in focus (Kolb,
-/// Mitchell and Hanrahan 1995, the thin lens).
+/// Returns the ray from a point of a thin lens at `ray.origin` that meets `ray` in focus
+/// (Kolb, Mitchell and Hanrahan 1995, the thin lens).
 HWY_INLINE CameraRay ThroughLens(const CompiledCamera& camera, CameraRay ray, VF u0,
                                  VF u1) {
   const V2 lens = SampleDisk(u0, u1);
@@ -94,7 +95,7 @@ HWY_INLINE CameraRay ThroughLens(const CompiledCamera& camera, CameraRay ray, VF
   return {origin, focus - origin};
 }
 
-/// What fields.h says that a path begins with, and the medium of the camera.
+/// Stores the first values of fields.h, and the medium of the camera.
 HWY_INLINE void StoreFirstValues(const Wave& wave, const StoreSlots& slots) {
   const ColumnLists& lists = wave.lists;
   for (uint32_t i = 0; i < lists.begun.count; ++i) {
@@ -132,7 +133,7 @@ void Camera(Wave& wave) {
                });
 }
 
-/// The kernel of this target for the features of a scene.
+/// Returns the kernel of this target for the features of a scene.
 template <class Projection>
 StageFn ResolveCamera(const FeatureSet& features) {
   if (features.Has(Feature::kLens)) {

@@ -11,7 +11,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
+/// Maps points or directions by the 3x4 matrices of instances, row by row.
 LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
   const auto row = [&](const VF* r) HWY_ATTR {
     const VF last = hn::Mul(r[2], p.z), end = point ? hn::Add(last, r[3]) : last;

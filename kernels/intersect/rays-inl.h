@@ -33,7 +33,7 @@ struct Rays {
   VI from;
 };
 
-/// The same rays one by one.
+/// The rays of a vector as arrays.
 struct RayArrays {
   HWY_ALIGN float o[3][hn::MaxLanes(DF())];
   HWY_ALIGN float d[3][hn::MaxLanes(DF())];
@@ -53,6 +53,18 @@ struct RayArrays {
   }
 };
 
+/// Calls each(i, arrays, o, d) for the valid rays of a batch one by one.
+template <class Each>
+LANELIGHT_INLINE void ForEachRay(const Rays& batch, VI slots, MF valid, Each&& each) {
+  const RayArrays rays(batch, slots);
+  const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+  for (int i = 0; i < count; ++i) {
+    const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
+    const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
+    each(i, rays, o, d);
+  }
+}
+
 LANELIGHT_INLINE VI FromNone() {
   return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive));
 }
@@ -63,14 +75,14 @@ LANELIGHT_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) 
   return hn::IfThenElse(fresh, Gather(path.prim, slots), FromNone());
 }
 
-/// The extension rays of a batch (queue kActive).
+/// Loads the extension rays of a batch (queue kActive).
 LANELIGHT_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
   return {Gather3(path.o_x, path.o_y, path.o_z, slots),
           Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots),
           FromNone()};
 }
 
-/// The shadow rays of a batch (queue kShadow).
+/// Loads the shadow rays of a batch (queue kShadow).
 LANELIGHT_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
   const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
@@ -143,15 +155,14 @@ struct PacketSlabs {
     }
   }
 
-  /// `value` in the lanes whose direction is negative along axis a, else 0.
+  /// Returns `value` in the lanes whose direction is negative along axis a, else 0.
   LANELIGHT_INLINE VI OfNegative(int a, int32_t value) const {
     const DI di;
     return hn::IfThenElseZero(hn::RebindMask(di, negative[a]), hn::Set(di, value));
   }
 
-  /// The lanes that are rays. One that is not (NaN, infinite) must enter nothing: what
-  /// Min and Max make of NaN differs between targets, and unused children must not be
-  /// entered.
+  /// Returns the lanes that are rays. A NaN or infinite one must enter nothing: Min and
+  /// Max of NaN differ between targets, and unused children must not be entered.
   LANELIGHT_INLINE MF Finite() const {
     return hn::IsFinite(hn::Add(near[0], hn::Add(near[1], near[2])));
   }

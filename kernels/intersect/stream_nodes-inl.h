@@ -20,7 +20,7 @@ struct PacketFrame {
   uint32_t ref[kBvhWidth], lanes[kBvhWidth];
   uint32_t open;  // children to visit, as bits
 
-  /// A frame whose only child is the root.
+  /// Makes a frame whose only child is the root.
   LANELIGHT_INLINE void SetRoot(uint32_t root, uint32_t rays) {
     const DF df;
     hn::Store(hn::Zero(df), df, entry[0]);
@@ -71,7 +71,7 @@ struct PacketFrame {
   }
 };
 
-/// So many hold the path from the root to a node.
+/// Number of frames that hold the path from the root to any node.
 inline constexpr int kPacketFrames = kTraversalStack / (kBvhWidth - 1) + 2;
 
 /// The subtrees that the rays of a packet put off, in the order in which they would visit

@@ -99,7 +99,7 @@ struct StreamRays {
   // packet phase defers subtrees downwards from StackEnd.
   int32_t next[kRoom];
   uint32_t top[kRoom], bottom[kRoom];
-  // What steps of single rays read, in fours, which are written and moved together.
+  // The data of steps of single rays, in fours, which are written and moved together.
   HWY_ALIGN AxisSlab slab[3][kRoom];
   uint32_t octant[kRoom];  // as in PacketSlabs
   ShearedOrigin shear_o[kRoom];
@@ -109,7 +109,7 @@ struct StreamRays {
   uint32_t* const refs;
   float* const entries;
 
-  /// For trees of so many nodes on the longest path.
+  /// Makes a stream for BVHs of this depth.
   explicit StreamRays(int depth)
       : stride(RayStackStride(depth)),
         refs(ThreadRayStacks(stride)),
@@ -124,7 +124,7 @@ struct StreamRays {
             hn::LoadU(df, column[2] + at)};
   }
 
-  /// A ray as leaves see it.
+  /// Returns a ray prepared for leaves.
   LANELIGHT_INLINE LeafRay AtLeaf(uint32_t r) const {
     const float* const row = axes[r].row;
     return {{shear_o[r].x, shear_o[r].y, shear_o[r].z},

@@ -29,7 +29,7 @@ LANELIGHT_BEGIN_KERNELS
 // The sign of a hit distance in double precision, for the rare rays that start within
 // rounding error of a shape.
 
-/// (v1 - v0) x (v2 - v0).
+/// Computes n = (v1 - v0) x (v2 - v0).
 inline void ExactNormal(const float v0[3], const float v1[3], const float v2[3],
                         double n[3]) {
   double e1[3], e2[3];
@@ -42,8 +42,9 @@ inline void ExactNormal(const float v0[3], const float v1[3], const float v2[3],
   n[2] = e1[0] * e2[1] - e1[1] * e2[0];
 }
 
-/// True if the plane through `v0` with normal n lies ahead of `o` along `d` (t > 0).
-/// AheadOf in many-inl.h is its twin for many rays, with the same order of operations.
+/// Returns whether the plane through `v0` with normal n lies ahead of `o` along `d` (t >
+/// 0). AheadOf in many-inl.h does the same for many rays, with the same order of
+/// operations.
 inline bool PlaneIsAhead(const float o[3], const float d[3], const double n[3],
                          const float v0[3]) {
   const double distance =

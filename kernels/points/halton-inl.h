@@ -15,7 +15,7 @@
 #ifndef LANELIGHT_POINTS_HALTON_INL_H_
 #define LANELIGHT_POINTS_HALTON_INL_H_
 
-#include "kernels/points/permute-inl.h"
+#include "kernels/points/group-inl.h"
 #include "kernels/points/sobol-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -58,11 +58,7 @@ LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
   return InStratum(kHaltonStrata, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
 }
 
-struct HaltonPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct HaltonPoints : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -30,11 +30,7 @@ LANELIGHT_INLINE VU OddBits(VU v) {
   return hn::And(hn::Or(v, hn::ShiftLeft<8>(v)), SplatU(0xffff0000u));
 }
 
-struct StratifiedPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct StratifiedPoints : PointsByTurns {
   /// A scrambled van der Corput point in 2^-32.
   static LANELIGHT_INLINE VU Along(GroupIndex at, const U4& h) {
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
@@ -56,8 +52,8 @@ struct StratifiedPoints {
     *u1 = ToUnit(y);
   }
 
-  static LANELIGHT_INLINE VF Number(const PointsParameters&, VU pixel, GroupIndex at,
-                                    VU key, VU seed) {
+  static LANELIGHT_INLINE VF Number(const PointsParameters&, const PointKey& of) {
+    const auto& [pixel, at, key, seed] = of;
     return ToUnit(Along(at, Pcg4d({pixel, at.group, key, seed})));
   }
 };

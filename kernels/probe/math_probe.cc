@@ -3,7 +3,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/fresnel-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

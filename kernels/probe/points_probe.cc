@@ -38,14 +38,15 @@ void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0
                  float* u1) {
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
+    const PointKey of = {pixel, at, SplatU(q.key), SplatU(q.seed)};
     VF a, b;
     if constexpr (HasNumber<Policy>) {
       if (u1 == nullptr) {
-        a = Policy::Number(points, pixel, at, SplatU(q.key), SplatU(q.seed));
+        a = Policy::Number(points, of);
         return hn::StoreU(a, DF(), u0 + i);
       }
     }
-    Policy::Point(points, {pixel, at, SplatU(q.key), SplatU(q.seed)}, &a, &b);
+    Policy::Point(points, of, &a, &b);
     hn::StoreU(a, DF(), u0 + i);
     if (u1 != nullptr) hn::StoreU(b, DF(), u1 + i);
   });

@@ -55,7 +55,7 @@ inline constexpr int kFirstNumbers = 4;
 inline constexpr int kBitsOfFirst = 16, kBitsOfSecond = 15, kBitsOfProbability = 15;
 inline constexpr std::uint32_t kHasPair = 0x80000000u;
 
-/// Numbers in [0, 1).
+/// Encodes two numbers in [0, 1).
 inline std::uint32_t PairCode(float first, float second) {
   return kHasPair |
          static_cast<std::uint32_t>(first * (1 << kBitsOfFirst)) << kBitsOfSecond |

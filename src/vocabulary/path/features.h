@@ -175,7 +175,7 @@ class EnumSet {
 using FeatureSet = EnumSet<Feature>;
 static_assert(static_cast<int>(Feature::kCount) < 256);  // Feature's own type
 
-/// The feature that says that a scene has a kind of material.
+/// Returns the feature of a kind of material.
 constexpr Feature ShadeFeature(ShadeKind kind) {
   constexpr Feature kFeatures[] = {
 #define X(name, traits, meaning) Feature::k##name,
@@ -187,7 +187,7 @@ constexpr Feature ShadeFeature(ShadeKind kind) {
   return kFeatures[static_cast<int>(kind)];
 }
 
-/// The kinds of materials with a trait.
+/// Returns the kinds of materials with a trait.
 constexpr FeatureSet KindsWith(ShadeTraits trait) {
   FeatureSet features;
   for (int k = 0; k < kNumShadeKinds; ++k) {
@@ -203,11 +203,11 @@ constexpr FeatureSet KindsWith(ShadeTraits trait) {
 LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 
-/// Identifier without the leading k, e.g. "ConductorRough".
+/// Returns the identifier without the leading k, e.g. "ConductorRough".
 const char* FeatureName(Feature f);
-/// One-line meaning from the list above.
+/// Returns the meaning from the list above.
 const char* FeatureMeaning(Feature f);
-/// What a scene without it lacks, after that meaning: "no thin lens", "not points=sobol".
+/// Describes a scene without the feature: "no thin lens", "not points=sobol".
 std::string WithoutFeature(Feature f);
 
 }  // namespace lanelight

@@ -15,7 +15,7 @@
 
 namespace lanelight {
 
-/// How long the value of a column is needed.
+/// The time for which the value of a column is needed.
 enum class Lifetime : std::uint8_t {
   kCamera,    // to the stages of the camera
   kHit,       // until the surface at the hit is known
@@ -208,18 +208,19 @@ const char* FieldName(Field field);
 const char* FieldMeaning(Field field);
 /// "f32", "u32" or "i32".
 const char* FieldType(Field field);
-/// Features of which any one makes the column live; empty = always.
+/// Returns the features of which any one makes the column live; empty = always.
 FeatureSet FieldFeatures(Field field);
 /// Returns whether renders with these features need the field.
 bool IsLive(Field field, const FeatureSet& features);
-/// In a plan with the features `f`.
+/// Returns the lifetime in a plan with the features `f`.
 Lifetime FieldLifetime(Field field, const FeatureSet& f);
 /// Returns the value that the camera stage writes; none if another stage writes it.
 FirstValue FieldFirstValue(Field field);
 
-/// Its value goes from one wave to the next.
+/// Returns whether the value goes from one wave to the next.
 constexpr bool IsCarried(Lifetime lifetime) { return lifetime >= Lifetime::kRay; }
-/// A copy of a path at a surface, before the numbers of the bounce are drawn, needs it.
+/// Returns whether a copy of a path at a surface, made before the numbers of the bounce
+/// are drawn, needs it.
 constexpr bool IsCopied(Lifetime lifetime) {
   return lifetime == Lifetime::kSurface || lifetime == Lifetime::kPath;
 }

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "src/vocabulary/path/fields.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 #include "src/vocabulary/path/stage.h"
 
 namespace lanelight {

@@ -16,7 +16,7 @@ namespace lanelight {
 /// Enough to estimate the error of a pixel; more would reduce stratification.
 inline constexpr std::uint32_t kReplicates = 4, kLogReplicates = 2;
 
-/// How samples of a pixel count as observations.
+/// Maps the samples of a pixel to observations.
 struct SampleGroups {
   // Successive samples that form one unit: 2 in antithetic pairs.
   std::uint32_t unit = 1;
