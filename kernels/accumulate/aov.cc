@@ -21,7 +21,7 @@ HWY_INLINE const Queue& FirstHits(Wave& wave) {
                      });
 }
 
-// Lanes whose kind has a trait.
+// Returns the lanes whose kind has a trait.
 HWY_INLINE MF HasTrait(VI kind, ShadeTraits trait) {
   MF mask = hn::FirstN(DF(), 0);
   for (int k = 0; k < kNumShadeKinds; ++k) {

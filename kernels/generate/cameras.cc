@@ -1,7 +1,6 @@
 // Cameras with a plane film. Perspective: rays from one point through a film at depth 1.
 // Orthographic: parallel rays; each film point has its own lens, so that the plane of
-// focus is sharp everywhere.
-// Spherical: all directions from one point.
+// focus is sharp everywhere. Spherical: all directions from one point.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"

@@ -2,8 +2,8 @@
 // then refracted at each surface. Rays that the lenses stop end at once.
 //   weight      cos^4 A / z^2, A the area that pupil points are chosen in, z its distance
 //               from the film: radiance to irradiance at the film
-//   surfaces    in coordinates about the point p where they meet the axis, of curvature
-//   k:
+//   surfaces    in coordinates about the point p where they meet the axis, with
+//               curvature k:
 //               k t^2 + 2 (k p.d - d_z) t + k |p|^2 - 2 p_z = 0 for unit d. The root near
 //               p, in the form that has no cancellation, however flat the surface is
 //   source      Kolb, Mitchell and Hanrahan 1995; pbrt-v4
@@ -37,7 +37,7 @@ HWY_INLINE LensRay LeaveFilm(const LensSystem& lenses, V3 film, VF u0, VF u1) {
   const VF y0 = bounds.F(offsetof(Pupil, y0)), y1 = bounds.F(offsetof(Pupil, y1));
   const VF x = hn::MulAdd(u0, hn::Sub(x1, x0), x0);
   const VF y = hn::MulAdd(u1, hn::Sub(y1, y0), y0);
-  // Turned about the axis as the film point is.
+  // The bounds are turned about the axis as the film point is.
   const MF off_axis = hn::Gt(r, Splat(0));
   const VF cosine = hn::IfThenElse(off_axis, hn::Div(film.x, r), Splat(1.0f));
   const VF sine = hn::IfThenElseZero(off_axis, hn::Div(film.y, r));
@@ -152,7 +152,7 @@ HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
   Scatter3(splat(camera.origin) + axes.FromLocal(local), p.o_x, p.o_y, p.o_z, slots);
   Scatter3(Normalize(axes.FromLocal(ray.d)), p.d_x, p.d_y, p.d_z, slots);
   VF weight = ray.weight;
-  // The filter has left its own there.
+  // The column already holds the weight of the filter.
   if constexpr (!kBox) weight = hn::Mul(weight, Gather(p.weight, slots));
   Scatter(weight, p.weight, slots);
   const MF passes = hn::Gt(ray.weight, Splat(0));

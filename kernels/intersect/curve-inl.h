@@ -120,7 +120,7 @@ struct Cubic {
   }
 };
 
-/// Half the change of the squared distance along a piece.
+/// Half the derivative of the squared distance along a piece.
 struct Nearing {
   Cubic<V8> x, y;
 

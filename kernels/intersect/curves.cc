@@ -21,7 +21,6 @@ struct CurveHit {
   bool found = false;
 };
 
-// A place on a piece of a curve.
 struct PiecePlace {
   uint32_t curve, part;
   float u;
@@ -49,7 +48,7 @@ HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
   return share <= cosine * cosine;
 }
 
-// Trees of hair are larger than caches.
+// Prefetches nodes and leaves: BVHs of hair are larger than caches.
 struct FetchAhead {
   const WideNode* nodes;
   const CurveBlock* blocks;

@@ -61,7 +61,7 @@ LANELIGHT_INLINE void ForEachFew(const SceneParts& scene, const Rays& rays, TMax
   }
 }
 
-/// Closest hits of a batch; hits are written to the columns.
+/// Finds the closest hits of a batch and writes them to the columns.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots& slots) {
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));

@@ -36,8 +36,8 @@ LANELIGHT_INLINE void PutRows(const Map34& map, VF m[12]) {
   }
 }
 
-/// The same in the space of an instance that moves, at the times of the rays. Instances
-/// that do seldom make up a scene, and are far slower to enter: not inlined.
+/// Maps rays to the space of an instance that moves, at the times of the rays. Few
+/// instances move, and entering them is far slower: not inlined.
 HWY_NOINLINE inline Rays MapMovingRays(const MotionRecord& motion, const Rays& rays,
                                        VF time) {
   VF m[12];

@@ -81,7 +81,7 @@ LANELIGHT_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
   return f;
 }
 
-/// Children that some ray of the packet may meet before t_max.
+/// Returns the children that some ray of the packet may meet before t_max.
 LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_max,
                                       float* HWY_RESTRICT entry) {
   const D8 d8;
@@ -132,8 +132,9 @@ LANELIGHT_INLINE void TraceFrustum(const SceneParts& scene, const Bvh& bvh,
            });
 }
 
-/// Closest hits of a batch; hits are written to the columns. `left` as in TraceFrustum;
-/// if it is negative the rays are to be traced otherwise, from what the columns hold now.
+/// Finds the closest hits of a batch and writes them to the columns. `left` is as in
+/// TraceFrustum; if it is negative the rays must be traced in another way, from what the
+/// columns hold now.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
                                      const PacketBounds& bounds, const Slots& slots,

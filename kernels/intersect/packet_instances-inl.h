@@ -27,7 +27,6 @@ struct InstancedBest {
   }
 };
 
-/// A packet of paths.
 struct PacketOfPaths {
   const Wave& wave;
   const Rays& rays;

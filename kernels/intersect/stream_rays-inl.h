@@ -91,8 +91,8 @@ struct StreamRays {
   int32_t prim[kRoom], found[kRoom];
   int32_t from[kRoom];  // as in Rays
   int32_t slot[kRoom];
-  // With instances: the current space of a ray (kWorldInstance, kTopSpace, or an
-  // instance), and the instance of its hit.
+  // The current space of a ray (kWorldInstance, kTopSpace, or an instance), and the
+  // instance of its hit; used in scenes with instances only.
   uint32_t space[kRoom], inst[kRoom];
   // The position of single rays: the next node or leaf, and the stack [bottom, top] of
   // others, with kEmptyRef at the bottom. They are indices into `refs` and `entries`. The

@@ -1,7 +1,6 @@
 // points=halton: Owen-scrambled Halton points, padded from pairs of bases 2 and 3.
-//   estimator   mean of f over a prefix of the sequence: every interval of 2^-a times
-//   3^-b
-//               holds one of any 2^a 3^b successive points
+//   estimator   mean of f over a prefix of the sequence: every interval of size
+//               2^-a 3^-b holds one of any 2^a 3^b successive points
 //   scrambling  nested random permutations of the digits (Owen): in base 2 by the hash of
 //               Laine and Karras, in base 3 by one of the six permutations of a digit,
 //               chosen by a hash of the digits before it. Digits beyond the sequence's

@@ -46,10 +46,10 @@ Stage HitsStage() {
           .resolve = ByFeature<Feature::kInfiniteLights, Split<true>, Split<false>>};
 }
 
-// Ends paths that have used up their scattering events; the others go on to the surface
-// stages. As in pbrt, a path of maximum depth D sees emission after D events.
+// Ends paths that have used up their scattering events; the others continue to the
+// surface stages. As in pbrt, a path of maximum depth D sees emission after D events.
 //
-// Where paths go through interfaces of media, all go on: stage `interfaces` ends those
+// Paths that go through interfaces of media all continue: stage `interfaces` ends those
 // that meet another surface.
 template <bool kInterfaces>
 void LimitDepth(Wave& wave) {
@@ -123,7 +123,7 @@ void Route(Wave& wave) {
       if (!HasTrait(kinds[k], kSpecularOnly)) lit = hn::Or(lit, mine);
     }
     LL_DCHECK(AllUnder(valid, routed));
-    // At once, so that the queue keeps the order of the slots.
+    // All kinds are appended at once, so that the queue keeps the order of the slots.
     if (kLights) Push(wave.queue(QueueId::kLit), slots, lit);
   });
 }

@@ -112,7 +112,7 @@ LANELIGHT_INLINE VF SampleLinear(VF u, VF a, VF b) {
 struct Bilinear {
   VF w00, w10, w01, w11;
 
-  /// Of u0, u1 in [0, 1).
+  /// Samples a point for u0, u1 in [0, 1).
   LANELIGHT_INLINE UnitSquarePoint Sample(VF u0, VF u1) const {
     const VF v = SampleLinear(u1, hn::Add(w00, w10), hn::Add(w01, w11));
     return {SampleLinear(u0, Mix(v, w00, w01), Mix(v, w10, w11)), v};

@@ -2,7 +2,7 @@
 // area and neighbourhoods, so stratified points stay stratified. Directions on the
 // hemisphere around +z, with densities with respect to solid angle. No sampler returns a
 // direction with z = 0, where the density of two of them vanishes. The octahedral
-// map of the sphere.
+// map of the sphere is at the end.
 #ifndef LANELIGHT_WARP_SPHERE_INL_H_
 #define LANELIGHT_WARP_SPHERE_INL_H_
 
@@ -125,7 +125,7 @@ LANELIGHT_INLINE V3 OctahedralDirection(VF s, VF t) {
           hn::CopySign(hn::NegMulAdd(r, r, one), signed_distance)};
 }
 
-/// Inverse of OctahedralDirection.
+/// Inverts OctahedralDirection.
 LANELIGHT_INLINE void OctahedralSquare(V3 d, VF* s, VF* t) {
   const VF one = Splat(1.0f), half = Splat(0.5f);
   const VF r = hn::Sqrt(hn::Max(hn::Sub(one, hn::Abs(d.z)), Splat(0)));

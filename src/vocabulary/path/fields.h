@@ -1,7 +1,7 @@
 // Every column of a path, declared once: type, name, features that need it, lifetime,
-// initial value, meaning. Derived from this list: allocation (null if not needed),
-// poisoning in debug builds, bytes per path, initial values, what is carried to the next
-// wave, what split paths inherit, and the read/write checks of the plan.
+// initial value, meaning. The list determines allocation (null if not needed), poisoning
+// in debug builds and bytes per path. It also determines initial values, what is carried
+// to the next wave, what split paths inherit, and the plan's checks of reads and writes.
 //
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
@@ -191,7 +191,6 @@ struct PathColumns {
 #undef X
 };
 
-/// A set of columns, for what a stage reads and writes.
 using FieldSet = EnumSet<Field>;
 
 /// The 32 bits that a column begins with.

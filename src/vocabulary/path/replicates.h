@@ -30,7 +30,6 @@ struct SampleGroups {
 
   bool operator==(const SampleGroups&) const = default;
 
-  /// Returns the replicate of a sample.
   std::uint32_t Replicate(std::uint64_t sample) const {
     return static_cast<std::uint32_t>(sample / unit % kReplicates);
   }

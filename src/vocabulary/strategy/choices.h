@@ -3,7 +3,7 @@
 // other features that it turns on (src/vocabulary/path/features.h), name on the command
 // line, arguments, meaning, formula, source. The enumerations, the features, the plan,
 // the parser, `lanelight strategies`, the tests over all combinations and the bench rows
-// derive from these lists, whose parameters T and K are the type and the key of the axis.
+// derive from these lists. Their parameters T and K are the type and the key of the axis.
 // Notation: f integrand, p density, u uniform numbers, N samples, beta throughput.
 #pragma once
 

@@ -26,7 +26,6 @@ constexpr const char kPlain[] =
     "light-candidates=single,environment=plain,shadow-roulette=none,"
     "distances=exponential,reuse=none,decide=none";
 
-// Changes a strategy as a text says.
 class Parser {
  public:
   Parser(std::string_view text, const SourceLocation& where, Strategy& strategy)
