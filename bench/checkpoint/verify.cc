@@ -6,7 +6,7 @@
 #include "bench/checkpoint/cases.h"
 #include "src/render/job/merge.h"
 #include "src/render/job/report.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight::bench {
 namespace {

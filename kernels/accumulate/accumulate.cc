@@ -1,7 +1,7 @@
-// Finished paths: checks the sample, writes it to the task's buffer, frees the slot.
-// A sample that is not finite, or negative though neither the filter nor the film's view
-// of wavelengths is, is counted by kind and written as zero: nothing bad reaches the
-// film, and nothing is hidden.
+// Unoccluded shadow rays: adds their radiance. Finished paths: checks the sample, writes
+// it to the task's buffer, frees the slot. A sample that is not finite, or negative
+// though neither the filter nor the film's view of wavelengths is, is counted by kind and
+// written as zero: nothing bad reaches the film, and nothing is hidden.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
@@ -132,6 +132,28 @@ Stage AccumulateStage() {
                    fields::kFirstNumbers |
                    FieldSet{Field::output, Field::weight, Field::wavelength},
           .resolve = ResolveAccumulate};
+}
+
+// A path has at most one shadow ray per bounce.
+void Connect(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(
+      wave, wave.queue(QueueId::kShadow), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const V3 sum =
+            Gather3(p.l_r, p.l_g, p.l_b, slots) + Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
+        Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
+      });
+}
+
+Stage ConnectStage() {
+  return {.name = "connect",
+          .meaning = "adds the light of unoccluded shadow rays",
+          .input = QueueId::kShadow,
+          .role = StageRole::kAccumulate,
+          .needs = {Feature::kLights, Feature::kScatters},
+          .reads = fields::kRadiance | fields::kShadow,
+          .writes = fields::kRadiance,
+          .resolve = Always<Connect>};
 }
 
 LANELIGHT_END_KERNELS

@@ -5,7 +5,7 @@
 #define LANELIGHT_BSDF_COAT_BASES_INL_H_
 
 #include "kernels/bsdf/coated_conductor-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -13,7 +13,7 @@
 #include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/coat_grid-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 #include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS

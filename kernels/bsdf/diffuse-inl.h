@@ -4,7 +4,7 @@
 #define LANELIGHT_BSDF_DIFFUSE_INL_H_
 
 #include "kernels/bsdf/bsdf-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -49,7 +49,7 @@ struct UniformHemisphere {
 using DiffuseUniformBsdf = DiffuseModel<UniformHemisphere>;
 
 /// Normal plus a uniform point of the unit ball: density 2 cos^3 / pi (derived in
-/// kernels/warp/hemisphere-inl.h), f * cos = albedo * density. Mean cosine 4/5. Not
+/// kernels/warp/sphere-inl.h), f * cos = albedo * density. Mean cosine 4/5. Not
 /// reciprocal.
 struct InSphereHemisphere {
   LANELIGHT_INLINE static V3 Sample(VF u0, VF u1) { return SampleInSphere(u0, u1); }

@@ -3,7 +3,7 @@
 #define LANELIGHT_BSDF_DIFFUSE_TRANSMISSION_INL_H_
 
 #include "kernels/bsdf/bsdf-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

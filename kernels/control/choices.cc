@@ -14,7 +14,7 @@
 #include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/shade/shade-inl.h"
-#include "src/vocabulary/path/first_numbers.h"
+#include "src/vocabulary/path/dimensions.h"
 
 LANELIGHT_BEGIN_KERNELS
 

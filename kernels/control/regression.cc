@@ -24,9 +24,9 @@
 //               c, what the fit costs); Nelson 1990, "Control Variate Remedies" (halves)
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "src/scene/compiled/materials.h"
-#include "src/vocabulary/path/first_numbers.h"
+#include "src/vocabulary/path/dimensions.h"
 
 LANELIGHT_BEGIN_KERNELS
 

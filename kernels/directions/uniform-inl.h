@@ -13,7 +13,7 @@
 #define LANELIGHT_DIRECTIONS_UNIFORM_INL_H_
 
 #include "kernels/bsdf/bsdf-inl.h"
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,9 +1,8 @@
 // Motion: when a path happens, and where a camera that moves is then. The points of the
 // strategy have drawn a number for the time; all rays of the path are of that time.
-//   estimator   uniform in the time that the shutter is open: the image is the mean over
-//   it camera      its rays begin where it is when the shutter opens; what takes the
-//   scene as
-//               it is seen from there to the scene as it is seen later takes them along
+//   estimator   uniform in the time that the shutter is open; the image is the mean
+//   camera      its rays begin where it is when the shutter opens; the map from the scene
+//               as seen from there to the scene as seen later moves them too
 //   source      Cook, Porter and Carpenter 1984, "Distributed Ray Tracing"; pbrt-v4
 #include "kernels/simd/each_target-inl.h"
 

@@ -16,13 +16,13 @@ LANELIGHT_BEGIN_KERNELS
 LANELIGHT_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
 LANELIGHT_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
-/// Slopes may differ by at most this from the mean for the test to pay: on narrow targets
-/// only those of a frustum's rays do (AVX2: 0.25 costs bounces and shadow rays 0 to 10
-/// %).
+/// Slopes may differ by at most this from the mean: beyond it the test costs more than it
+/// saves. On narrow targets only the rays of a frustum are so similar (AVX2: 0.25 costs
+/// bounces and shadow rays 0 to 10 %).
 inline constexpr float kBeamSlope = hn::MaxLanes(DF()) >= 16 ? 0.25f : 0.05f;
 /// Relative slack for rounding: sheared positions err by less than 10 unit roundoffs
-/// (2^-24) of |z| and of themselves, both in the test and here, because both start with
-/// the difference to the origin.
+/// (2^-24) of |z| and of themselves. That holds in the test and here: both start with the
+/// difference to the origin.
 inline constexpr float kBeamSlack = 0x1p-18f;
 
 /// The extent of a packet, in the permuted axes of its rays, which must be equal. Across

@@ -120,7 +120,7 @@ struct Cubic {
   }
 };
 
-/// Half the change of the squared distance along a piece.
+/// Half the derivative of the squared distance along a piece.
 struct Nearing {
   Cubic<V8> x, y;
 
@@ -128,7 +128,7 @@ struct Nearing {
   LANELIGHT_INLINE V8 At(V8 u) const {
     return hn::MulAdd(x.At(u), x.Slope(u), hn::Mul(y.At(u), y.Slope(u)));
   }
-  /// Its own change.
+  /// Its derivative.
   LANELIGHT_INLINE V8 Slope(V8 u) const {
     const V8 dx = x.Slope(u), dy = y.Slope(u);
     const V8 turn = hn::MulAdd(x.At(u), x.Bend(u), hn::Mul(y.At(u), y.Bend(u)));

@@ -21,7 +21,6 @@ struct CurveHit {
   bool found = false;
 };
 
-// A place on a piece of a curve.
 struct PiecePlace {
   uint32_t curve, part;
   float u;
@@ -49,7 +48,7 @@ HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
   return share <= cosine * cosine;
 }
 
-// Trees of hair are larger than caches.
+// Prefetches nodes and leaves: BVHs of hair are larger than caches.
 struct FetchAhead {
   const WideNode* nodes;
   const CurveBlock* blocks;
@@ -121,49 +120,36 @@ HWY_INLINE void TraceCurves(const SceneParts& scene, const float o[3], const flo
            FetchAhead{scene.accel->nodes.data(), blocks});
 }
 
-// Calls each(i, slot, o, d) for the rays of a batch one by one.
-template <class Each>
-HWY_INLINE void ForEachCurveRay(const Rays& batch, VI slots, MF valid, Each&& each) {
-  const RayArrays rays(batch, slots);
-  const int count = static_cast<int>(hn::CountTrue(DF(), valid));
-  for (int i = 0; i < count; ++i) {
-    const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
-    const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
-    each(i, rays, o, d);
-  }
-}
-
 template <bool kInstances>
 void ClosestCurves(Wave& wave) {
   const PathColumns& path = wave.path;
-  ForEachBatch(wave, wave.queue(QueueId::kActive),
-               [&](const Slots& slots, MF valid) HWY_ATTR {
-                 ForEachCurveRay(LoadRays(path, slots), slots, valid,
-                                 [&](int i, const RayArrays& rays, const float o[3],
-                                     const float d[3]) HWY_ATTR {
-                                   const uint32_t slot = rays.slot[i];
-                                   CurveHit hit{rays.t_max[i], path.prim[slot]};
-                                   TraceCurves<false>(wave, o, d, hit);
-                                   if (!hit.found) return;
-                                   path.t[slot] = hit.t;
-                                   path.prim[slot] = hit.prim;
-                                   path.b1[slot] = hit.u;
-                                   if constexpr (kInstances)
-                                     path.inst[slot] = kWorldInstance;
-                                 });
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kActive), [&](const Slots& slots, MF valid) HWY_ATTR {
+        ForEachRay(LoadRays(path, slots), slots, valid,
+                   [&](int i, const RayArrays& rays, const float o[3], const float d[3])
+                       HWY_ATTR {
+                         const uint32_t slot = rays.slot[i];
+                         CurveHit hit{rays.t_max[i], path.prim[slot]};
+                         TraceCurves<false>(wave, o, d, hit);
+                         if (!hit.found) return;
+                         path.t[slot] = hit.t;
+                         path.prim[slot] = hit.prim;
+                         path.b1[slot] = hit.u;
+                         if constexpr (kInstances) path.inst[slot] = kWorldInstance;
+                       });
+      });
 }
 
 void ShadowOfCurves(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& batch, VI slots, MF valid) HWY_ATTR {
     uint32_t blocked = 0;
-    ForEachCurveRay(batch, slots, valid,
-                    [&](int i, const RayArrays& rays, const float o[3], const float d[3])
-                        HWY_ATTR {
-                          CurveHit hit{rays.t_max[i], 0};
-                          TraceCurves<true>(wave, o, d, hit);
-                          blocked |= uint32_t{hit.found} << i;
-                        });
+    ForEachRay(batch, slots, valid,
+               [&](int i, const RayArrays& rays, const float o[3], const float d[3])
+                   HWY_ATTR {
+                     CurveHit hit{rays.t_max[i], 0};
+                     TraceCurves<true>(wave, o, d, hit);
+                     blocked |= uint32_t{hit.found} << i;
+                   });
     return MaskOf(DF(), blocked);
   });
 }

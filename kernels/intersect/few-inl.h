@@ -61,12 +61,12 @@ LANELIGHT_INLINE void ForEachFew(const SceneParts& scene, const Rays& rays, TMax
   }
 }
 
-/// Closest hits of a batch; hits are written to the columns.
+/// Finds the closest hits of a batch and writes them to the columns.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots& slots) {
-  ManyClosest best(wave.path, rays, slots);
+  PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
   ForEachFew<kAlpha>(
-      wave, rays, [&]() HWY_ATTR { return best.t(); },
+      wave, rays, [&]() HWY_ATTR { return best.t; },
       [&](const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) HWY_ATTR {
         best.Offer(hit, mask, id);
         return false;
@@ -74,7 +74,7 @@ LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots
   best.Store(wave.path, slots);
 }
 
-/// Which rays of a batch are blocked.
+/// Returns the rays of a batch that are blocked.
 template <bool kAlpha>
 LANELIGHT_INLINE MF BlockedFew(const SceneParts& scene, const Rays& rays) {
   const DF df;

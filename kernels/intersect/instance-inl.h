@@ -11,7 +11,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Points (w = 1) or directions (w = 0) through the maps of instances, 3x4 row by row.
+/// Maps points or directions by the 3x4 matrices of instances, row by row.
 LANELIGHT_INLINE V3 MapLanes(const VF m[12], V3 p, bool point) {
   const auto row = [&](const VF* r) HWY_ATTR {
     const VF last = hn::Mul(r[2], p.z), end = point ? hn::Add(last, r[3]) : last;
@@ -36,8 +36,8 @@ LANELIGHT_INLINE void PutRows(const Map34& map, VF m[12]) {
   }
 }
 
-/// The same in the space of an instance that moves, at the times of the rays. Instances
-/// that do seldom make up a scene, and are far slower to enter: not inlined.
+/// Maps rays to the space of an instance that moves, at the times of the rays. Few
+/// instances move, and entering them is far slower: not inlined.
 HWY_NOINLINE inline Rays MapMovingRays(const MotionRecord& motion, const Rays& rays,
                                        VF time) {
   VF m[12];

@@ -121,7 +121,7 @@ struct KeptEdges {
   template <class D, class V = hn::Vec<D>>
   LANELIGHT_INLINE void KeepVertices(D, std::size_t, V, V) {}
 
-  /// Those of a triangle whose corners are the vertices a, b and c.
+  /// Returns the edge functions of a triangle with the corners a, b and c.
   LANELIGHT_INLINE P3<float> Of(uint32_t lane, uint32_t, uint32_t, uint32_t) const {
     return {u[lane], v[lane], w[lane]};
   }

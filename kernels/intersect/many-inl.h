@@ -70,7 +70,7 @@ inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float 
   return hn::Gt(same, hn::Zero(df));
 }
 
-/// Lanes whose ray does not start on triangle `prim`.
+/// Returns the lanes whose ray does not start on triangle `prim`.
 LANELIGHT_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
   return hn::RebindMask(DF(),
                         hn::Ne(rays.from, hn::Set(DI(), static_cast<int32_t>(prim))));
@@ -95,45 +95,42 @@ LANELIGHT_INLINE MF CutOut(const SceneParts& scene, const Rays& rays, uint32_t p
   return MaskOf(df, kept);
 }
 
-/// The closest hits of a vector of rays so far.
-class ManyClosest {
- public:
-  LANELIGHT_INLINE ManyClosest(const PathColumns& path, const Rays& rays,
-                               const Slots& slots)
-      : t_(rays.t_max),
-        v_(hn::Zero(DF())),
-        w_(v_),
-        det_(Splat(1.0f)),
-        prim_(Gather(path.prim, slots)),
-        any_(hn::FirstN(DF(), 0)) {}
+/// The hits of a vector of rays so far. In a shadow query t is the end of each ray, and
+/// negative once the ray is blocked.
+struct PacketBest {
+  VF t;
+  VI prim;
+  VF v, w, det;                     // weights of vertices 1 and 2 times det
+  uint32_t found;                   // lanes, as bits
+  uint32_t blocker = kNoPrimitive;  // in a shadow query: a triangle that blocks a ray
 
-  LANELIGHT_INLINE VF t() const { return t_; }
-  /// Takes over the lanes of `mask` where the hit on `id` is closer; true if there are.
-  LANELIGHT_INLINE bool Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
+  /// Takes over the lanes of `mask` where the hit on `id` is closer.
+  LANELIGHT_INLINE void Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
+    const DF df;
     const DI di;
-    const VI prim = hn::Set(di, static_cast<int32_t>(id));
-    const MF closer = hn::And(mask, IsCloser(hit.t, prim, t_, prim_));
-    any_ = hn::Or(any_, closer);
-    t_ = hn::IfThenElse(closer, hit.t, t_);
-    prim_ = hn::IfThenElse(hn::RebindMask(di, closer), prim, prim_);
-    v_ = hn::IfThenElse(closer, hit.v, v_);
-    w_ = hn::IfThenElse(closer, hit.w, w_);
-    det_ = hn::IfThenElse(closer, hit.det, det_);
-    return !hn::AllFalse(DF(), closer);
+    const VI own = hn::Set(di, static_cast<int32_t>(id));
+    const MF closer = hn::And(mask, IsCloser(hit.t, own, t, prim));
+    found |= MaskBits(df, closer);
+    t = hn::IfThenElse(closer, hit.t, t);
+    prim = hn::IfThenElse(hn::RebindMask(di, closer), own, prim);
+    v = hn::IfThenElse(closer, hit.v, v);
+    w = hn::IfThenElse(closer, hit.w, w);
+    det = hn::IfThenElse(closer, hit.det, det);
   }
+  /// Writes the hits to the columns.
   LANELIGHT_INLINE void Store(const PathColumns& path, const Slots& slots) const {
-    Scatter(t_, path.t, slots);
-    Scatter(prim_, path.prim, slots);
-    const VF b1 = hn::Div(v_, det_), b2 = hn::Div(w_, det_);
-    Scatter(hn::IfThenElse(any_, b1, Gather(path.b1, slots)), path.b1, slots);
-    Scatter(hn::IfThenElse(any_, b2, Gather(path.b2, slots)), path.b2, slots);
+    const MF any = MaskOf(DF(), found);
+    const VF b1 = hn::Div(v, det), b2 = hn::Div(w, det);
+    Scatter(t, path.t, slots);
+    Scatter(prim, path.prim, slots);
+    Scatter(hn::IfThenElse(any, b1, Gather(path.b1, slots)), path.b1, slots);
+    Scatter(hn::IfThenElse(any, b2, Gather(path.b2, slots)), path.b2, slots);
   }
-
- private:
-  VF t_, v_, w_, det_;
-  VI prim_;
-  MF any_;
 };
+
+LANELIGHT_INLINE PacketBest NoHits(VF t_max, VI prim) {
+  return {t_max, prim, hn::Zero(DF()), hn::Zero(DF()), Splat(1.0f), 0};
+}
 
 LANELIGHT_END_KERNELS
 

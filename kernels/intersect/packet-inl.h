@@ -81,7 +81,7 @@ LANELIGHT_INLINE Frustum MakeFrustum(const PacketBounds& p, const Bvh& bvh) {
   return f;
 }
 
-/// Children that some ray of the packet may meet before t_max.
+/// Returns the children that some ray of the packet may meet before t_max.
 LANELIGHT_INLINE uint32_t HitChildren(const Frustum& f, const WideNode& node, float t_max,
                                       float* HWY_RESTRICT entry) {
   const D8 d8;
@@ -132,19 +132,9 @@ LANELIGHT_INLINE void TraceFrustum(const SceneParts& scene, const Bvh& bvh,
            });
 }
 
-/// Writes the hits of a batch to the columns.
-LANELIGHT_INLINE void StorePacketHits(const PathColumns& path, const Slots& slots,
-                                      const PacketBest& best) {
-  const MF found = MaskOf(DF(), best.found);
-  const VF b1 = hn::Div(best.v, best.det), b2 = hn::Div(best.w, best.det);
-  Scatter(best.t, path.t, slots);
-  Scatter(best.prim, path.prim, slots);
-  Scatter(hn::IfThenElse(found, b1, Gather(path.b1, slots)), path.b1, slots);
-  Scatter(hn::IfThenElse(found, b2, Gather(path.b2, slots)), path.b2, slots);
-}
-
-/// Closest hits of a batch; hits are written to the columns. `left` as in TraceFrustum;
-/// if it is negative the rays are to be traced otherwise, from what the columns hold now.
+/// Finds the closest hits of a batch and writes them to the columns. `left` is as in
+/// TraceFrustum; if it is negative the rays must be traced in another way, from what the
+/// columns hold now.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
                                      const PacketBounds& bounds, const Slots& slots,
@@ -152,10 +142,10 @@ LANELIGHT_INLINE void ClosestFrustum(const Wave& wave, const Rays& rays,
   const Accel& accel = *wave.accel;
   PacketBest best = NoHits(rays.t_max, Gather(wave.path.prim, slots));
   TraceFrustum<false, kAlpha>(wave, accel.groups[0], {rays, bounds, rays}, left, best);
-  StorePacketHits(wave.path, slots, best);
+  best.Store(wave.path, slots);
 }
 
-/// Which rays of a batch are blocked.
+/// Returns the rays of a batch that are blocked.
 template <bool kAlpha>
 LANELIGHT_INLINE MF BlockedFrustum(const SceneParts& scene, const Rays& rays,
                                    const PacketBounds& bounds) {

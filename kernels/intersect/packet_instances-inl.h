@@ -27,7 +27,6 @@ struct InstancedBest {
   }
 };
 
-/// A packet of paths.
 struct PacketOfPaths {
   const Wave& wave;
   const Rays& rays;
@@ -65,7 +64,7 @@ HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, i
   best.Take(hit, instance);
 }
 
-/// As ClosestFrustum, in scenes with instances.
+/// Does what ClosestFrustum does, in scenes with instances.
 template <bool kAlpha>
 LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays,
                                               const PacketBounds& bounds,
@@ -90,7 +89,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
                return left < 0;
              });
   }
-  StorePacketHits(wave.path, slots, best.hit);
+  best.hit.Store(wave.path, slots);
   const auto found = hn::RebindMask(DI(), MaskOf(DF(), best.hit.found));
   Scatter(hn::IfThenElse(found, best.inst, Gather(wave.path.inst, slots)), wave.path.inst,
           slots);

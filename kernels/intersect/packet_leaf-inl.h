@@ -10,20 +10,6 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// The hits of a packet so far. In a shadow query t is the end of each ray, and negative
-/// once the ray is blocked.
-struct PacketBest {
-  VF t;
-  VI prim;
-  VF v, w, det;                     // weights of vertices 1 and 2 times det
-  uint32_t found;                   // lanes, as bits
-  uint32_t blocker = kNoPrimitive;  // in a shadow query: a triangle that blocks a ray
-};
-
-LANELIGHT_INLINE PacketBest NoHits(VF t_max, VI prim) {
-  return {t_max, prim, hn::Zero(DF()), hn::Zero(DF()), Splat(1.0f), 0};
-}
-
 /// Rays of a packet prepared for leaves. `same_axes`: the order of axes is `axis[]` for
 /// all of them. `has_beam`: moreover they are similar, and `beam` bounds them.
 struct PacketRays {
@@ -118,7 +104,6 @@ LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
                                      const PacketRays& packet, uint32_t lanes,
                                      PacketBest& best) {
   const DF df;
-  const DI di;
   uint32_t near =
       packet.has_beam ? TrianglesInBeam(packet.beam, leaf, packet.axis) : UsedLanes(leaf);
   if (near == 0) return;
@@ -166,14 +151,7 @@ LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
       best.blocker = blocked != 0 ? leaf.prim[i] : best.blocker;
       best.t = hn::IfThenElse(mask, Splat(-1.0f), best.t);
     } else {
-      const VI prim = hn::Set(di, static_cast<int32_t>(leaf.prim[i]));
-      mask = hn::And(mask, IsCloser(hit.t, prim, best.t, best.prim));
-      best.found |= MaskBits(df, mask);
-      best.t = hn::IfThenElse(mask, hit.t, best.t);
-      best.prim = hn::IfThenElse(hn::RebindMask(di, mask), prim, best.prim);
-      best.v = hn::IfThenElse(mask, hit.v, best.v);
-      best.w = hn::IfThenElse(mask, hit.w, best.w);
-      best.det = hn::IfThenElse(mask, hit.det, best.det);
+      best.Offer(hit, mask, leaf.prim[i]);
     }
   }
 }

@@ -2,8 +2,11 @@
 #ifndef LANELIGHT_INTERSECT_RAYS_INL_H_
 #define LANELIGHT_INTERSECT_RAYS_INL_H_
 
+#include <limits>
+
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
+#include "src/scene/geometry/accel.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -30,7 +33,7 @@ struct Rays {
   VI from;
 };
 
-/// The same rays one by one.
+/// The rays of a vector as arrays.
 struct RayArrays {
   HWY_ALIGN float o[3][hn::MaxLanes(DF())];
   HWY_ALIGN float d[3][hn::MaxLanes(DF())];
@@ -50,6 +53,18 @@ struct RayArrays {
   }
 };
 
+/// Calls each(i, arrays, o, d) for the valid rays of a batch one by one.
+template <class Each>
+LANELIGHT_INLINE void ForEachRay(const Rays& batch, VI slots, MF valid, Each&& each) {
+  const RayArrays rays(batch, slots);
+  const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+  for (int i = 0; i < count; ++i) {
+    const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
+    const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
+    each(i, rays, o, d);
+  }
+}
+
 LANELIGHT_INLINE VI FromNone() {
   return hn::Set(DI(), static_cast<int32_t>(kNoPrimitive));
 }
@@ -60,14 +75,14 @@ LANELIGHT_INLINE VI StartsOf(const PathColumns& path, const Slots& slots, VF t) 
   return hn::IfThenElse(fresh, Gather(path.prim, slots), FromNone());
 }
 
-/// The extension rays of a batch (queue kActive).
+/// Loads the extension rays of a batch (queue kActive).
 LANELIGHT_INLINE Rays LoadRays(const PathColumns& path, const Slots& slots) {
   return {Gather3(path.o_x, path.o_y, path.o_z, slots),
           Gather3(path.d_x, path.d_y, path.d_z, slots), Gather(path.t, slots),
           FromNone()};
 }
 
-/// The shadow rays of a batch (queue kShadow).
+/// Loads the shadow rays of a batch (queue kShadow).
 LANELIGHT_INLINE Rays LoadShadowRays(const PathColumns& path, const Slots& slots) {
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
   const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
@@ -110,6 +125,60 @@ LANELIGHT_INLINE void RemoveOccluded(Wave& wave, Occluded&& occluded) {
     Push(kept, slots, hn::AndNot(blocked, valid));
   });
 }
+
+/// As SlabRay, each lane a ray. Bit a of `octant` is set where the direction is negative
+/// along axis a, which `negative[a]` says as a mask.
+struct PacketSlabs {
+  VF rcp[3], near[3], far[3];
+  MF negative[3];
+  VI octant;
+
+  /// Uses the arithmetic of MakeSlabRay, and grows boxes as Bvh does.
+  LANELIGHT_INLINE PacketSlabs(V3 ray_o, V3 ray_d, VF slack, VF margin) {
+    const DF df;
+    const DI di;
+    const VF o[3] = {ray_o.x, ray_o.y, ray_o.z}, d[3] = {ray_d.x, ray_d.y, ray_d.z};
+    const VF largest = hn::Max(hn::Abs(o[0]), hn::Max(hn::Abs(o[1]), hn::Abs(o[2])));
+    const VF delta = hn::MulAdd(slack, largest, margin);
+    const VF least = Splat(0x1p-80f);
+    octant = hn::Zero(di);
+    for (int a = 0; a < 3; ++a) {
+      const MF tiny = hn::Lt(hn::Abs(d[a]), least);
+      const VF da = hn::IfThenElse(tiny, hn::CopySign(least, d[a]), d[a]);
+      const VF r = hn::Div(Splat(1.0f), da);
+      const VF c = hn::Neg(hn::Mul(o[a], r)), grow = hn::Mul(delta, hn::Abs(r));
+      rcp[a] = r;
+      near[a] = hn::Sub(c, grow);
+      far[a] = hn::Add(c, grow);
+      negative[a] = hn::Lt(da, hn::Zero(df));
+      octant = hn::Or(octant, OfNegative(a, 1 << a));
+    }
+  }
+
+  /// Returns `value` in the lanes whose direction is negative along axis a, else 0.
+  LANELIGHT_INLINE VI OfNegative(int a, int32_t value) const {
+    const DI di;
+    return hn::IfThenElseZero(hn::RebindMask(di, negative[a]), hn::Set(di, value));
+  }
+
+  /// Returns the lanes that are rays. A NaN or infinite one must enter nothing: Min and
+  /// Max of NaN differ between targets, and unused children must not be entered.
+  LANELIGHT_INLINE MF Finite() const {
+    return hn::IsFinite(hn::Add(near[0], hn::Add(near[1], near[2])));
+  }
+
+  /// Makes lanes that are no rays leave all slabs before they enter them.
+  LANELIGHT_INLINE void CloseOthers() {
+    const MF ray = Finite();
+    if (HWY_LIKELY(hn::AllTrue(DF(), ray))) return;
+    const VF never = Splat(std::numeric_limits<float>::infinity());
+    for (int a = 0; a < 3; ++a) {
+      rcp[a] = hn::IfThenElse(ray, rcp[a], Splat(1.0f));
+      near[a] = hn::IfThenElse(ray, near[a], never);
+      far[a] = hn::IfThenElse(ray, far[a], hn::Neg(never));
+    }
+  }
+};
 
 LANELIGHT_END_KERNELS
 

@@ -41,6 +41,15 @@ struct Candidates {
   V t_near, t_far;
 };
 
+/// The candidates among two roots: those in (0, FLT_MAX]. Divisions by zero give others.
+template <class D, class V = hn::Vec<D>, class M = hn::Mask<D>>
+LANELIGHT_INLINE Candidates<V, M> FromRoots(D df, M meets, V t0, V t1) {
+  const V zero = hn::Zero(df), largest = hn::Set(df, FLT_MAX);
+  const V near = hn::Min(t0, t1), far = hn::Max(t0, t1);
+  return {hn::And(meets, hn::And(hn::Gt(near, zero), hn::Le(near, largest))),
+          hn::And(meets, hn::And(hn::Gt(far, zero), hn::Le(far, largest))), near, far};
+}
+
 template <class V>
 struct SphereLanes {
   P3<V> center;
@@ -81,15 +90,8 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
   }
   const V root = hn::Sqrt(hn::Mul(a, discriminant));
   const V q = hn::Add(b, hn::CopySign(root, b));
-  const V t0 = hn::Div(c, q), t1 = hn::Div(q, a);
-  hit.t_near = hn::Min(t0, t1);
-  hit.t_far = hn::Max(t0, t1);
-  // A ray that touches at its closest point may divide by zero: such roots do not count.
-  const V largest = hn::Set(df, FLT_MAX);
-  hit.near =
-      hn::And(meets, hn::And(hn::Gt(hit.t_near, zero), hn::Le(hit.t_near, largest)));
-  hit.far = hn::And(meets, hn::And(hn::Gt(hit.t_far, zero), hn::Le(hit.t_far, largest)));
-  return hit;
+  // A ray that touches at its closest point may divide by zero.
+  return FromRoots(df, meets, hn::Div(c, q), hn::Div(q, a));
 }
 
 template <class V>
@@ -132,16 +134,7 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const LargeSphereLanes<V>& s,
   const V discriminant = hn::NegMulAdd(a, c, hn::Mul(b, b));
   const V root = hn::Sqrt(hn::Max(discriminant, zero));
   const V sum_b = hn::Neg(hn::Add(b, hn::CopySign(root, b)));
-  const V t0 = hn::Div(c, sum_b), t1 = hn::Div(sum_b, a);
-  const V largest = hn::Set(df, FLT_MAX);
-  const M meets = hn::Ge(discriminant, zero);
-  Candidates<V, M> hit;
-  hit.t_near = hn::Min(t0, t1);
-  hit.t_far = hn::Max(t0, t1);
-  hit.near =
-      hn::And(meets, hn::And(hn::Gt(hit.t_near, zero), hn::Le(hit.t_near, largest)));
-  hit.far = hn::And(meets, hn::And(hn::Gt(hit.t_far, zero), hn::Le(hit.t_far, largest)));
-  return hit;
+  return FromRoots(df, hn::Ge(discriminant, zero), hn::Div(c, sum_b), hn::Div(sum_b, a));
 }
 
 /// Distance to the plane through `point` with normal n; the sign is that of the exact

@@ -10,8 +10,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// As in triangles.cc. Rays stay in order: the queue is written behind the place where it
-// is read, at most a stream later.
+// Rays are traced as in triangles.cc. They stay in order: the queue is written behind the
+// place where it is read, at most a stream later.
 template <bool kAlpha, bool kInstances>
 void ShadowRays(Wave& wave) {
   const SceneParts& scene = wave;

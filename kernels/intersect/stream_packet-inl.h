@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "kernels/intersect/last_blockers-inl.h"
-#include "kernels/intersect/packet_deferred-inl.h"
-#include "kernels/intersect/packet_singles-inl.h"
+#include "kernels/intersect/packet_shadows-inl.h"
 #include "kernels/intersect/stream_lists-inl.h"
 #include "kernels/intersect/stream_nodes-inl.h"
 #include "kernels/intersect/stream_spaces-inl.h"
@@ -52,7 +50,7 @@ class PacketPhase {
     RunIn<false>(scene_.accel->groups[0], at, live);
   }
 
-  /// The same through the tree over instances, and these, after the world.
+  /// Traces them through the BVH over instances, after the world.
   LANELIGHT_INLINE void RunTop(uint32_t at, RayList& live) {
     RunIn<true>(scene_.accel->top, at, live);
   }
@@ -174,7 +172,7 @@ class PacketPhase {
     if constexpr (!kTop) StoreHits(best);
   }
 
-  // Once for the ways of TraceNodes: it is long to compile.
+  // Not inlined: it takes long to compile, and TraceNodes has several variants.
   HWY_NOINLINE void TestLeaf(uint32_t ref, const PacketRays& packet, uint32_t lanes,
                              PacketBest& best) {
     if constexpr (kAny) {
@@ -191,7 +189,8 @@ class PacketPhase {
     TestLeafPacket<kAny, kAlpha>(scene_, ref, packet, lanes, best);
   }
 
-  // What single rays at leaves read, where a packet in an instance has none yet.
+  // Fills the columns that single rays read at leaves; a packet in an instance has none
+  // yet.
   HWY_NOINLINE void FillColumns(const PacketRays& packet) {
     has_columns_ = true;
     rays_.Store(packet.rays, at_);

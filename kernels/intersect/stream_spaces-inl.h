@@ -69,7 +69,7 @@ class RaySpaces {
     rays_.octant[r] = std::bit_cast<uint32_t>(home_.o[r].octant);
   }
 
-  /// Some instances move.
+  /// Returns whether some instances move.
   LANELIGHT_INLINE bool HasMotion() const { return HWY_UNLIKELY(times_ != nullptr); }
 
   /// The rays from place `at` on, which lie in the space of the scene, in that of an
@@ -81,7 +81,7 @@ class RaySpaces {
     return MapRays(scene_.geometry->instances[instance], from.o, from.d, from.t_max);
   }
 
-  /// The ray, which lies in the space of the scene, in the one where it is.
+  /// Maps a ray of the scene to the space where it is.
   LANELIGHT_INLINE void Map(uint32_t r, float o[3], float d[3]) const {
     const uint32_t space = rays_.space[r];
     if (space >= kTopSpace) return;

@@ -38,8 +38,8 @@ class RayStacks {
     Prefetch(ref);
   }
 
-  /// The same if `move` is 1; stays at `next`, where it is, if that is 0. No branch:
-  /// whether a ray has something to do at a leaf cannot be predicted.
+  /// Pops if `move` is 1; stays at `next` if it is 0. No branch: whether a ray has
+  /// something to do at a leaf cannot be predicted.
   LANELIGHT_INLINE void PopIf(uint32_t move, uint32_t r, uint32_t top,
                               uint32_t next) const {
     const uint32_t ref = refs_[top], stay = move - 1;
@@ -113,8 +113,8 @@ class RayStacks {
   }
 
  private:
-  // Where nodes and leaves lie, found without a branch: which of the two is next cannot
-  // be predicted.
+  // The addresses of nodes and leaves, found without a branch: which of the two is next
+  // cannot be predicted.
   struct Places {
     const char* base[2];
     std::size_t unit[2];

@@ -32,22 +32,23 @@ inline double CrossDot(const float a[3], const float b[3], const double p[3]) {
          (double{a[0]} * b[1] - double{a[1]} * b[0]) * p[2];
 }
 
-/// `p` relative to the centre.
-inline SurfaceUv UvOf(const SphereRecord& s, const double p[3]) {
-  const double x = DotWith(s.x_axis, p), z = DotWith(s.z_axis, p);
-  const double y = s.y_sign * CrossDot(s.z_axis, s.x_axis, p);
+/// Returns the coordinates where the normal of a sphere is `n`, of any length.
+template <class Sphere>
+SurfaceUv SphereUv(const Sphere& s, const double n[3]) {
+  const double x = DotWith(s.x_axis, n), z = DotWith(s.z_axis, n);
+  const double y = s.y_sign * CrossDot(s.z_axis, s.x_axis, n);
   const double theta = std::atan2(std::hypot(x, y), z);
   return {TurnFraction(y, x), static_cast<float>(1 - theta / std::numbers::pi)};
 }
 
+/// `p` relative to the centre.
+inline SurfaceUv UvOf(const SphereRecord& s, const double p[3]) { return SphereUv(s, p); }
+
 /// `p` relative to the point.
 inline SurfaceUv UvOf(const LargeSphereRecord& s, const double p[3]) {
-  double out[3];  // the normal there: its length does not matter
-  for (int i = 0; i < 3; ++i) out[i] = s.normal[i] + s.curvature * p[i];
-  const double x = DotWith(s.x_axis, out), z = DotWith(s.z_axis, out);
-  const double y = s.y_sign * CrossDot(s.z_axis, s.x_axis, out);
-  const double theta = std::atan2(std::hypot(x, y), z);
-  return {TurnFraction(y, x), static_cast<float>(1 - theta / std::numbers::pi)};
+  double n[3];
+  for (int i = 0; i < 3; ++i) n[i] = s.normal[i] + s.curvature * p[i];
+  return SphereUv(s, n);
 }
 
 /// `p` relative to the centre.

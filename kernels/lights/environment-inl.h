@@ -3,7 +3,7 @@
 #define LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
 
 #include "kernels/lights/map_samples-inl.h"
-#include "kernels/warp/octahedral-inl.h"
+#include "kernels/warp/sphere-inl.h"
 #include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS

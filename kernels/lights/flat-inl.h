@@ -10,12 +10,12 @@
 //               grazing lights their warp; with the middle's it leaves lights alone that
 //               surround the receiver, whose corners say nothing
 //   below       a light that the receiver's normal does not see at all is not warped
-//   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
+//   source      Hart et al. 2020 (kernels/warp/solid_angle-inl.h)
 #ifndef LANELIGHT_LIGHTS_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
 
 #include "kernels/lights/geometry-inl.h"
-#include "kernels/warp/bilinear-inl.h"
+#include "kernels/warp/solid_angle-inl.h"
 #include "kernels/warp/spherical_rectangle-inl.h"
 #include "kernels/warp/spherical_triangle-inl.h"
 

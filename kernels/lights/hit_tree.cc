@@ -4,7 +4,7 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/lights/tree-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "kernels/directions/heuristic-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/lights.h"

@@ -7,7 +7,7 @@
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/warp/octahedral-inl.h"
+#include "kernels/warp/sphere-inl.h"
 #include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -11,7 +11,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "src/scene/compiled/lights.h"
-#include "src/vocabulary/path/primitive_ranges.h"
+#include "src/vocabulary/path/scene_parts.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -17,7 +17,7 @@
 
 #include "kernels/media/equiangular-inl.h"
 #include "kernels/media/event-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -15,7 +15,7 @@
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
 #include "kernels/media/walk_random-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

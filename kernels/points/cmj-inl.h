@@ -20,19 +20,15 @@
 //               one observation
 //   cost        two PCG-4D hashes and three permutations per point
 // Source: Kensler 2013, "Correlated Multi-Jittered Sampling" (the permutations are ours:
-// permute-inl.h, the blocks too).
+// group-inl.h, the blocks too).
 #ifndef LANELIGHT_POINTS_CMJ_INL_H_
 #define LANELIGHT_POINTS_CMJ_INL_H_
 
-#include "kernels/points/permute-inl.h"
+#include "kernels/points/group-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct CmjPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct CmjPoints : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -7,23 +7,21 @@
 // two coordinates of one key are stratified against each other where the policy
 // stratifies; different keys are independent of each other. A scalar dimension takes u0;
 // a policy whose u0 alone is less well stratified than one dimension can be has also
-//   static VF Number(const PointsParameters&, VU pixel, GroupIndex, VU key, VU seed)
+//   static VF Number(const PointsParameters&, const PointKey&)
 #ifndef LANELIGHT_POINTS_FILL_INL_H_
 #define LANELIGHT_POINTS_FILL_INL_H_
 
 #include "kernels/points/group-inl.h"
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/queue/key-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 template <class Policy>
-concept HasNumber = requires(const PointsParameters& points, VU v, GroupIndex at) {
-  Policy::Number(points, v, at, v, v);
-};
+concept HasNumber =
+    requires(const PointsParameters& points, PointKey of) { Policy::Number(points, of); };
 
-/// Who draws: one batch of paths.
+/// One batch of paths that draw numbers.
 struct Drawer {
   const StoreSlots& slots;
   VU pixel, sample, depth, key;  // key: of dimension 0 at this depth and branch
@@ -54,19 +52,21 @@ LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimensio
   return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, own);
 }
 
-/// One dimension of one batch; a scalar one leaves out1 alone.
+/// Draws one dimension of one batch, unless the plan has no column for it. A scalar one
+/// has one column.
 template <class Policy, bool kPlain, bool kScalar>
 LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
-                           Dimension dimension, float* out0, float* out1) {
+                           Dimension dimension, float* out0, float* out1 = nullptr) {
+  if (out0 == nullptr) return;
   const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
   const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
   const GroupIndex at = Policy::Group(run.points, sample);
-  const VU seed = SplatU(run.seed);
+  const PointKey of = {drawer.pixel, at, key, SplatU(run.seed)};
   VF u0, u1;
   if constexpr (kScalar && HasNumber<Policy>) {
-    u0 = Policy::Number(run.points, drawer.pixel, at, key, seed);
+    u0 = Policy::Number(run.points, of);
   } else {
-    Policy::Point(run.points, {drawer.pixel, at, key, seed}, &u0, &u1);
+    Policy::Point(run.points, of, &u0, &u1);
   }
   Scatter(u0, out0, drawer.slots);
   if constexpr (!kScalar) Scatter(u1, out1, drawer.slots);
@@ -82,8 +82,7 @@ LANELIGHT_INLINE void FillWavelength(const RunParameters& run, const Drawer& dra
     const VF number = PixelWavelength(run, drawer.pixel, drawer.sample);
     Scatter(number, p.wavelength, drawer.slots);
   } else {
-    Draw<Policy, kPlain, true>(run, drawer, Dimension::kWavelength, p.wavelength,
-                               nullptr);
+    Draw<Policy, kPlain, true>(run, drawer, Dimension::kWavelength, p.wavelength);
   }
 }
 
@@ -91,24 +90,19 @@ template <class Policy, bool kPlain>
 LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
-  ForEachBatch(
-      wave, wave.queue(QueueId::kCamera), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-        Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
-                                    p.u_film_1);
-        if (p.u_lens_0 != nullptr) {
-          Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
-                                      p.u_lens_1);
-        }
-        if (p.time != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kTime, p.time, nullptr);
-        }
-        if (p.u_medium_0 != nullptr) {
-          Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium, p.u_medium_0,
-                                      p.u_medium_1);
-        }
-        if (p.wavelength != nullptr) FillWavelength<Policy, kPlain>(run, drawer, p);
-      });
+  ForEachBatch(wave, wave.queue(QueueId::kCamera),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
+                                             p.u_film_1);
+                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
+                                             p.u_lens_1);
+                 Draw<Policy, kPlain, true>(run, drawer, Dimension::kTime, p.time);
+                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium,
+                                             p.u_medium_0, p.u_medium_1);
+                 if (p.wavelength != nullptr)
+                   FillWavelength<Policy, kPlain>(run, drawer, p);
+               });
 }
 
 template <class Policy, bool kPlain>
@@ -120,33 +114,15 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
         const Drawer drawer = MakeDrawer<kPlain>(p, slots);
         Draw<Policy, kPlain, false>(run, drawer, Dimension::kBsdf, p.u_bsdf_0,
                                     p.u_bsdf_1);
-        if (p.u_lobe != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe, nullptr);
-        }
-        if (p.u_light_0 != nullptr) {
-          Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
-                                      p.u_light_1);
-        }
-        if (p.u_select != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select,
-                                     nullptr);
-        }
-        if (p.u_roulette != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette,
-                                     nullptr);
-        }
-        if (p.u_shadow != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kShadow, p.u_shadow,
-                                     nullptr);
-        }
-        if (p.u_candidate != nullptr) {
-          Draw<Policy, kPlain, true>(run, drawer, Dimension::kCandidate, p.u_candidate,
-                                     nullptr);
-        }
-        if (p.u_medium_0 != nullptr) {  // of the ray that follows
-          Draw<Policy, kPlain, false>(run, drawer, Dimension::kMedium, p.u_medium_0,
-                                      p.u_medium_1);
-        }
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kLobe, p.u_lobe);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kLight, p.u_light_0,
+                                    p.u_light_1);
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select);
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette);
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kShadow, p.u_shadow);
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kCandidate, p.u_candidate);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kMedium, p.u_medium_0,
+                                    p.u_medium_1);
       });
 }
 

@@ -1,7 +1,6 @@
 // points=halton: Owen-scrambled Halton points, padded from pairs of bases 2 and 3.
-//   estimator   mean of f over a prefix of the sequence: every interval of 2^-a times
-//   3^-b
-//               holds one of any 2^a 3^b successive points
+//   estimator   mean of f over a prefix of the sequence: every interval of size
+//               2^-a 3^-b holds one of any 2^a 3^b successive points
 //   scrambling  nested random permutations of the digits (Owen): in base 2 by the hash of
 //               Laine and Karras, in base 3 by one of the six permutations of a digit,
 //               chosen by a hash of the digits before it. Digits beyond the sequence's
@@ -15,7 +14,7 @@
 #ifndef LANELIGHT_POINTS_HALTON_INL_H_
 #define LANELIGHT_POINTS_HALTON_INL_H_
 
-#include "kernels/points/permute-inl.h"
+#include "kernels/points/group-inl.h"
 #include "kernels/points/sobol-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -58,11 +57,7 @@ LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
   return InStratum(kHaltonStrata, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
 }
 
-struct HaltonPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct HaltonPoints : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

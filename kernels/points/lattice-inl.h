@@ -21,11 +21,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-struct LatticePoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct LatticePoints : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

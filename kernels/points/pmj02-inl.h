@@ -16,16 +16,12 @@
 #ifndef LANELIGHT_POINTS_PMJ02_INL_H_
 #define LANELIGHT_POINTS_PMJ02_INL_H_
 
-#include "kernels/points/permute-inl.h"
+#include "kernels/points/group-inl.h"
 #include "src/scene/prepare/pmj02.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct Pmj02Points {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct Pmj02Points : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters& points, const PointKey& of,
                                      VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;

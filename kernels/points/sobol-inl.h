@@ -37,10 +37,7 @@ LANELIGHT_INLINE VU ReversedSobol1(VU i) {
   return hn::Xor(i, hn::And(hn::ShiftRight<1>(i), SplatU(0x55555555u)));
 }
 
-struct SobolPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
+struct SobolPoints : PointsByTurns {
   static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -1,9 +1,8 @@
-// points=stratified: jittered strata that subdivide as samples are added. Any 2^m
-// successive samples of a group from a multiple of 2^m on fill a grid of 2^ceil(m/2) x
-// 2^floor(m/2) strata, one sample each.
-//   estimator   mean of f(x, y), with x and y the even and the odd bits of a number v
-//   whose
-//               first m bits are, over 2^m samples, each once: the van der Corput
+// points=stratified: jittered strata that subdivide as samples are added. 2^m
+// successive samples of a group, from a multiple of 2^m on, fill 2^ceil(m/2) x
+// 2^floor(m/2) strata with one sample each.
+//   estimator   mean of f(x, y), x and y the even and odd bits of a number v
+//               whose first m bits are, over 2^m samples, each once: the van der Corput
 //               sequence with nested random permutations of order and digits, laid along
 //               the Z-order curve. Scalars are v itself: 2^m strata in one dimension
 //   unbiased    the permutations are random, so each sample is uniform, for any N
@@ -30,11 +29,7 @@ LANELIGHT_INLINE VU OddBits(VU v) {
   return hn::And(hn::Or(v, hn::ShiftLeft<8>(v)), SplatU(0xffff0000u));
 }
 
-struct StratifiedPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
-  }
-
+struct StratifiedPoints : PointsByTurns {
   /// A scrambled van der Corput point in 2^-32.
   static LANELIGHT_INLINE VU Along(GroupIndex at, const U4& h) {
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
@@ -56,8 +51,8 @@ struct StratifiedPoints {
     *u1 = ToUnit(y);
   }
 
-  static LANELIGHT_INLINE VF Number(const PointsParameters&, VU pixel, GroupIndex at,
-                                    VU key, VU seed) {
+  static LANELIGHT_INLINE VF Number(const PointsParameters&, const PointKey& of) {
+    const auto& [pixel, at, key, seed] = of;
     return ToUnit(Along(at, Pcg4d({pixel, at.group, key, seed})));
   }
 };

@@ -19,12 +19,12 @@
 #define LANELIGHT_POINTS_WAVELENGTH_INL_H_
 
 #include "kernels/points/sobol-inl.h"
-#include "kernels/simd/pixel-inl.h"
+#include "kernels/simd/math-inl.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Who goes around the circle, and how far along from its own start.
+/// A walk around the circle, and its offset from the start.
 struct CircleWalk {
   VU pixel_or_tile, group, index, offset;
 };
@@ -51,7 +51,8 @@ LANELIGHT_INLINE VF PixelWavelength(const RunParameters& run, VU pixel, VU sampl
   return WavelengthOn({pixel, at.group, at.index, hn::Zero(DU())}, run.seed);
 }
 
-/// Of the seed, the tile and the sample alone. Any pixel of the tile will do.
+/// Returns a number that depends on the seed, the tile and the sample only: `pixel` may
+/// be any of the tile.
 LANELIGHT_INLINE VF TileWavelength(const RunParameters& run, VU pixel, VU sample) {
   static_assert(kReuseTile == 16);
   const PixelPlace place(hn::BitCast(DI(), pixel), run.width);

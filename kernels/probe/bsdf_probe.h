@@ -27,7 +27,6 @@ struct BsdfBatch {
   float* eta_scale = nullptr;  // Sample only
 };
 
-/// Entries of one kind of material.
 struct BsdfProbe {
   void (*eval)(const BsdfBatch&) = nullptr;  // null for purely specular materials
   void (*sample)(const BsdfBatch&) = nullptr;

@@ -32,62 +32,35 @@ HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
   }
 }
 
+// With u1 = null, draws the numbers of a scalar dimension.
 template <class Policy>
 void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0,
                  float* u1) {
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
-    VF a, b;
-    Policy::Point(points, {pixel, at, SplatU(q.key), SplatU(q.seed)}, &a, &b);
-    hn::StoreU(a, DF(), u0 + i);
-    hn::StoreU(b, DF(), u1 + i);
-  });
-}
-
-template <class Policy>
-void ProbePolicyNumbers(const PointsQuery& q, float* u) {
-  const PointsParameters points = MakePointsParameters(q.points);
-  ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
-    const GroupIndex at = Policy::Group(points, sample);
+    const PointKey of = {pixel, at, SplatU(q.key), SplatU(q.seed)};
     VF a, b;
     if constexpr (HasNumber<Policy>) {
-      a = Policy::Number(points, pixel, at, SplatU(q.key), SplatU(q.seed));
-    } else {
-      Policy::Point(points, {pixel, at, SplatU(q.key), SplatU(q.seed)}, &a, &b);
+      if (u1 == nullptr) {
+        a = Policy::Number(points, of);
+        return hn::StoreU(a, DF(), u0 + i);
+      }
     }
-    hn::StoreU(a, DF(), u + i);
+    Policy::Point(points, of, &a, &b);
+    hn::StoreU(a, DF(), u0 + i);
+    if (u1 != nullptr) hn::StoreU(b, DF(), u1 + i);
   });
 }
-
-#define LANELIGHT_POLICIES(X)        \
-  X(kIndependent, IndependentPoints) \
-  X(kStratified, StratifiedPoints)   \
-  X(kCmj, CmjPoints)                 \
-  X(kPmj02, Pmj02Points)             \
-  X(kSobol, SobolPoints)             \
-  X(kHalton, HaltonPoints)           \
-  X(kLattice, LatticePoints)
 
 void Probe(const PointsQuery& q, const PointsParameters& points, float* u0, float* u1) {
   switch (q.points) {
-#define X(enumerator, Policy) \
-  case Points::enumerator:    \
-    return ProbePolicy<Policy>(q, points, u0, u1);
-    LANELIGHT_POLICIES(X)
+#define X(Type, key, name, ...) \
+  case Points::k##name:         \
+    return ProbePolicy<name##Points>(q, points, u0, u1);
+    LANELIGHT_POINTS(X, Points, "points")
 #undef X
   }
 }
-
-void ProbeScalar(const PointsQuery& q, float* u) {
-  switch (q.points) {
-#define X(enumerator, Policy) \
-  case Points::enumerator:    \
-    return ProbePolicyNumbers<Policy>(q, u);
-    LANELIGHT_POLICIES(X)
-#undef X
-  }
-}
-#undef LANELIGHT_POLICIES
 
 void ProbeTurns(const PointsParameters& points, uint32_t first, uint32_t count,
                 const GroupColumns& out) {
@@ -120,7 +93,6 @@ LANELIGHT_END_KERNELS
 namespace lanelight {
 
 HWY_EXPORT(Probe);
-HWY_EXPORT(ProbeScalar);
 HWY_EXPORT(ProbeTurns);
 HWY_EXPORT(ProbePermuted);
 
@@ -134,7 +106,7 @@ void ProbePoints(SimdTarget target, const PointsQuery& query,
 }
 
 void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u) {
-  LANELIGHT_ON(target, ProbeScalar)(query, u);
+  ProbePoints(target, query, u, nullptr);
 }
 
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,

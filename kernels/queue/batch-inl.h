@@ -1,4 +1,5 @@
-// Loop over a queue of path slots, a vector at a time.
+// Loops over a queue of path slots, a vector at a time; sub-queues; keys of random
+// numbers.
 #ifndef LANELIGHT_QUEUE_BATCH_INL_H_
 #define LANELIGHT_QUEUE_BATCH_INL_H_
 
@@ -6,6 +7,9 @@
 
 #include "kernels/queue/slots-inl.h"
 #include "src/base/core/check.h"
+#include "src/vocabulary/path/dimensions.h"
+#include "src/vocabulary/path/fields.h"
+#include "src/vocabulary/path/scene_parts.h"
 #include "src/vocabulary/path/stage.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -64,6 +68,58 @@ LANELIGHT_INLINE void Push(Queue& queue, VI slots, MF mask) {
   const VI packed = hn::Compress(slots, hn::RebindMask(di, mask));
   hn::StoreU(packed, di, reinterpret_cast<int32_t*>(queue.items) + queue.size);
   queue.size += static_cast<uint32_t>(hn::CountTrue(DF(), mask));
+}
+
+/// Collects into kScratch, in order, the slots of `queue` for which predicate(slots) is
+/// true. Filtering is not counted as occupancy; the loop over the result is.
+template <class Predicate>
+HWY_INLINE const Queue& FilterQueue(Wave& wave, const Queue& queue,
+                                    Predicate&& predicate) {
+  const DF df;
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(df));
+  Queue& scratch = wave.queue(QueueId::kScratch);
+  scratch.size = 0;
+  LL_DCHECK(HoldsSlots(wave, queue));
+  PadTail(queue);
+  for (uint32_t i = 0; i < queue.size; i += lanes) {
+    const Slots slots(hn::LoadU(DI(), reinterpret_cast<const int32_t*>(queue.items) + i));
+    const MF mine = hn::And(predicate(slots), hn::FirstN(df, queue.size - i));
+    if (!hn::AllFalse(df, mine)) Push(scratch, slots, mine);
+  }
+  return scratch;
+}
+
+/// Returns the slots of `queue` whose primitive id lies in [begin, end); the queue itself
+/// if the scene has no other primitives.
+HWY_INLINE const Queue& FilterPrimitives(Wave& wave, const Queue& queue, uint32_t begin,
+                                         uint32_t end) {
+  if (begin == 0 && end == wave.ranges->end) return queue;
+  const uint32_t* prims = wave.path.prim;
+  return FilterQueue(wave, queue, [&](const Slots& slots) HWY_ATTR {
+    const DU du;
+    const VU prim = hn::BitCast(du, Gather(prims, slots));
+    // One comparison: prim - begin wraps around below begin.
+    const auto inside =
+        hn::Lt(hn::Sub(prim, hn::Set(du, begin)), hn::Set(du, end - begin));
+    return hn::RebindMask(DF(), inside);
+  });
+}
+
+/// Returns the key of dimension 0 at a depth.
+HWY_INLINE VU FirstKey(VU depth) { return hn::ShiftLeft<kDepthShift>(depth); }
+
+/// Returns the key of dimension 0 at a depth, for split paths too.
+HWY_INLINE VU FirstKey(const PathColumns& p, VU depth, const Slots& slots) {
+  if (p.branch == nullptr) return FirstKey(depth);
+  const VU branch = hn::BitCast(DU(), Gather(p.branch, slots));
+  return hn::Or(FirstKey(depth), hn::ShiftLeft<kBranchShift>(branch));
+}
+
+/// Returns the key of a dimension; `offset` lies within the range of its purpose.
+HWY_INLINE VU KeyOf(const PathColumns& p, Dimension dimension, VU depth,
+                    const Slots& slots, uint32_t offset = 0) {
+  const uint32_t place = static_cast<uint32_t>(dimension) + offset;
+  return hn::Add(FirstKey(p, depth, slots), hn::Set(DU(), place));
 }
 
 LANELIGHT_END_KERNELS

@@ -2,7 +2,7 @@
 // where its light comes from and how much, and where the path goes on.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/reuse/block-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -13,7 +13,7 @@
 // (kernels/reuse/glossy.cc).
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "src/scene/compiled/materials.h"
 

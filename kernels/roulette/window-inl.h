@@ -19,7 +19,6 @@
 #define LANELIGHT_ROULETTE_WINDOW_INL_H_
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/queue/key-inl.h"
 #include "kernels/roulette/cell-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "src/base/core/check.h"

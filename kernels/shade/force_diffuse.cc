@@ -5,7 +5,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/kinds-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

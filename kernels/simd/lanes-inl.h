@@ -21,7 +21,6 @@
 LANELIGHT_BEGIN_KERNELS
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The lane types of all kernels: full vectors of 4-byte lanes.
 using DF = hn::ScalableTag<float>;
 using DU = hn::RebindToUnsigned<DF>;
 using DI = hn::RebindToSigned<DF>;
@@ -50,7 +49,7 @@ LANELIGHT_INLINE void Scatter(VI v, uint32_t* base, VI index) {
   hn::ScatterIndex(v, DI(), reinterpret_cast<int32_t*>(base), index);
 }
 
-/// Permutations pay where a gather has many lanes.
+/// Permutations are faster than gathers of many lanes.
 inline constexpr bool kWindows = hn::MaxLanes(DF()) >= 8;
 
 /// Entries of a table of `count`, index < count: a small one fits into a register.

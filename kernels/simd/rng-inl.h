@@ -31,7 +31,7 @@ LANELIGHT_INLINE U4 Pcg4d(U4 v) {
   return mix({fold(v.x), fold(v.y), fold(v.z), fold(v.w)});
 }
 
-/// Uniform in [0, 1): the top 24 bits, exact in float.
+/// Returns a uniform number in [0, 1): the top 24 bits, exact in float.
 LANELIGHT_INLINE VF ToUnit(VU bits) {
   const VI top = hn::BitCast(DI(), hn::ShiftRight<8>(bits));
   return hn::Mul(hn::ConvertTo(DF(), top), hn::Set(DF(), 0x1p-24f));

@@ -66,7 +66,7 @@ std::int64_t TargetNamed(const std::string& name) {
 // The targets that `./run build` compiles: "all" in cmake/targets.cmake.
 constexpr std::int64_t kAllTargets = HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON;
 
-// Names of the bits.
+// Returns the names of the targets whose bits are set.
 std::vector<std::string> TargetsOf(std::int64_t targets) {
   std::vector<std::string> names;
   for (std::int64_t bits = targets; bits != 0; bits &= bits - 1) {

@@ -11,9 +11,9 @@ namespace lanelight {
 /// given one; none is in force by itself.
 class SimdTarget {
  public:
-  /// The best one that this machine can run.
+  /// Chooses the best target that this machine can run.
   SimdTarget();
-  /// The one of that name (case-insensitive); empty: the best. Throws InputError that
+  /// Chooses a target by name (case-insensitive); empty: the best. Throws InputError that
   /// lists the names that this machine can run.
   explicit SimdTarget(const std::string& name);
 
@@ -21,7 +21,7 @@ class SimdTarget {
   std::string name() const;
   /// 4-byte lanes of a full vector.
   int lanes() const;
-  /// Its place in the tables of HWY_EXPORT.
+  /// Returns the index in the tables of HWY_EXPORT.
   std::size_t table_index() const { return table_index_; }
 
   bool operator==(const SimdTarget&) const = default;
@@ -35,17 +35,18 @@ class SimdTarget {
 #define LANELIGHT_ON(target, function) \
   (*HWY_DISPATCH_TABLE(function)[(target).table_index()])
 
-/// Targets compiled in that this machine can run, best first, e.g. {"AVX3", "AVX2", ...}.
+/// Returns the targets compiled in that this machine can run, best first, e.g. {"AVX3",
+/// "AVX2", ...}.
 std::vector<std::string> AvailableTargets();
 
-/// Why there is no such target here, and what to do: the program was built without it, or
-/// the machine cannot run it, or there is none of that name.
+/// Says why a target is not available, and what to do: the program was built without it,
+/// or the machine cannot run it, or there is none of that name.
 std::string WhyNoTarget(const std::string& name);
 
 /// Throws InputError if there is none. What kernels do then is undefined.
 void RequireTarget();
 
-/// Version of the Highway headers, e.g. "1.0.3".
+/// Returns the version of the Highway headers, e.g. "1.0.3".
 std::string HighwayVersion();
 
 }  // namespace lanelight

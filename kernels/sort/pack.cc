@@ -7,7 +7,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// One past the highest slot of the queue; 0 if it is empty.
+// Returns one past the highest slot of the queue; 0 if it is empty.
 HWY_INLINE uint32_t EndOf(const Queue& queue) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));

@@ -1,8 +1,8 @@
 // Surface points in double precision, rounded once, and how far off they may be.
 //
 // Intersection decides exactly on which side of a surface an origin lies
-// (kernels/intersect/recheck.h). A point therefore moves only as far as rounding can have
-// put it on the wrong side. With u = 2^-24:
+// (kernels/intersect/triangle-inl.h). A point therefore moves only as far as rounding can
+// have put it on the wrong side. With u = 2^-24:
 //   p is rounded once:              u sum |n_i p_i| along n
 //   p + n p_error is rounded twice: 2u sum |n_i p_i| (product and sum without fma)
 // Their sum is 3u; RoundingError gives 4u, plus a part of the shape's size that covers

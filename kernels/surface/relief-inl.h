@@ -17,7 +17,7 @@
 #ifndef LANELIGHT_SURFACE_RELIEF_INL_H_
 #define LANELIGHT_SURFACE_RELIEF_INL_H_
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
 #include "src/scene/compiled/materials.h"
 

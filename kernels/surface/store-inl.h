@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "hwy/contrib/math/math-inl.h"
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
 

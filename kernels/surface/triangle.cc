@@ -1,7 +1,7 @@
 // The surface at hits on triangles.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/filter-inl.h"
+#include "kernels/queue/batch-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/point-inl.h"

@@ -14,7 +14,6 @@
 #ifndef LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
 #define LANELIGHT_WARP_SPHERICAL_RECTANGLE_INL_H_
 
-#include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -50,7 +49,7 @@ LANELIGHT_INLINE VF CutRectangle(const LocalRectangle& r, VF omega, VF u) {
   const VF twice = hn::Mul(Splat(2.0f), Sqr(half.sin));
   const VF under = hn::Mul(hn::Sub(lower, twice), hn::Sub(upper, twice));
   const VF sine = hn::Mul(Splat(2.0f), hn::Mul(half.sin, half.cos));
-  // Past the end of the range by rounding: as far as it goes.
+  // Rounding may pass the end of the range, which is then the result.
   const VF x = hn::Div(hn::Mul(r.z, sine), hn::Sqrt(hn::Max(under, Splat(1e-37f))));
   return hn::Clamp(x, r.x0, r.x1);
 }
@@ -111,7 +110,7 @@ struct OrientedRectangle {
   }
 };
 
-/// For u0, u1 in [0, 1); omega: the solid angle, positive.
+/// Samples a point for u0, u1 in [0, 1); omega: the solid angle, positive.
 LANELIGHT_INLINE RectanglePoint SampleSphericalRectangle(const LocalRectangle& rectangle,
                                                          VF omega, VF u0, VF u1) {
   const OrientedRectangle o(rectangle);

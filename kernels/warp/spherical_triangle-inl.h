@@ -13,7 +13,6 @@
 #ifndef LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
 #define LANELIGHT_WARP_SPHERICAL_TRIANGLE_INL_H_
 
-#include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

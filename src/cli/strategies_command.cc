@@ -9,8 +9,8 @@
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
-#include "src/vocabulary/strategy/strategies_json.h"
 #include "src/vocabulary/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

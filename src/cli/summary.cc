@@ -12,7 +12,7 @@
 #include "src/cli/progress.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/description/note.h"
-#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

@@ -9,7 +9,7 @@
 #include "src/base/image/image.h"
 #include "src/measure/live/state_json.h"
 #include "src/render/job/loaded_scene.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight::live {
 namespace {

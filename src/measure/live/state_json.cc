@@ -9,7 +9,7 @@
 #include "src/base/core/version.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/description/film.h"
-#include "src/vocabulary/strategy/strategies_json.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight::live {
 namespace {

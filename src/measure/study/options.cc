@@ -6,7 +6,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/source_location.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "src/base/core/source_location.h"
 #include "src/render/job/setting.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

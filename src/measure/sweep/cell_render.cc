@@ -6,7 +6,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
 #include "src/scene/compile/compile.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

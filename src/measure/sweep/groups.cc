@@ -7,7 +7,7 @@
 #include "src/base/stat/hypothesis.h"
 #include "src/base/stat/values.h"
 #include "src/measure/sweep/sweep_folder.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

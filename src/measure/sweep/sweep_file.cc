@@ -8,7 +8,7 @@
 #include "src/base/core/suggest.h"
 #include "src/measure/sweep/sweep_settings.h"
 #include "src/measure/sweep/toml_values.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

@@ -10,8 +10,8 @@
 #include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_warnings.h"
 #include "src/render/job/machine_json.h"
-#include "src/vocabulary/strategy/choices_text.h"
 #include "src/vocabulary/strategy/strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

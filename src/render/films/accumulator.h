@@ -15,7 +15,7 @@
 #include "src/base/image/pixel_rect.h"
 #include "src/render/films/bucket_film.h"
 #include "src/render/films/regression_film.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
 

@@ -31,7 +31,7 @@
 #include "src/base/core/column.h"
 #include "src/base/core/vec.h"
 #include "src/base/image/pixel_rect.h"
-#include "src/vocabulary/path/first_numbers.h"
+#include "src/vocabulary/path/dimensions.h"
 #include "src/vocabulary/path/replicates.h"
 
 namespace lanelight {
@@ -89,7 +89,7 @@ struct ControlledSamples {
 /// samples, or between replicates (src/vocabulary/path/replicates.h).
 class RegressionFilm {
  public:
-  /// The bits of codes (src/vocabulary/path/first_numbers.h): position in the pixel,
+  /// The bits of codes (src/vocabulary/path/dimensions.h): position in the pixel,
   /// direction, point on a light, choices.
   static constexpr int kPlanes = kFirstNumbers;
   static constexpr int kFunctions = 12;

@@ -7,7 +7,7 @@
 #include "src/base/core/version.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/setting.h"
-#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

@@ -10,7 +10,7 @@
 #include "src/base/image/image.h"
 #include "src/scene/compile/compile.h"
 #include "src/scene/description/film.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {

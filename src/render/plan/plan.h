@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kernels/simd/target.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/strategy/strategy.h"
 

@@ -3,7 +3,7 @@
 #include "src/scene/compiled/scene.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/block.h"
-#include "src/vocabulary/path/choice_features.h"
+#include "src/vocabulary/path/features.h"
 #include "src/vocabulary/path/light_shapes.h"
 
 namespace lanelight {

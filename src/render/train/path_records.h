@@ -7,7 +7,7 @@
 #include "src/render/train/training_pass.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/tables.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
 

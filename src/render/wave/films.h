@@ -9,7 +9,7 @@
 #include "src/base/image/color_spaces.h"
 #include "src/base/image/pixel_rect.h"
 #include "src/render/films/accumulator.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
 

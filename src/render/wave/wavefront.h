@@ -8,7 +8,7 @@
 
 #include "src/base/core/aligned.h"
 #include "src/render/plan/plan.h"
-#include "src/vocabulary/path/sample_planes.h"
+#include "src/vocabulary/path/run_parameters.h"
 #include "src/vocabulary/path/wave.h"
 
 namespace lanelight {

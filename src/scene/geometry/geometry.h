@@ -12,7 +12,7 @@
 #include "src/base/core/aligned.h"
 #include "src/base/core/motion_record.h"
 #include "src/base/core/vec.h"
-#include "src/vocabulary/path/primitive_ranges.h"
+#include "src/vocabulary/path/scene_parts.h"
 
 namespace lanelight {
 

@@ -24,11 +24,11 @@ enum class ReuseState : std::uint32_t {
   kFar,      // what was gathered before the vertex after it is kept as well
   kMirrored  // its light sample is kept; what comes next has been found by a mirror
 };
-/// Its second vertex is offered to others.
+/// Returns whether the second vertex is offered to other paths.
 constexpr bool Serves(std::uint32_t state) {
   return state >= static_cast<std::uint32_t>(ReuseState::kSecond);
 }
-/// And what it sends depends on where to.
+/// Returns whether, moreover, the radiance that it sends depends on the direction.
 constexpr bool ServesGlossily(std::uint32_t state) {
   return state > static_cast<std::uint32_t>(ReuseState::kSecond);
 }
@@ -44,22 +44,22 @@ constexpr std::uint32_t KindBits(ShadeTraits with, std::uint32_t without = 0) {
   return bits;
 }
 static_assert(kNumShadeKinds <= 32);
-/// Those that make a vertex the first one: their value for a pair of directions is known,
-/// and so is the density with which they find one.
+/// Kinds that make a vertex the first one: their value and their density for a pair of
+/// directions are known.
 inline constexpr std::uint32_t kReceivingKinds =
     KindBits(kPlainShading, kSpecularOnly | kWalks | kInMedium);
-/// Those of second vertices that serve others: what is sent to all directions on a side
-/// is the same, or depends on the direction. (Glass sends little but where it refracts;
-/// hair is met elsewhere across its width by each path.)
+/// Kinds of second vertices that are reused: the radiance that they send is the same for
+/// all directions on a side, or depends on the direction. (Glass sends little except
+/// where it refracts; each path meets hair at another place across its width.)
 inline constexpr std::uint32_t kEvenSidedKinds = KindBits(kEvenSides);
 inline constexpr std::uint32_t kGlossyKinds =
     KindBits(kPlainShading, kSpecularOnly | kWalks | kInMedium | kEvenSides |
                                 kRefracting | kTabulated | kFibre);
-/// Of a metal that serves others, at least: a narrow lobe has nothing for most of them.
+/// Smallest roughness of metals that are reused: narrower lobes contribute to few paths.
 inline constexpr float kLeastGlossyAlpha = 0.1f;
 
-/// What is kept of a first vertex, of what there is; `fibres`: some may be hair,
-/// `measured`: or a table by wavelength.
+/// Returns the fields of a first vertex that are kept. `fibres`: some materials may be
+/// hair. `measured`: some have tables by wavelength.
 inline FieldSet FirstVertexFields(bool fibres, bool measured) {
   using namespace fields;
   return (fibres ? FieldSet{Field::uv_v} : FieldSet{}) |
@@ -69,30 +69,25 @@ inline FieldSet FirstVertexFields(bool fibres, bool measured) {
                   Field::d_y,   Field::d_z,    Field::prim,  Field::material};
 }
 
-/// What is kept of a second vertex that is glossy, of what there is: of its material.
+/// Returns the fields of a glossy second vertex that are kept: those of its material.
 inline FieldSet GlossyVertexFields() {
   using namespace fields;
   return kNormal | kTangent | kParameters | FieldSet{Field::material};
 }
 
-// Of each sample of a task, beside the columns of its first vertex: X(type, name,
+// Columns of each sample of a task, beside those of its first vertex: X(type, name,
 // meaning). Vectors are in the scene's space.
-#define LANELIGHT_REUSE_COLUMNS(X)                                                \
-  X(u32, state, "ReuseState when the path ended")                                 \
-  X(f32, before_r,                                                                \
-    "radiance gathered up to the second vertex, what that emits included")        \
-  X(f32, before_g, "radiance gathered up to the second vertex")                   \
-  X(f32, before_b, "radiance gathered up to the second vertex")                   \
-  X(f32, x, "the second vertex")                                                  \
-  X(f32, y, "the second vertex")                                                  \
-  X(f32, z, "the second vertex")                                                  \
-  X(f32, p_error, "offset along its normal that clears its rounding error")       \
-  X(f32, ng_x, "geometric normal there, on the side that the path has come from") \
-  X(f32, ng_y, "geometric normal there")                                          \
-  X(f32, ng_z, "geometric normal there")                                          \
-  X(f32, ns_x, "shading normal there, likewise")                                  \
-  X(f32, ns_y, "shading normal there")                                            \
-  X(f32, ns_z, "shading normal there")
+#define LANELIGHT_REUSE_COLUMNS(X)                                                  \
+  X(u32, state, "ReuseState when the path ended")                                   \
+  LANELIGHT_RGB(X, f32, before,                                                     \
+                "radiance gathered up to the second vertex, its emission included") \
+  X(f32, x, "the second vertex")                                                    \
+  X(f32, y, "the second vertex")                                                    \
+  X(f32, z, "the second vertex")                                                    \
+  X(f32, p_error, "offset along its normal that clears its rounding error")         \
+  LANELIGHT_XYZ(X, f32, ng,                                                         \
+                "geometric normal there, on the side that the path has come from")  \
+  LANELIGHT_XYZ(X, f32, ns, "shading normal there, on the same side")
 
 struct ReuseColumns {
 #define X(type, name, meaning) type* name = nullptr;
@@ -100,28 +95,19 @@ struct ReuseColumns {
 #undef X
 };
 
-// The same of second vertices that are glossy. Colours are radiance that the path itself
+// Columns of second vertices that are glossy. Colours are radiance that the path itself
 // gets, until kernels/reuse/own_light.cc; then they are without what the material makes
 // of light from there.
-#define LANELIGHT_GLOSSY_COLUMNS(X)                                                   \
-  X(f32, light_x, "direction of the light sample, unit, scene")                       \
-  X(f32, light_y, "direction of the light sample")                                    \
-  X(f32, light_z, "direction of the light sample")                                    \
-  X(f32, next_x, "direction of the next ray, unit, scene")                            \
-  X(f32, next_y, "direction of the next ray")                                         \
-  X(f32, next_z, "direction of the next ray")                                         \
-  X(f32, lit_r, "of the light sample")                                                \
-  X(f32, lit_g, "of the light sample")                                                \
-  X(f32, lit_b, "of the light sample")                                                \
-  X(f32, hit_r, "of that and of lights that the path hits next; then of these alone") \
-  X(f32, hit_g, "of lights that the path hits next")                                  \
-  X(f32, hit_b, "of lights that the path hits next")                                  \
-  X(f32, far_r, "of all further ones, times the density of its own direction")        \
-  X(f32, far_g, "of all further ones")                                                \
-  X(f32, far_b, "of all further ones")                                                \
-  X(f32, beta_r, "throughput up to the second vertex, with what led to it")           \
-  X(f32, beta_g, "throughput up to the second vertex")                                \
-  X(f32, beta_b, "throughput up to the second vertex")                                \
+#define LANELIGHT_GLOSSY_COLUMNS(X)                                                      \
+  LANELIGHT_XYZ(X, f32, light, "direction of the light sample, unit, scene")             \
+  LANELIGHT_XYZ(X, f32, next, "direction in which the path goes on, unit, scene")        \
+  LANELIGHT_RGB(X, f32, lit, "radiance of the light sample")                             \
+  LANELIGHT_RGB(X, f32, hit,                                                             \
+                "radiance of that and of lights that the path hits next; "               \
+                "then of these alone")                                                   \
+  LANELIGHT_RGB(X, f32, far,                                                             \
+                "of all further ones, times the density of its own direction")           \
+  LANELIGHT_RGB(X, f32, beta, "throughput up to the second vertex, with what led to it") \
   X(f32, sent, "brightest channel of what it has for others, as its path gets it")
 
 struct GlossyColumns {
@@ -137,12 +123,12 @@ struct KeptColumns {
   std::uint32_t count = 0;
 };
 
-// Of each pair of a second vertex j and a first one i, densities in area measure at j.
-#define LANELIGHT_PAIR_COLUMNS(X)                                              \
-  X(f32, f_r, "throughput to the camera: of the prefix of i, and from j to i") \
-  X(f32, f_g, "throughput to the camera")                                      \
-  X(f32, f_b, "throughput to the camera")                                      \
-  X(f32, pdf_area, "density with which i would have found j")                  \
+// Columns of each pair of a second vertex j and a first one i; densities are in area
+// measure at j.
+#define LANELIGHT_PAIR_COLUMNS(X)                                                \
+  LANELIGHT_RGB(X, f32, f,                                                       \
+                "throughput to the camera: of the prefix of i, and from j to i") \
+  X(f32, pdf_area, "density with which i would have found j")                    \
   X(f32, visible, "1 or 0")
 
 struct PairColumns {
@@ -151,13 +137,13 @@ struct PairColumns {
 #undef X
 };
 
-/// Room for a vector of any target.
+/// Lanes of the widest vectors of all targets.
 inline constexpr std::uint32_t kMostLanes = 16;
 
 struct Wave;
 
-/// Of what a second vertex sends, that which has one set of weights. Its colour is in the
-/// f of its pairs already where it is not even.
+/// The part of the radiance of a second vertex that has one set of weights. Unless it is
+/// kEven, its colour is already in the f of its pairs.
 enum class SuffixPart : std::uint32_t {
   kEven,  // all, alike to all
   kNear,  // of a glossy one, from its light sample and lights hit from there

@@ -2,6 +2,7 @@
 // variants name the bits they need; the plan drops the rest.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -104,33 +105,17 @@ namespace lanelight {
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.
 #define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)
 #define LANELIGHT_OWN_FEATURE_PLAIN(name, meaning)
-#define LANELIGHT_DIRECTIONS_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Directions, "directions=" text)
-#define LANELIGHT_POINTS_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Points, "points=" text)
-#define LANELIGHT_PAIRS_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Pairs, "pairs=" text)
-#define LANELIGHT_CONTROL_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Control, "control=" text)
-#define LANELIGHT_ROULETTE_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Roulette, "roulette=" text)
-#define LANELIGHT_SHADOW_ROULETTE_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##ShadowRoulette, "shadow-roulette=" text)
-#define LANELIGHT_DISTANCES_FEATURE(name, own, also, text, ...) \
-  LANELIGHT_OWN_FEATURE_##own(k##name##Distances, "distances=" text)
+#define LANELIGHT_CHOICE_FEATURE(Type, key, name, own, also, text, ...) \
+  LANELIGHT_OWN_FEATURE_##own(k##name##Type, key "=" text)
+#define LANELIGHT_AXIS_FEATURES(Type, member, key, CHOICES) \
+  CHOICES(LANELIGHT_CHOICE_FEATURE, Type, key)
 #define LANELIGHT_SHADE_FEATURE(name, traits, meaning) X(k##name, meaning)
 
 // X(bit name, meaning), by that name: the lists that this one is made of ask for it.
-#define LANELIGHT_FEATURES(X)                                   \
-  LANELIGHT_COMMON_FEATURES(X)                                  \
-  LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_FEATURE)                \
-  LANELIGHT_DIRECTIONS(LANELIGHT_DIRECTIONS_FEATURE)            \
-  LANELIGHT_POINTS(LANELIGHT_POINTS_FEATURE)                    \
-  LANELIGHT_PAIRS(LANELIGHT_PAIRS_FEATURE)                      \
-  LANELIGHT_CONTROLS(LANELIGHT_CONTROL_FEATURE)                 \
-  LANELIGHT_ROULETTES(LANELIGHT_ROULETTE_FEATURE)               \
-  LANELIGHT_SHADOW_ROULETTES(LANELIGHT_SHADOW_ROULETTE_FEATURE) \
-  LANELIGHT_DISTANCES(LANELIGHT_DISTANCES_FEATURE)
+#define LANELIGHT_FEATURES(X)                    \
+  LANELIGHT_COMMON_FEATURES(X)                   \
+  LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_FEATURE) \
+  LANELIGHT_AXES(LANELIGHT_AXIS_FEATURES)
 
 enum class Feature : std::uint8_t {
 #define X(name, meaning) name,
@@ -139,53 +124,58 @@ enum class Feature : std::uint8_t {
       kCount
 };
 
-class FeatureSet {
+/// A set of the values of an enumeration that ends with kCount. Not a std::bitset: sets
+/// are known when kernels are compiled, so that no code of a kernel file runs before main
+/// has examined the processor.
+template <class E>
+class EnumSet {
  public:
-  constexpr FeatureSet() = default;
-  constexpr FeatureSet(std::initializer_list<Feature> features) {
-    for (Feature f : features) Add(f);
+  constexpr EnumSet() = default;
+  constexpr EnumSet(std::initializer_list<E> values) {
+    for (E v : values) Add(v);
   }
-  static constexpr FeatureSet All() {
-    FeatureSet all;
-    for (std::uint64_t& word : all.words_) word = ~std::uint64_t{0};
+  static constexpr EnumSet All() {
+    EnumSet all;
+    all.words_.fill(~std::uint64_t{0});
     return all;
   }
-  constexpr void Add(Feature f) { words_[Word(f)] |= Bit(f); }
-  constexpr void Add(const FeatureSet& o) {
-    for (std::size_t i = 0; i < kWords; ++i) words_[i] |= o.words_[i];
+  constexpr void Add(E v) { words_[Word(v)] |= Bit(v); }
+  constexpr void Add(const EnumSet& o) { *this = *this | o; }
+  constexpr void Remove(E v) { words_[Word(v)] &= ~Bit(v); }
+  constexpr void Remove(const EnumSet& o) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] &= ~o.words_[i];
   }
-  constexpr void Remove(Feature f) { words_[Word(f)] &= ~Bit(f); }
-  constexpr void Remove(const FeatureSet& o) {
-    for (std::size_t i = 0; i < kWords; ++i) words_[i] &= ~o.words_[i];
+  constexpr bool Has(E v) const { return (words_[Word(v)] & Bit(v)) != 0; }
+  constexpr bool HasAll(const EnumSet& o) const {
+    EnumSet missing = o;
+    missing.Remove(*this);
+    return missing.empty();
   }
-  constexpr bool Has(Feature f) const { return (words_[Word(f)] & Bit(f)) != 0; }
-  constexpr bool HasAll(const FeatureSet& o) const {
-    std::uint64_t missing = 0;
-    for (std::size_t i = 0; i < kWords; ++i) missing |= o.words_[i] & ~words_[i];
-    return missing == 0;
+  constexpr bool HasAny(const EnumSet& o) const {
+    EnumSet rest = o;
+    rest.Remove(*this);
+    return !(rest == o);
   }
-  constexpr bool HasAny(const FeatureSet& o) const {
-    std::uint64_t common = 0;
-    for (std::size_t i = 0; i < kWords; ++i) common |= o.words_[i] & words_[i];
-    return common != 0;
+  constexpr bool empty() const { return *this == EnumSet(); }
+  constexpr EnumSet operator|(const EnumSet& o) const {
+    EnumSet both = *this;
+    for (std::size_t i = 0; i < words_.size(); ++i) both.words_[i] |= o.words_[i];
+    return both;
   }
-  constexpr bool empty() const { return !HasAny(All()); }
-  friend constexpr bool operator==(const FeatureSet&, const FeatureSet&) = default;
+  friend constexpr bool operator==(const EnumSet&, const EnumSet&) = default;
 
  private:
-  static constexpr std::size_t kWords =
-      (static_cast<std::size_t>(Feature::kCount) + 63) / 64;
-  static constexpr std::size_t Word(Feature f) {
-    return static_cast<std::size_t>(f) / 64;
+  static constexpr std::size_t Word(E v) { return static_cast<std::size_t>(v) / 64; }
+  static constexpr std::uint64_t Bit(E v) {
+    return std::uint64_t{1} << (static_cast<std::size_t>(v) % 64);
   }
-  static constexpr std::uint64_t Bit(Feature f) {
-    return std::uint64_t{1} << (static_cast<int>(f) % 64);
-  }
-  std::uint64_t words_[kWords] = {};
+
+  std::array<std::uint64_t, (static_cast<std::size_t>(E::kCount) + 63) / 64> words_{};
 };
+using FeatureSet = EnumSet<Feature>;
 static_assert(static_cast<int>(Feature::kCount) < 256);  // Feature's own type
 
-/// The feature that says that a scene has a kind of material.
+/// Returns the feature of a kind of material.
 constexpr Feature ShadeFeature(ShadeKind kind) {
   constexpr Feature kFeatures[] = {
 #define X(name, traits, meaning) Feature::k##name,
@@ -197,7 +187,7 @@ constexpr Feature ShadeFeature(ShadeKind kind) {
   return kFeatures[static_cast<int>(kind)];
 }
 
-/// The kinds of materials with a trait.
+/// Returns the kinds of materials with a trait.
 constexpr FeatureSet KindsWith(ShadeTraits trait) {
   FeatureSet features;
   for (int k = 0; k < kNumShadeKinds; ++k) {
@@ -207,11 +197,17 @@ constexpr FeatureSet KindsWith(ShadeTraits trait) {
   return features;
 }
 
-/// Identifier without the leading k, e.g. "ConductorRough".
+/// The features that a choice of a strategy turns on, from the lists in
+/// src/vocabulary/strategy/choices.h.
+#define LANELIGHT_AXIS(Type, ...) FeatureSet TurnsOn(Type choice);
+LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+
+/// Returns the identifier without the leading k, e.g. "ConductorRough".
 const char* FeatureName(Feature f);
-/// One-line meaning from the list above.
+/// Returns the meaning from the list above.
 const char* FeatureMeaning(Feature f);
-/// What a scene without it lacks, after that meaning: "no thin lens", "not points=sobol".
+/// Describes a scene without the feature: "no thin lens", "not points=sobol".
 std::string WithoutFeature(Feature f);
 
 }  // namespace lanelight

@@ -1,23 +1,21 @@
 // Every column of a path, declared once: type, name, features that need it, lifetime,
-// initial value, meaning. Derived from this list: allocation (null if not needed),
-// poisoning in debug builds, bytes per path, initial values, what is carried to the next
-// wave, what split paths inherit, and the read/write checks of the plan.
+// initial value, meaning. The list determines allocation (null if not needed), poisoning
+// in debug builds and bytes per path. It also determines initial values, what is carried
+// to the next wave, what split paths inherit, and the plan's checks of reads and writes.
 //
 // A column is an array of 4-byte lanes indexed by path slot. A vector is three columns.
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 
 #include "src/vocabulary/path/features.h"
 
 namespace lanelight {
 
-/// How long the value of a column is needed.
+/// The time for which the value of a column is needed.
 enum class Lifetime : std::uint8_t {
   kCamera,    // to the stages of the camera
   kHit,       // until the surface at the hit is known
@@ -145,7 +143,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
-  X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/vocabulary/path/first_numbers.h)") \
+  X(u32, first_film, ({kRegressionControl}), kPath, (), "u_film of the path, as codes (src/vocabulary/path/dimensions.h)") \
   X(u32, first_bsdf, ({kRegressionControl}), kPath, (0u), "u_bsdf of the first event that is not specular; 0 = none") \
   X(u32, first_light, ({kRegressionControl}), kPath, (0u), "u_light of that event; 0 = none") \
   X(u32, choices, ({kRegressionControl}), kPath, (0u), "the first two choices of lobes; 0 = none") \
@@ -193,30 +191,7 @@ struct PathColumns {
 #undef X
 };
 
-/// A set of columns, for what a stage reads and writes.
-class FieldSet {
- public:
-  constexpr FieldSet() = default;
-  constexpr FieldSet(std::initializer_list<Field> fields) {
-    for (Field f : fields) words_[Word(f)] |= Bit(f);
-  }
-  constexpr bool Has(Field f) const { return (words_[Word(f)] & Bit(f)) != 0; }
-  constexpr FieldSet operator|(const FieldSet& o) const {
-    FieldSet r = *this;
-    for (std::size_t i = 0; i < words_.size(); ++i) r.words_[i] |= o.words_[i];
-    return r;
-  }
-
- private:
-  static constexpr std::size_t Word(Field f) { return static_cast<std::size_t>(f) / 64; }
-  static constexpr std::uint64_t Bit(Field f) {
-    return std::uint64_t{1} << (static_cast<std::size_t>(f) % 64);
-  }
-
-  // Not a bitset: sets of fields are known when kernels are compiled, so that nothing of
-  // a kernel file runs before main has looked at the processor.
-  std::array<std::uint64_t, (kNumFields + 63) / 64> words_{};
-};
+using FieldSet = EnumSet<Field>;
 
 /// The 32 bits that a column begins with.
 struct FirstValue {
@@ -232,18 +207,19 @@ const char* FieldName(Field field);
 const char* FieldMeaning(Field field);
 /// "f32", "u32" or "i32".
 const char* FieldType(Field field);
-/// Features of which any one makes the column live; empty = always.
+/// Returns the features of which any one makes the column live; empty = always.
 FeatureSet FieldFeatures(Field field);
 /// Returns whether renders with these features need the field.
 bool IsLive(Field field, const FeatureSet& features);
-/// In a plan with the features `f`.
+/// Returns the lifetime in a plan with the features `f`.
 Lifetime FieldLifetime(Field field, const FeatureSet& f);
 /// Returns the value that the camera stage writes; none if another stage writes it.
 FirstValue FieldFirstValue(Field field);
 
-/// Its value goes from one wave to the next.
+/// Returns whether the value goes from one wave to the next.
 constexpr bool IsCarried(Lifetime lifetime) { return lifetime >= Lifetime::kRay; }
-/// A copy of a path at a surface, before the numbers of the bounce are drawn, needs it.
+/// Returns whether a copy of a path at a surface, made before the numbers of the bounce
+/// are drawn, needs it.
 constexpr bool IsCopied(Lifetime lifetime) {
   return lifetime == Lifetime::kSurface || lifetime == Lifetime::kPath;
 }

@@ -41,7 +41,7 @@ enum class LightShape : std::uint32_t {
       kCount
 };
 
-/// The feature that says that a scene has such a light.
+/// Returns the feature of a shape of light.
 constexpr Feature LightFeature(LightShape shape) {
   constexpr Feature kFeatures[] = {
 #define X(name, feature, traits) Feature::k##feature,
@@ -60,7 +60,7 @@ constexpr bool HasTrait(LightShape shape, LightTraits trait) {
   return (kTraits[static_cast<int>(shape)] & trait) != 0;
 }
 
-/// The features of the shapes with a trait.
+/// Returns the features of the shapes with a trait.
 constexpr FeatureSet LightsWith(LightTraits trait) {
   FeatureSet features;
   for (int i = 0; i < static_cast<int>(LightShape::kCount); ++i) {

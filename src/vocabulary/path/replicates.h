@@ -16,7 +16,7 @@ namespace lanelight {
 /// Enough to estimate the error of a pixel; more would reduce stratification.
 inline constexpr std::uint32_t kReplicates = 4, kLogReplicates = 2;
 
-/// How samples of a pixel count as observations.
+/// Maps the samples of a pixel to observations.
 struct SampleGroups {
   // Successive samples that form one unit: 2 in antithetic pairs.
   std::uint32_t unit = 1;
@@ -30,7 +30,6 @@ struct SampleGroups {
 
   bool operator==(const SampleGroups&) const = default;
 
-  /// Returns the replicate of a sample.
   std::uint32_t Replicate(std::uint64_t sample) const {
     return static_cast<std::uint32_t>(sample / unit % kReplicates);
   }

@@ -32,8 +32,8 @@ enum class WrapMode { kRepeat, kClamp, kBlack, kOctahedralSphere };
 enum class MappingKind { kUv, kSpherical, kCylindrical, kPlanar };
 enum class ImageFilter { kPoint, kBilinear, kTrilinear, kEwa };
 
-/// How a curve is widened. kFlat faces each ray; kCylinder too, with normals of a tube;
-/// kRibbon lies across a normal of its own.
+/// Shapes of curves: kFlat faces each ray; kCylinder too, with normals of a tube; kRibbon
+/// lies across a normal of its own.
 enum class CurveType : std::uint8_t { kFlat, kCylinder, kRibbon };
 
 /// Diffuse scattering models of the founding paper (docs/scenes.md).

@@ -2,22 +2,31 @@
 // A kernel includes the headers of those that it reads.
 #pragma once
 
+#include <cstdint>
+
 namespace lanelight {
 
-struct Geometry;         // src/scene/geometry/geometry.h
-struct PrimitiveRanges;  // src/vocabulary/path/primitive_ranges.h
-struct Accel;            // src/scene/geometry/accel.h
-struct MaterialTable;    // src/scene/compiled/materials.h
-struct TextureTable;     // src/scene/compiled/texture_table.h
-struct SpectrumTable;    // src/scene/compiled/spectra.h
-struct AlphaTable;       // src/scene/compiled/texture_table.h
-struct MediumTable;      // src/scene/compiled/media.h
-struct LightTable;       // src/scene/compiled/lights.h
-struct LightChances;     // src/scene/compiled/lights.h
-struct CompiledFilter;   // src/scene/compiled/camera.h
-struct CompiledCamera;   // src/scene/compiled/camera.h
-struct PixelFootprint;   // src/scene/compiled/camera.h
-struct GbufferSpace;     // src/scene/compiled/camera.h
+struct Geometry;        // src/scene/geometry/geometry.h
+struct Accel;           // src/scene/geometry/accel.h
+struct MaterialTable;   // src/scene/compiled/materials.h
+struct TextureTable;    // src/scene/compiled/texture_table.h
+struct SpectrumTable;   // src/scene/compiled/spectra.h
+struct AlphaTable;      // src/scene/compiled/texture_table.h
+struct MediumTable;     // src/scene/compiled/media.h
+struct LightTable;      // src/scene/compiled/lights.h
+struct LightChances;    // src/scene/compiled/lights.h
+struct CompiledFilter;  // src/scene/compiled/camera.h
+struct CompiledCamera;  // src/scene/compiled/camera.h
+struct PixelFootprint;  // src/scene/compiled/camera.h
+struct GbufferSpace;    // src/scene/compiled/camera.h
+
+/// A primitive id counts triangles first, then spheres, disks, planes, large spheres,
+/// curves.
+struct PrimitiveRanges {
+  // The first id of each, and the end.
+  std::uint32_t spheres = 0, disks = 0, planes = 0, large_spheres = 0, curves = 0,
+                end = 0;
+};
 
 /// Refers to what all renders of a scene share, the camera and film tables, and the
 /// strategy's light tables. PartsOf makes it (src/scene/compiled/scene.h).

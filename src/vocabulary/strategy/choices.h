@@ -3,8 +3,8 @@
 // other features that it turns on (src/vocabulary/path/features.h), name on the command
 // line, arguments, meaning, formula, source. The enumerations, the features, the plan,
 // the parser, `lanelight strategies`, the tests over all combinations and the bench rows
-// derive from these lists. Notation: f integrand, p density, u uniform numbers, N
-// samples, beta throughput.
+// derive from these lists. Their parameters T and K are the type and the key of the axis.
+// Notation: f integrand, p density, u uniform numbers, N samples, beta throughput.
 #pragma once
 
 #include <cstdint>
@@ -27,107 +27,107 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 #define LANELIGHT_TEXT_OF(value) #value
 
 // clang-format off
-#define LANELIGHT_DIRECTIONS(X)                                                           \
-  X(Uniform, STAGE, ({}), "uniform", "", "scattered directions uniform over the hemisphere", \
+#define LANELIGHT_DIRECTIONS(X, T, K)                                                           \
+  X(T, K, Uniform, STAGE, ({}), "uniform", "", "scattered directions uniform over the hemisphere", \
     "f / p, p = 1 / (2 pi); specular lobes are followed as they are", "paper 3.5.1")      \
-  X(Bsdf, PLAIN, ({}), "bsdf", "", "scattered directions distributed like the material (importance)", \
+  X(T, K, Bsdf, PLAIN, ({}), "bsdf", "", "scattered directions distributed like the material (importance)", \
     "f / p, p ~ BSDF cos; GGX by visible normals", "paper 3.5.2; Heitz 2018")             \
-  X(Light, PLAIN, ({kSampledHittableLights}), "light", "", "light reaches a surface by points sampled on the lights only", \
+  X(T, K, Light, PLAIN, ({kSampledHittableLights}), "light", "", "light reaches a surface by points sampled on the lights only", \
     "f(x, y) V(x, y) Le / p(y)", "Shirley, Wang and Zimmerman 1996")                      \
-  X(Mis, PLAIN, ({kSampledHittableLights}), "mis", "[:power|:balance]", "both, weighted by the power or balance heuristic (default)", \
+  X(T, K, Mis, PLAIN, ({kSampledHittableLights}), "mis", "[:power|:balance]", "both, weighted by the power or balance heuristic (default)", \
     "sum_i w_i f / p_i, w_i = p_i^e / sum_j p_j^e, e = 2 or 1", "Veach and Guibas 1995")
 
-#define LANELIGHT_POINTS(X)                                                               \
-  X(Independent, STAGE, ({}), "independent", "", "independent uniform numbers", \
+#define LANELIGHT_POINTS(X, T, K)                                                               \
+  X(T, K, Independent, STAGE, ({}), "independent", "", "independent uniform numbers", \
     "variance sigma^2 / N", "Jarzynski and Olano 2020 (hash)")                            \
-  X(Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
+  X(T, K, Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
     "u = ((i mod a + xi) / a, (i div a + eta) / b)", "paper 3.5.3; Cook 1986")            \
-  X(Cmj, STAGE, ({}), "cmj", "", "correlated multi-jittered: strata in two dimensions and in each of them", \
+  X(T, K, Cmj, STAGE, ({}), "cmj", "", "correlated multi-jittered: strata in two dimensions and in each of them", \
     "u0 = (i mod a + (s(i div a) + xi) / b) / a, u1 likewise", "Kensler 2013")            \
-  X(Pmj02, STAGE, ({}), "pmj02", "", "progressive multi-jittered (0,2) sequence", \
+  X(T, K, Pmj02, STAGE, ({}), "pmj02", "", "progressive multi-jittered (0,2) sequence", \
     "one sample in every elementary interval of base 2", "Christensen, Kensler and Kilpatrick 2018") \
-  X(Sobol, STAGE, ({}), "sobol", "", "Owen-scrambled Sobol' points, padded pairs (default)", \
+  X(T, K, Sobol, STAGE, ({}), "sobol", "", "Owen-scrambled Sobol' points, padded pairs (default)", \
     "variance up to N^-3 for smooth f", "Owen 1997; Burley 2020")                         \
-  X(Halton, STAGE, ({}), "halton", "", "Owen-scrambled Halton points in bases 2 and 3, padded pairs", \
+  X(T, K, Halton, STAGE, ({}), "halton", "", "Owen-scrambled Halton points in bases 2 and 3, padded pairs", \
     "u = (radical inverse of i in base 2, in base 3)", "Halton 1964; Owen 2017")          \
-  X(Lattice, STAGE, ({}), "lattice", "", "rank-1 lattice with a random shift, padded pairs", \
+  X(T, K, Lattice, STAGE, ({}), "lattice", "", "rank-1 lattice with a random shift, padded pairs", \
     "u = frac(i (1, z) / N + shift)", "Cranley and Patterson 1976; Sloan and Joe 1994")
 
-#define LANELIGHT_PAIRS(X)                                                                \
-  X(None, PLAIN, ({}), "none", "", "samples are drawn one by one (default)", "1/N sum f(u)", "") \
-  X(Antithetic, STAGE, ({}), "antithetic", "[:all|:pixel|:light|:bsdf|:first-bounce]", \
+#define LANELIGHT_PAIRS(X, T, K)                                                                \
+  X(T, K, None, PLAIN, ({}), "none", "", "samples are drawn one by one (default)", "1/N sum f(u)", "") \
+  X(T, K, Antithetic, STAGE, ({}), "antithetic", "[:all|:pixel|:light|:bsdf|:first-bounce]", \
     "samples 2k and 2k+1 share their numbers, the second reflected",                      \
     "1/(2N) sum (f(u) + f(1 - u)); azimuths u + 1/2", "paper eq. 6; Hammersley and Morton 1956")
 
-#define LANELIGHT_CONTROLS(X)                                                             \
-  X(None, PLAIN, ({}), "none", "", "no control variate (default)", "1/N sum f", "") \
-  X(Regression, STAGE, ({}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
+#define LANELIGHT_CONTROLS(X, T, K)                                                             \
+  X(T, K, None, PLAIN, ({}), "none", "", "no control variate (default)", "1/N sum f", "") \
+  X(T, K, Regression, STAGE, ({}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
     "1/N sum (f - c sum_j b_j phi_j(u)), E[phi_j] = 0, b_j = Cov(f, phi_j) / Var(phi_j)", "paper eq. 7; Salaun et al. 2022")
 
-#define LANELIGHT_ROULETTES(X)                                                            \
-  X(None, PLAIN, ({}), "none", "", "paths end at the maximum depth only", "f", "") \
-  X(Constant, STAGE, ({kRoulette}), "constant", "[:Q[:FIRST]]", "ends with probability q = " LANELIGHT_TEXT(LANELIGHT_CONSTANT_TERMINATION) " at every event from the FIRST = 1st on", \
+#define LANELIGHT_ROULETTES(X, T, K)                                                            \
+  X(T, K, None, PLAIN, ({}), "none", "", "paths end at the maximum depth only", "f", "") \
+  X(T, K, Constant, STAGE, ({kRoulette}), "constant", "[:Q[:FIRST]]", "ends with probability q = " LANELIGHT_TEXT(LANELIGHT_CONSTANT_TERMINATION) " at every event from the FIRST = 1st on", \
     "f / (1 - q) or 0", "paper eq. 8; Arvo and Kirk 1990")                                \
-  X(Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
+  X(T, K, Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
     "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(Luminance, STAGE, ({kRoulette}), "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
+  X(T, K, Luminance, STAGE, ({kRoulette}), "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
     "f / s or 0, s = min(1, max(FLOOR = 0.05, Y(beta))), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
+  X(T, K, Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
     "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
-  X(Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
+  X(T, K, Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
     "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
 
-#define LANELIGHT_LIGHT_SELECTIONS(X)                                                     \
-  X(Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light alike", "p = 1 / n", "") \
-  X(Power, PLAIN, ({kLightTable}), "power", "", "lights in proportion to their power (default)", \
+#define LANELIGHT_LIGHT_SELECTIONS(X, T, K)                                                     \
+  X(T, K, Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light alike", "p = 1 / n", "") \
+  X(T, K, Power, PLAIN, ({kLightTable}), "power", "", "lights in proportion to their power (default)", \
     "p ~ power, by an alias table", "Walker 1977; Vose 1991")                             \
-  X(Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
+  X(T, K, Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
     "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018")
 
-#define LANELIGHT_SEEN_LIGHTS(X)                                                          \
-  X(Paths, PLAIN, ({}), "paths", "", "light that the camera sees itself by the camera rays of the paths", \
+#define LANELIGHT_SEEN_LIGHTS(X, T, K)                                                          \
+  X(T, K, Paths, PLAIN, ({}), "paths", "", "light that the camera sees itself by the camera rays of the paths", \
     "1/N sum Le(x_i)", "")                                                                \
-  X(Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
+  X(T, K, Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
     "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
 
-#define LANELIGHT_LIGHT_POINTS(X)                                                         \
-  X(Area, PLAIN, ({}), "area", "", "points on emitting triangles and rectangles uniform over the area (default)", \
+#define LANELIGHT_LIGHT_POINTS(X, T, K)                                                         \
+  X(T, K, Area, PLAIN, ({}), "area", "", "points on emitting triangles and rectangles uniform over the area (default)", \
     "Le / p, p = pmf d^2 / (A |cos|)", "Shirley, Wang and Zimmerman 1996")                \
-  X(SolidAngle, PLAIN, ({kSolidAngleLights}), "solid-angle", "", "uniform over the solid angle that they fill", \
+  X(T, K, SolidAngle, PLAIN, ({kSolidAngleLights}), "solid-angle", "", "uniform over the solid angle that they fill", \
     "Le / p, p = pmf / omega", "Arvo 1995; Urena, Fajardo and King 2013") \
-  X(Projected, PLAIN, ({kProjectedLights}), "projected", "", "the same, warped by the cosine at the surface", \
+  X(T, K, Projected, PLAIN, ({kProjectedLights}), "projected", "", "the same, warped by the cosine at the surface", \
     "Le / p, p = pmf b(u) / omega, b bilinear in the cosines at the corners", "Hart et al. 2020")
 
-#define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X)                                              \
-  X(Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
-  X(Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, chosen by its unshadowed contribution", \
+#define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X, T, K)                                              \
+  X(T, K, Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
+  X(T, K, Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by what it would add unshadowed", \
     "f(y) / h(y) 1/M sum h(x_i) / p(x_i), h = f without visibility", "Talbot, Cline and Egbert 2005")
 
-#define LANELIGHT_ENVIRONMENT_CHOICES(X)                                                  \
-  X(Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
+#define LANELIGHT_ENVIRONMENT_CHOICES(X, T, K)                                                  \
+  X(T, K, Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
     "p ~ L", "")                                                                          \
-  X(Compensated, PLAIN, ({}), "compensated", "", "the same minus its mean, with directions=mis: BSDF samples find the dim parts", \
+  X(T, K, Compensated, PLAIN, ({}), "compensated", "", "the same less its mean, with directions=mis: what is dim is left to the material", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
 
-#define LANELIGHT_SHADOW_ROULETTES(X)                                                     \
-  X(None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
-  X(Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with their contribution", \
+#define LANELIGHT_SHADOW_ROULETTES(X, T, K)                                                     \
+  X(T, K, None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
+  X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with what they can still add", \
     "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
-#define LANELIGHT_DISTANCES(X)                                                            \
-  X(Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to what reaches them (default)", \
+#define LANELIGHT_DISTANCES(X, T, K)                                                            \
+  X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to what reaches them (default)", \
     "f / p, p = sigma_t T(d)", "Raab, Seibert and Keller 2008")                           \
-  X(Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
+  X(T, K, Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
     "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
 
-#define LANELIGHT_REUSES(X)                                                               \
-  X(None, PLAIN, ({}), "none", "", "a path serves its own pixel (default)", "f L / p", "") \
-  X(Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile serve all their first ones", \
+#define LANELIGHT_REUSES(X, T, K)                                                               \
+  X(T, K, None, PLAIN, ({}), "none", "", "a path serves its own pixel (default)", "f L / p", "") \
+  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile serve all their first ones", \
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
-#define LANELIGHT_DECISIONS(X)                                                            \
-  X(None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default where a strategy is named, and of short renders)", "one strategy", "")       \
-  X(Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses roulette and reuse, where a change of them is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples on, where no strategy is named)", \
+#define LANELIGHT_DECISIONS(X, T, K)                                                            \
+  X(T, K, None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default where a strategy is named, and of short renders)", "one strategy", "")       \
+  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses roulette and reuse, where a change of them is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples on, where no strategy is named)", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 
@@ -145,7 +145,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Bsdf, "bsdf", "scattered direction and lobe")            \
   X(FirstBounce, "first-bounce", "light and direction at the first event")
 
-// Every axis, as in a strategy's text: X(type, member of Strategy, key, choices)
+// Every axis, as in a strategy's text: X(type, member of Strategy, key, choices).
 #define LANELIGHT_AXES(X)                                                           \
   X(Directions, directions, "directions", LANELIGHT_DIRECTIONS)                     \
   X(Points, points, "points", LANELIGHT_POINTS)                                     \
@@ -163,18 +163,32 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
   X(Decide, decide, "decide", LANELIGHT_DECISIONS)
 
-#define X(name, ...) k##name,
+#define X(Type, key, name, ...) k##name,
 #define LANELIGHT_AXIS(Type, member, key, CHOICES) \
-  enum class Type : std::uint8_t { CHOICES(X) };
+  enum class Type : std::uint8_t { CHOICES(X, Type, key) };
 LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
+#undef X
+#define X(name, ...) k##name,
 enum class BlockLayout : std::uint8_t { LANELIGHT_BLOCK_LAYOUTS(X) };
 enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 #undef X
 
 // Counts the choices of an axis.
 #define X(...) +1
-inline constexpr int kNumPoints = LANELIGHT_POINTS(X);
+inline constexpr int kNumPoints = LANELIGHT_POINTS(X, Points, "points");
+#undef X
+
+// The texts of the choices, in the order of their enumerators: kDirectionsNames, ...
+#define X(Type, key, name, own, also, text, ...) text,
+#define LANELIGHT_AXIS(Type, member, key, CHOICES) \
+  inline constexpr const char* k##Type##Names[] = {CHOICES(X, Type, key)};
+LANELIGHT_AXES(LANELIGHT_AXIS)
+#undef LANELIGHT_AXIS
+#undef X
+#define X(name, text, meaning) text,
+inline constexpr const char* kPairedNames[] = {LANELIGHT_PAIRED(X)};
+inline constexpr const char* kBlockLayoutNames[] = {LANELIGHT_BLOCK_LAYOUTS(X)};
 #undef X
 
 }  // namespace lanelight

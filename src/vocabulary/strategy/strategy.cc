@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "src/vocabulary/strategy/choice_names.h"
-
 namespace lanelight {
 namespace {
 
@@ -66,21 +64,15 @@ std::string ToText(const Strategy& s) {
 }
 
 std::span<const ChoiceInfo> AllChoices() {
-  static const std::vector<ChoiceInfo> choices = [] {
-    std::vector<ChoiceInfo> all;
-#define X(enumerator, own, also, name, arguments, meaning, formula, source) \
-  all.push_back({axis, name, arguments, meaning, formula, source});
-#define LANELIGHT_AXIS(Type, member, key, CHOICES) \
-  {                                                \
-    constexpr const char* axis = key;              \
-    CHOICES(X)                                     \
-  }
-    LANELIGHT_AXES(LANELIGHT_AXIS)
+  static constexpr ChoiceInfo kChoices[] = {
+#define X(Type, key, enumerator, own, also, name, arguments, meaning, formula, source) \
+  {key, name, arguments, meaning, formula, source},
+#define LANELIGHT_AXIS(Type, member, key, CHOICES) CHOICES(X, Type, key)
+      LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 #undef X
-    return all;
-  }();
-  return choices;
+  };
+  return kChoices;
 }
 
 std::span<const PresetInfo> AllPresets() { return kPresets; }

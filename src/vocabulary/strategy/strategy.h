@@ -15,6 +15,7 @@ namespace lanelight {
 struct SourceLocation;  // src/base/core/source_location.h
 
 enum class Heuristic : std::uint8_t { kPower, kBalance };
+inline constexpr const char* kHeuristicNames[] = {"power", "balance"};
 
 inline constexpr std::uint32_t kMostLightCandidates = 64;
 /// Numbers of paths that reuse=block connects: powers of two.
@@ -55,13 +56,13 @@ struct Strategy {
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 
-  /// Least survival probability of the roulette on throughput or luminance.
+  /// Returns the least survival probability of the roulette on throughput or luminance.
   double Floor() const {
     return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
   }
-  /// Least probability of a shadow ray.
+  /// Returns the least probability of a shadow ray.
   double ShadowFloor() const { return shadow_floor.value_or(0.1); }
-  /// First scattering event (from 1) after which roulette is played.
+  /// Returns the first scattering event (from 1) after which roulette is played.
   std::uint32_t First() const {
     return first.value_or(roulette == Roulette::kConstant ? 1 : 2);
   }
@@ -73,12 +74,12 @@ struct Strategy {
   bool Splits() const {
     return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
   }
-  /// Paths serve their tile, or a pilot may yet decide so: tiles must be the same for any
-  /// number of samples.
+  /// Returns whether paths are reused in their tile, or a trial run may decide so: tiles
+  /// must be the same for any number of samples.
   bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
 };
 
-/// Changes of a strategy, as a text that has been understood; empty: none.
+/// Changes of a strategy, as a text that has been parsed; empty: none.
 struct StrategyChanges {
   std::string text;
 };
@@ -91,21 +92,21 @@ StrategyChanges ParseStrategy(std::string_view text, const SourceLocation& where
 /// Changes `strategy` as the text said and leaves the rest.
 void Apply(const StrategyChanges& changes, Strategy& strategy);
 
-/// Both at once.
+/// Parses a text and applies it to `strategy`.
 void ApplyStrategy(std::string_view text, const SourceLocation& where,
                    Strategy& strategy);
 
-/// Changes of a strategy one after the other, as one text; either may be empty.
+/// Joins two texts of changes, either of which may be empty.
 std::string JoinedChanges(const std::string& first, const std::string& then);
 
 /// Complete text form, which ApplyStrategy reads back: "directions=mis:power,points=...".
 std::string ToText(const Strategy& strategy);
 
-/// One row of `lanelight strategies`.
+/// A row of `lanelight strategies`.
 struct ChoiceInfo {
   const char *axis, *name, *arguments, *meaning, *formula, *source;
 };
-/// All choices, grouped by axis.
+/// Returns all choices, grouped by axis.
 std::span<const ChoiceInfo> AllChoices();
 
 struct PresetInfo {

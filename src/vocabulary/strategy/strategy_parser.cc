@@ -9,7 +9,6 @@
 
 #include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
-#include "src/vocabulary/strategy/choice_names.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
@@ -27,7 +26,6 @@ constexpr const char kPlain[] =
     "light-candidates=single,environment=plain,shadow-roulette=none,"
     "distances=exponential,reuse=none,decide=none";
 
-// Changes a strategy as a text says.
 class Parser {
  public:
   Parser(std::string_view text, const SourceLocation& where, Strategy& strategy)

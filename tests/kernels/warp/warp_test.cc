@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/probe/warp_probe.h"
+#include "kernels/probe/math_probe.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/support/test_target.h"
@@ -160,7 +160,7 @@ TEST_CASE("warps of numbers at the ends are unit directions with densities", "[w
   for (const std::string& target : AvailableTargets()) {
     for (WarpId id : kWarpIds) {
       std::vector<std::vector<float>> v(8,
-                                        std::vector<float>(kPairs + kWarpPadding, 0.5f));
+                                        std::vector<float>(kPairs + kMathPadding, 0.5f));
       for (std::size_t i = 0; i < kPairs; ++i) {
         v[0][i] = kEnds[i % kSide];
         v[1][i] = kEnds[i / kSide];

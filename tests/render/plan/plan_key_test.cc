@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "src/render/job/job.h"
-#include "src/vocabulary/strategy/named_strategy.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 #include "tests/base/image/temporary_folder.h"
 
 namespace lanelight {

@@ -1,6 +1,6 @@
 // Lists the differences of two strategies.
 #include "src/base/core/source_location.h"
-#include "src/vocabulary/strategy/choices_text.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,16 +1,39 @@
-// All directions from one point.
-//   equirectangular   (s, t) of the film = (longitude / 2 pi, colatitude / pi)
-//   equal-area        the octahedral map of kernels/warp/octahedral-inl.h; where a pixel
-//                     filter leaves the film it goes on across the square's edge
-// Both about the camera's y axis, which is up, as pbrt has it.
+// Cameras with a plane film. Perspective: rays from one point through a film at depth 1.
+// Orthographic: parallel rays; each film point has its own lens, so that the plane of
+// focus is sharp everywhere. Spherical: all directions from one point.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/warp/octahedral-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
+struct Perspective {
+  static HWY_INLINE CameraRay Project(V3 film) { return {Splat3(0, 0, 0), film}; }
+};
+
+Stage PerspectiveCameraStage() {
+  return MakeCameraStage("camera_perspective",
+                         "rays from one point, and the first values of a path",
+                         Feature::kPerspective, ResolveCamera<Perspective>);
+}
+
+struct Orthographic {
+  static HWY_INLINE CameraRay Project(V3 film) { return {film, Splat3(0, 0, 1)}; }
+};
+
+Stage OrthographicCameraStage() {
+  return MakeCameraStage("camera_orthographic",
+                         "parallel rays, and the first values of a path",
+                         Feature::kOrthographic, ResolveCamera<Orthographic>);
+}
+
+// Spherical cameras:
+//   equirectangular   (s, t) of the film = (longitude / 2 pi, colatitude / pi)
+//   equal-area        the octahedral map of kernels/warp/sphere-inl.h; where a pixel
+//                     filter leaves the film it goes on across the square's edge
+// Both about the camera's y axis, which is up, as pbrt has it.
 struct Equirectangular {
   static HWY_INLINE CameraRay Project(V3 film) {
     const auto [sin_phi, cos_phi] = SinCos2Pi(film.x);

@@ -1,11 +1,33 @@
-#include "src/vocabulary/strategy/strategies_json.h"
+#include "src/vocabulary/strategy/strategy_text.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/source_location.h"
-#include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+Strategy StrategyNamed(const std::string& name, const SourceLocation& where,
+                       const Strategy& own) {
+  if (name == kSceneStrategyName) return own;
+  Strategy strategy;
+  if (name != kDefaultStrategyName) ApplyStrategy(name, where, strategy);
+  return strategy;
+}
+
+std::string ChoicesNotIn(std::string_view other, std::string_view text) {
+  const std::string all = fmt::format(",{},", other);
+  std::string found;
+  while (!text.empty()) {
+    const std::string_view choice = text.substr(0, text.find(','));
+    text.remove_prefix(std::min(choice.size() + 1, text.size()));
+    if (all.find(fmt::format(",{},", choice)) != all.npos) continue;
+    found += (found.empty() ? "" : ",") + std::string(choice);
+  }
+  return found;
+}
 
 nlohmann::json StrategiesJson() {
   nlohmann::json choices = nlohmann::json::array(), presets = nlohmann::json::array();

@@ -1,15 +1,31 @@
-#include "kernels/probe/warp_probe.h"
+#include "kernels/probe/math_probe.h"
 
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/warp/hemisphere-inl.h"
+#include "kernels/bsdf/fresnel-inl.h"
+#include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+void RunFresnel(const FresnelBatch& batch) {
+  const DF df;
+  for (uint32_t i = 0; i < batch.n; i += static_cast<uint32_t>(hn::Lanes(df))) {
+    const VF c = hn::LoadU(df, batch.cosine + i), eta = hn::LoadU(df, batch.eta + i);
+    if (batch.k != nullptr) {
+      const VF k = hn::LoadU(df, batch.k + i);
+      hn::StoreU(FresnelConductor(c, eta, k), df, batch.reflectance + i);
+      continue;
+    }
+    const Interface at = DielectricInterface(c, eta);
+    hn::StoreU(at.reflectance, df, batch.reflectance + i);
+    if (batch.cos_t != nullptr) hn::StoreU(at.cos_t, df, batch.cos_t + i);
+  }
+}
 
 // Applies warp `id`: in u, out the point, its density, and the inverse.
 void ApplyWarp(WarpId id, const WarpBatch& w) {
   const DF df;
-  for (int i = 0; i < w.n; i += static_cast<int>(hn::Lanes(df))) {
+  for (uint32_t i = 0; i < w.n; i += static_cast<uint32_t>(hn::Lanes(df))) {
     const VF u0 = hn::LoadU(df, w.u0 + i), u1 = hn::LoadU(df, w.u1 + i);
     V3 p = Splat3(0, 0, 0);
     VF pdf = u0;
@@ -52,7 +68,12 @@ LANELIGHT_END_KERNELS
 #if HWY_ONCE
 namespace lanelight {
 
+HWY_EXPORT(RunFresnel);
 HWY_EXPORT(ApplyWarp);
+
+void ProbeFresnel(SimdTarget target, const FresnelBatch& batch) {
+  LANELIGHT_ON(target, RunFresnel)(batch);
+}
 
 void ProbeWarp(SimdTarget target, WarpId id, const WarpBatch& batch) {
   LANELIGHT_ON(target, ApplyWarp)(id, batch);
