@@ -1,4 +1,4 @@
-// Rays that left the scene see every environment; the path ends.
+// Adds every environment to rays that left the scene; their paths end.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/environment-inl.h"

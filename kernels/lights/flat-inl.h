@@ -3,13 +3,12 @@
 //   density     pdf_sa = b(u) / omega; b bilinear over the primary-sample square, in the
 //               cosines at the corners of the light, but at least a tenth of the largest
 //               among them and the one in the light's middle
-//   floor       keeps the density of what lies below the receiver, which surfaces that
-//               transmit see, above an eighth of that by solid angle alone: weights of
-//               such light are at most 7.75 times as large (six times the error under a
-//               leaf that a window crosses). Measured from the largest cosine it leaves
-//               grazing lights their warp; with the middle's it leaves lights alone that
-//               surround the receiver, whose corners say nothing
-//   below       a light that the receiver's normal does not see at all is not warped
+//   floor       surfaces that transmit see light below the receiver: the floor keeps its
+//               density above an eighth of that by solid angle alone, and its weights at
+//               most 7.75 times as large (six times the error under a leaf that a window
+//               crosses). Relative to the largest cosine it keeps the warp of grazing
+//               lights; the middle's cosine serves lights that surround the receiver
+//   below       a light wholly below the receiver's plane is not warped
 //   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
 #ifndef LANELIGHT_LIGHTS_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
