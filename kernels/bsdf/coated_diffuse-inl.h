@@ -1,11 +1,11 @@
 // Plastic: a dielectric coat over a Lambertian base, in closed form.
 //
-// Light that passes the coat is spread evenly by the base, so only total fluxes matter:
+// The base spreads evenly the light that passes the coat, so only total fluxes matter:
 //   f = f_coat + T(wo) T(wi) / (pi eta^2) * rho S,   S = sum_{k < n} (rho Fi)^k
-// T: what reaches the base from outside (and by reciprocity leaves towards outside); Fi:
-// what the coat sends back to the base; 1 / eta^2: radiance spreads when it leaves the
-// denser medium. n base bounces: pbrt-v4 follows a random walk of at most coat_depth
-// layer crossings, which meets the base at every second one; the series stops there too.
+// T: the fraction that reaches the base from outside (and by reciprocity leaves towards
+// outside); Fi: the fraction that the coat sends back to the base; 1 / eta^2: radiance
+// spreads when it leaves the denser medium. n base bounces: pbrt-v4 follows a random walk
+// of at most coat_depth layer crossings, which meets the base at every second one.
 // Both faces of the surface are coated.
 #ifndef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 #define LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
@@ -24,10 +24,10 @@ struct CoatedBase {
   VF inverse_eta2, escape, eta;
 
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in) {
-    return Load(in, in.Float(in.source.table->coat_internal));
+    return Load(in, in.Float(in.table.coat_internal));
   }
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in, VF internal) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     const VF eta = in.Float(t.eta);
     const V3 rho = in.Color0();
     const VI one = hn::Set(DI(), 1);
@@ -55,14 +55,13 @@ struct CoatedBase {
     return sum;
   }
 
-  /// f cos of the light that meets the base, per T(wo) T(wi), towards a wi of that
-  /// cosine.
+  /// Returns f cos of the base, per T(wo) T(wi), towards a wi of that cosine.
   LANELIGHT_INLINE V3 Lambert(VF cos_i) const {
     return Mul(rho_series, hn::Mul(inverse_eta2, PdfCosineHemisphere(cos_i)));
   }
 
-  /// Probability of following the coat's own reflection: its share of the reflectance, of
-  /// which the base's is about T(wo) rho S (1 - Fi).
+  /// Returns the probability of following the coat's reflection: its share of the
+  /// reflectance, of which the base has about T(wo) rho S (1 - Fi).
   LANELIGHT_INLINE VF CoatProbability(VF coat_reflectance, VF t_wo) const {
     const VF base = hn::Mul(hn::Mul(t_wo, escape), MaxComponent(rho_series));
     const VF sum = hn::Add(coat_reflectance, base);
@@ -79,10 +78,10 @@ struct CoatedDiffuseSmoothBsdf : PlainBsdf {
     VF thickness;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    if (!in.source.coat_by_path) {
-      return {CoatedBase::Load(in), in.Float(in.source.table->coat_thickness)};
+    if (!in.CoatVaries()) {
+      return {CoatedBase::Load(in), in.Float(in.table.coat_thickness)};
     }
-    const VF internal = CoatCell::Of(in).Internal(*in.source.table);
+    const VF internal = CoatCell::Of(in).Internal(in.table);
     return {CoatedBase::Load(in, internal), in.CoatThickness()};
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, const Interface& at) {
@@ -141,11 +140,11 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     CoatCell cell;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     Params m;
     m.ggx = Ggx::FromAlpha(in.AlphaX(), in.AlphaY());
     m.table = t.coat_transmittance.data();
-    m.varies = in.source.coat_by_path;
+    m.varies = in.CoatVaries();
     if (m.varies) {
       m.cell = CoatCell::Of(in);
       m.base = CoatedBase::Load(in, m.cell.Internal(t));
@@ -173,7 +172,6 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     return m.base.CoatProbability(hn::Sub(Splat(1.0f), to), to);
   }
 
-  /// Which lobes of an evaluation.
   enum class Lobes { kBoth, kBase };
   /// Both directions on the upper side; n = their half vector.
   template <Lobes kLobes = Lobes::kBoth>

@@ -63,7 +63,7 @@ struct Around {
   LANELIGHT_INLINE VF Within() const {
     return hn::NegMulAdd(Splat(2.0f), tail, Splat(1.0f));
   }
-  /// Density at an angle, in turns that do not matter.
+  /// Returns the density at an angle, modulo a whole turn.
   LANELIGHT_INLINE VF Pdf(VF angle) const {
     const VF turns = hn::Mul(angle, Splat(1 / kTwoPi));
     const VF x = hn::Mul(hn::Sub(turns, hn::Round(turns)), Splat(kTwoPi));
@@ -101,12 +101,12 @@ struct HairBsdf : PlainBsdf {
     const DF df;
     const VF m = in.AlphaX(), n = in.AlphaY();
     const VF h =
-        in.source.uv_v == nullptr
+        in.path.uv_v == nullptr
             ? hn::Zero(df)
-            : hn::MulSub(Splat(2.0f), Gather(in.source.uv_v, in.slot), Splat(1.0f));
+            : hn::MulSub(Splat(2.0f), Gather(in.path.uv_v, in.slot), Splat(1.0f));
     return {
         .h = hn::Clamp(h, Splat(-1.0f), Splat(1.0f)),
-        .eta = in.Float(in.source.table->eta),
+        .eta = in.Float(in.table.eta),
         .variance = Sqr(hn::MulAdd(Splat(3.7f), Power(m, 20),
                                    hn::Mul(m, MulAddScalar(m, 0.812f, Splat(0.726f))))),
         .tilt = in.Alpha2X(),
@@ -117,7 +117,7 @@ struct HairBsdf : PlainBsdf {
         .absorption = AbsorptionOf(in.Color0(), n)};
   }
 
-  /// Returns the absorption that gives much hair of this roughness that reflectance.
+  /// Returns the absorption with which dense hair of this roughness has that reflectance.
   LANELIGHT_INLINE static V3 AbsorptionOf(V3 reflectance, VF n) {
     VF k = MulAddScalar(n, 0.245f, Splat(5.574f));
     k = hn::MulAdd(k, n, Splat(-10.73f));
@@ -187,7 +187,7 @@ struct HairBsdf : PlainBsdf {
   LANELIGHT_INLINE static Lobes LobesOf(const Params& m, V3 wo) {
     const VF one = Splat(1.0f);
     const Incline o = InclineOf(wo.x), at = InclineOf(m.h);
-    // Inside, with the index that the projection on the plane across has.
+    // Inside the fibre, with the index for the projection on the plane across it.
     const Incline inside = InclineOf(hn::Div(o.sin, m.eta));
     const VF across = SafeSqrt(hn::MulSub(m.eta, m.eta, Sqr(o.sin)));
     const VF sin_t = hn::Div(hn::Mul(m.h, o.cos), hn::Max(across, Splat(1e-18f)));

@@ -113,8 +113,8 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
-/// Returns how far in front of the surface at q a ray from the surface at `from` ends, so
-/// that rounding of the points and of the ray cannot make it meet that surface.
+/// Returns how far in front of the surface at q a ray from `from` ends. Rounding of the
+/// points and of the ray then cannot make it meet that surface.
 LANELIGHT_INLINE VF Clearance(V3 from, V3 q, VF p_error) {
   return hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
                     hn::Mul(Splat(2.0f), p_error));

@@ -10,12 +10,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Temperature that `t` stands for.
-LANELIGHT_INLINE VF Kelvin(const BlackbodyTable& table, VF t) {
-  return hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
-}
-
-/// Colour of a black body, of kLeastKelvin at least.
+/// Returns the colour of a black body of at least kLeastKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   const DI di;
   const VF least = Splat(kLeastKelvin);
@@ -34,21 +29,21 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   return {channel(0), channel(1), channel(2)};
 }
 
-/// Spectra of black bodies of `kelvin` over their maxima, at wavelengths of which the row
-/// kPlanck has `planck` (Planck's law).
+/// Returns the spectra of black bodies of `kelvin` over their maxima (Planck's law);
+/// `planck` is the row kPlanck at the wavelengths.
 LANELIGHT_INLINE V3 BlackbodySpectra(V3 planck, VF kelvin) {
   const VF safe = hn::Clamp(kelvin, Splat(kLeastKelvin), Splat(1e9f));
   const auto one = [&](VF of) HWY_ATTR {
     const VF x = hn::Div(of, safe), q = hn::Mul(x, Splat(float(1 / kPlanckPeak)));
     const VF q2 = hn::Mul(q, q), q5 = hn::Mul(hn::Mul(q2, q2), q);
-    // Of cold bodies, whose light is below 1e-20, more than Expm1 can take.
+    // Expm1 overflows for cold bodies, whose light is below 1e-20.
     const VF e = hn::Expm1(DF(), hn::Min(x, Splat(80.0f)));
     return hn::Div(hn::Mul(q5, Splat(float(kPlanckAtPeak))), e);
   };
   return {one(planck.x), one(planck.y), one(planck.z)};
 }
 
-/// What a medium that varies emits over its absorption, for a batch of paths.
+/// Emission over absorption of a heterogeneous medium, for a batch of paths.
 struct GridEmission {
   const MediumGrid& grid;
   V3 scale;
@@ -89,9 +84,10 @@ struct GridEmission {
     } else {
       Interpolate(grid.size, emission.temperatures.data(), 1, p, &t);
     }
-    const VF kelvin = Kelvin(emission.blackbody, t);
-    const V3 body = spectral ? BlackbodySpectra(planck, kelvin)
-                             : BlackbodyColor(emission.blackbody, kelvin);
+    const BlackbodyTable& table = emission.blackbody;
+    const VF kelvin = hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
+    const V3 body =
+        spectral ? BlackbodySpectra(planck, kelvin) : BlackbodyColor(table, kelvin);
     const MF glows = hn::Gt(kelvin, Splat(kLeastKelvin));
     return Mul(factor, IfThenElseZero(glows, body));
   }

@@ -2,25 +2,24 @@
 // cells.
 //   density     of tentative collisions: that of the channel's majorant sigma_m; of each,
 //               that it is real: sigma_t / sigma_m
-//   estimator   a real one scatters with sigma_s / sigma_t, a null one goes on; over the
-//               mean density of the channels (medium-inl.h), as real and null ones alike
-//               have the density that the channel would have had
-//   unbiased    sigma_m >= sigma_t everywhere in the cell, which compile sees to
+//   estimator   a real one scatters with sigma_s / sigma_t, after a null one the ray
+//               continues; over the mean density of the channels (medium-inl.h)
+//   unbiased    sigma_m >= sigma_t everywhere in the cell, as the scene is compiled
 //   emission    sigma_a Le / sigma_m at each tentative collision
-//   cost        of the majorants along the ray, not of the density
+//   cost        proportional to the majorants along the ray
 //   source      Woodcock et al. 1965; Kutz et al. 2017; Miller, Georgiev and Jarosz 2019
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/emission-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
-#include "kernels/media/walk_random-inl.h"
+#include "kernels/media/medium-inl.h"
 #include "kernels/queue/filter-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 // A walk of a vector of rays: f and the densities of the channels over that of the one
-// drawn, where it ended, and what the medium emitted on the way.
+// drawn, the event at its end, and the emission on the way.
 template <bool kEmission>
 struct Track {
   const GridMedium& medium;
@@ -31,7 +30,7 @@ struct Track {
   V3 emitted = Splat3(0, 0, 0);
   MF event = hn::FirstN(DF(), 0);
 
-  // To distance dt of a cell with majorants sigma_m.
+  // Advances by dt in a cell with majorants sigma_m.
   HWY_INLINE void Pass(MF mask, V3 sigma_m, VF dt) {
     const VF own = channel.Of(sigma_m);
     const auto other = [&](VF sigma) HWY_ATTR {
@@ -48,7 +47,7 @@ struct Track {
     const V3 sent = Mul(Mul(f, sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
     emitted = emitted + IfThenElseZero(mask, Mul(sent, emission->At(p, mask)));
   }
-  // A tentative collision at p; true where it is real.
+  // Samples a tentative collision at p; returns whether it is real.
   HWY_INLINE MF Collide(MF mask, V3 sigma_m, V3 p, VF u) {
     const Coefficients at = medium.At(p, mask);
     const V3 sigma_t = at.sigma_a + at.sigma_s, null = sigma_m - sigma_t;

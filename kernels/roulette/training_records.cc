@@ -1,11 +1,12 @@
-// A training pass: records what paths find from their first vertices on. For vertex i:
-//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness that is
-//               gathered from there on per unit of throughput; expectation: the adjoint
-//               Psi there. Y weighs the channels as PathValues::channel says
-//   cost        events from there on: depth at the end - i
-// And for paths that have not played roulette, what roulette on the throughput would add
-// to the second moment: a decision of survival s multiplies the square of what comes
-// after it (T) by 1/s, so with W the product of 1/s of the decisions before
+// A training pass: records the light that paths gather after their first vertices. For
+// vertex i:
+//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness gathered
+//               after i per unit of throughput; its expectation is the adjoint Psi there.
+//               Y weighs the channels by PathValues::channel
+//   cost        events after i: depth at the end - i
+// And for paths without roulette, the increase of the second moment by roulette on the
+// throughput: a decision of survival s multiplies the square of the later light (T) by
+// 1/s, so with W the product of 1/s of the decisions before
 //   E[x^2] = L^2 + sum over decisions of W (1/s - 1) T^2,  T = Y(l at the end) - g,
 // g gathered before. Survivors have W times the throughput of these paths. The sums of a
 // = W (1/s - 1), of a g and of a g^2 are kept (W is one plus the first of them). So the

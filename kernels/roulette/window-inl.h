@@ -1,6 +1,6 @@
 // Roulette and splitting at a surface, before the numbers of the bounce are drawn and
-// before it is shaded: every copy has the same hit, takes its own light sample and goes
-// its own way. A policy is a struct with
+// before it is shaded: all split paths share the hit, and each takes its own light sample
+// and direction. A policy is a struct with
 //   static VF Factor(const Wave&, const Slots& slots, V3 beta)
 // giving the expected number of copies r >= 0.
 //   estimator   k = floor(r + u) copies of weight 1/r: E = sum of k (x_i / r) = x, since
@@ -30,7 +30,6 @@ LANELIGHT_BEGIN_KERNELS
 /// The smallest r.
 inline constexpr float kLeast = 0.05f;
 
-/// Uniform number of the decision.
 LANELIGHT_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
   const VU depth = AsUnsigned(Gather(p.depth, slots));
@@ -49,7 +48,7 @@ LANELIGHT_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta)
   return hn::Sqrt(Dot(relative, relative));
 }
 
-/// Expected copies where the cache knows nothing: throughput roulette from the second
+/// Returns the expected copies in cells without data: throughput roulette from the second
 /// event on.
 LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta) {
   VF s = MaxComponent(beta);
@@ -58,8 +57,8 @@ LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V
   return hn::IfThenElse(hn::RebindMask(DF(), late), hn::Min(s, Splat(1.0f)), Splat(1.0f));
 }
 
-/// The new slots take over their parents' columns; what a path gathers they begin anew:
-/// the sample is the sum of its copies.
+/// Copies the parents' columns to the new slots. Gathered light begins with 0: the sample
+/// is the sum of its copies.
 LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
                                 const uint32_t* slots, uint32_t n) {
   for (uint32_t c = 0; c < lists.copied.count; ++c) {

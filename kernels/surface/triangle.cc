@@ -159,14 +159,14 @@ struct UvFaceLanes {
   const FaceLanes& face;
 };
 
-// Where the point of a hit lies in the scene, and what maps its triangle there.
+// The point of a hit in the scene, and the maps of its triangle.
 struct PlaceLanes {
   V3 p, ng;
   VF error;
   InstanceMaps maps;
 };
 
-// What GatherMaps has found where the shutter opens, at the times of the paths instead.
+// Replaces places at the opening of the shutter by those at the times of the paths.
 HWY_NOINLINE void MovePlaces(const Wave& wave, const StoreSlots& slots,
                              const TriangleLanes& tri, V3 face, PlaceLanes& at) {
   const MovingLanes moving =
@@ -250,9 +250,8 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }
 
-// Some column beyond the point of a hit and its normal. Which ones is the same for all
-// hits: a test per vector, and not a variant of the kernel for each set of columns, which
-// would take long to compile.
+// Returns whether there is a column beyond point and normal. Each optional column is
+// tested per vector (store-inl.h).
 HWY_INLINE bool WantsDetails(const PathColumns& path) {
   return path.ns_x != nullptr || path.uv_u != nullptr || path.tg_x != nullptr;
 }

@@ -6,9 +6,9 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Adds what a table of kNodes^3 vectors, x fastest, has at coordinates in
-/// [0, kNodes - 1] to `sum`: linear between the four corners of the tetrahedron that lies
-/// there around the diagonal of its cell.
+/// Adds to `sum` the value of a table of kNodes^3 vectors, x fastest, at coordinates in
+/// [0, kNodes - 1]. Interpolates linearly between the four corners of the tetrahedron
+/// around the diagonal of the cell.
 template <int kNodes>
 LANELIGHT_INLINE V3 AddOfCube(const float* table, V3 at, V3 sum) {
   const DF df;

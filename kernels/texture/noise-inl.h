@@ -96,8 +96,8 @@ LANELIGHT_INLINE VF FBm(V3 p, int32_t octaves, float roughness) {
   return sum;
 }
 
-/// The same sum of |Noise| (Perlin 1985), and 0.2 roughness^octaves: pbrt-v4 counts what
-/// the octave after the last one would bring by its mean.
+/// Returns the same sum of |Noise| (Perlin 1985), plus 0.2 roughness^octaves: pbrt-v4
+/// adds the mean of the octave after the last one.
 LANELIGHT_INLINE VF Turbulence(V3 p, int32_t octaves, float roughness) {
   VF sum = hn::Zero(DF());
   float frequency = 1, amplitude = 1;

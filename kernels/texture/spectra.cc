@@ -52,7 +52,7 @@ LANELIGHT_INLINE V3 HeadOn(V3 k, VF index) {
   return {r(square.x), r(square.y), r(square.z)};
 }
 
-// What textures say, at the wavelengths of the paths. `kind`: PathColor.
+// Returns values of textures at the wavelengths of the paths. `kind`: PathColor.
 LANELIGHT_INLINE V3 Upsampled(const SceneParts& scene, VI kind, VI material, V3 color,
                               const Wavelengths& at) {
   const DI di;
@@ -104,8 +104,8 @@ void TextureSpectra(Wave& wave) {
       });
 }
 
-// Glass whose index depends on the wavelength leaves a path one of its three, all alike
-// likely, with the weight of all.
+// Glass whose index depends on the wavelength leaves a path one of its three, chosen
+// uniformly, with the weight of all.
 void Disperse(Wave& wave) {
   const PathColumns& p = wave.path;
   const DI di;

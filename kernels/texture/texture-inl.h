@@ -37,7 +37,7 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& 
     x = hn::Mul(flip ? hn::Sub(one, f) : f, n);  // [0, n]
   } else {
     if (flip) s = hn::Sub(one, s);
-    // Far outside all is the same; this keeps the conversion to integers in range.
+    // Keeps the conversion to integers in range; texels repeat far outside.
     const VF far = node.wrap == WrapMode::kOctahedralSphere ? n : Splat(2.0f);
     x = hn::Min(hn::Max(hn::Mul(s, n), hn::Neg(far)), hn::Add(n, far));
   }
@@ -114,7 +114,7 @@ LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
-/// Applies scale, inversion and other steps of a node to a texel.
+/// Applies scale and inversion of a node to a texel, and clamps it at 0.
 LANELIGHT_INLINE V3 FinishTexel(const TextureNode& node, V3 color) {
   color = Mul(color, Splat(node.scale));
   if (node.invert) color = Splat3(1, 1, 1) - color;
@@ -152,8 +152,8 @@ LANELIGHT_INLINE V3 BetweenCorners(const V3 corner[4], VF s, VF t) {
 }
 
 /// Value of one texture at a point in every lane, filtered where that has a footprint
-/// (levels-inl.h). Errors against real arithmetic come
-/// from rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
+/// (levels-inl.h). Errors against real arithmetic come from rounding s = u * su + du to
+/// float: up to |s| * 6e-8 of a repeat, times the slope.
 template <class Point>
 inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
                                    const Point& at) {
@@ -250,16 +250,12 @@ LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, const Point&
     const int32_t id = hn::ExtractLane(ids, hn::FindFirstTrue(di, pending));
     const auto same = hn::Eq(ids, hn::Set(di, id));
     const MF mine = hn::RebindMask(df, same);
-    // The other lanes look at one texel: theirs would be fetched for nothing.
+    // The other lanes read one texel, because theirs would not be used.
     const V3 value = EvalTexture(table, id, at.Only(mine));
     constant = IfThenElse(mine, value, constant);
     pending = hn::AndNot(same, pending);
   }
   return constant;
-}
-LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
-                                 V3 constant) {
-  return EvalTextures(table, ids, UvPoint{u, v}, constant);
 }
 
 /// Value of the lanes' float textures, where their id is not negative, else `constant`.

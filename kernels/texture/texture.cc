@@ -12,8 +12,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// Hits are taken texture by texture, so many at a time: a vector of neighbours may need
-// several textures, each in a few of its lanes.
+// Hits grouped by texture: a vector of neighbours may need several textures, each in a
+// few of its lanes.
 class TexturedHits {
  public:
   static constexpr uint32_t kMost = 2048;
@@ -25,7 +25,7 @@ class TexturedHits {
   }
   LANELIGHT_INLINE bool empty() const { return size_ == 0; }
 
-  /// Takes out those of the first one's texture.
+  /// Moves the hits with the texture of the first one to `taken`; returns that texture.
   LANELIGHT_INLINE int32_t Take(Queue& taken) {
     const DI di;
     const DF df;
@@ -65,7 +65,7 @@ LANELIGHT_INLINE Slots SlotsAt(const Queue& queue, uint32_t i) {
   return Slots(hn::BitCast(DI(), hn::LoadU(DU(), queue.items + i)));
 }
 
-// `places`: what is looked up depends on them.
+// `places`: the texture depends on the position.
 template <class Point>
 LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
                                  bool places) {
@@ -89,8 +89,9 @@ LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
   }
 }
 
-// A parameter of materials has `textures`, by material, the constant of a material, and
-// a column or three, to which Store() writes what a constant or a texture says.
+// A parameter of materials has `textures` by material, the constant of a material, and
+// one column or three, to which Store() writes constants and StoreTextured() texture
+// values.
 template <class Point, class Parameter>
 HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   const DI di;
@@ -142,7 +143,7 @@ LANELIGHT_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
 
 struct ColorParameter {
   const MaterialTable& materials;
-  bool reflects;  // whatever the material
+  bool reflects;  // a reflectance, for all materials
   const AlignedVector<int32_t>& textures;
   const AlignedVector<float>*constant_r, *constant_g, *constant_b;
   float *r, *g, *b;
@@ -163,8 +164,8 @@ struct ColorParameter {
   }
 };
 
-// GGX alpha: the constant, or from the texture as the material asks. pbrt's floor of
-// 1e-4.
+// GGX alpha: the constant, or from the texture, remapped as the material asks and at
+// least 1e-4, as in pbrt.
 struct AlphaParameter {
   const MaterialTable& materials;
   const AlignedVector<int32_t>& textures;

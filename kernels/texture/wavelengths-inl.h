@@ -11,13 +11,13 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What the number of a path chooses, u in [0, 1): 3 u is one of its three wavelengths, 0
-/// the short one, and a place in the triples.
+/// The choice of a path's number u in [0, 1): 3 u is one of its three wavelengths, 0
+/// being the short one, and a place in the triples.
 struct Wavelengths {
   VF place;   // [0, kTriples): bin and place within it
   VI triple;  // = the bin of the short wavelength
-  VI hero;    // 0, 1, 2: the wavelength that glass leaves
-  MF alone;   // glass has left it
+  VI hero;    // 0, 1, 2: the wavelength that remains after dispersion
+  MF alone;   // the path has been dispersed
 
   LANELIGHT_INLINE Wavelengths(const PathColumns& p, const Slots& slots)
       : Wavelengths(Gather(p.wavelength, slots)) {}
@@ -34,8 +34,8 @@ struct Wavelengths {
   }
 };
 
-/// Eight vectors hold an entry for each triple: permutations take a quarter of the time
-/// of a gather then.
+/// True if eight vectors hold an entry for each triple: permutations then take a quarter
+/// of the time of a gather.
 inline constexpr bool kTriplesInVectors =
     !HWY_HAVE_SCALABLE && hn::MaxLanes(DF()) * 8 == kTriples;
 
@@ -69,7 +69,7 @@ LANELIGHT_INLINE V3 ByBin(const float* array, VI triple) {
   return {OfTriple(array + 2 * kTriples, triple), OfTriple(array + kTriples, triple),
           OfTriple(array, triple)};
 }
-/// The same of arrays that begin at `begin`, often all in one place.
+/// Does the same for arrays that begin at `begin`, often all in one place.
 LANELIGHT_INLINE V3 ByBin(const float* arrays, VI begin, VI triple) {
   if constexpr (kTriplesInVectors) {
     const int32_t first = hn::GetLane(begin);
