@@ -19,7 +19,6 @@
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/rng-inl.h"
-#include "kernels/simd/vec3-inl.h"
 #include "src/scene/compiled/materials.h"
 
 // Eval and Sample are part of three kernels each. Long ones are called: the call costs

@@ -10,7 +10,6 @@
 #ifndef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 #define LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 
-#include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/coat_grid-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 #include "kernels/warp/hemisphere-inl.h"
@@ -40,15 +39,13 @@ struct CoatedBase {
   /// S_(k+1) = 1 + x S_k. Without cancellation, and exact in length: under a coat of high
   /// index x comes close to 1, and thousands of terms count.
   LANELIGHT_INLINE static V3 Series(V3 x, VI n) {
-    const DI di;
-    const DF df;
-    const int longest = hn::GetLane(hn::MaxOfLanes(di, n));
+    const int longest = hn::GetLane(hn::MaxOfLanes(DI(), n));
     V3 sum = Splat3(0, 0, 0), power = Splat3(1, 1, 1);  // S_k, x^k
     for (int bit = 1 << 30; bit != 0; bit >>= 1) {
       if (bit > longest) continue;
       sum = Mul(sum, power) + sum;
       power = Mul(power, power);
-      const MF odd = hn::RebindMask(df, hn::TestBit(n, hn::Set(di, bit)));
+      const MF odd = hn::RebindMask(DF(), hn::TestBit(n, hn::Set(DI(), bit)));
       sum = IfThenElse(odd, Mul(x, sum) + Splat3(1, 1, 1), sum);
       power = IfThenElse(odd, Mul(power, x), power);
     }
@@ -155,12 +152,10 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     return m;
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, VF mu) {
-    const DF df;
-    const DI di;
     const VF at =
         hn::Min(hn::Mul(mu, Splat(kCoatTableSize - 1.0f)), Splat(kCoatTableSize - 1.0f));
-    const VI cell = hn::Min(hn::ConvertTo(di, at), hn::Set(di, kCoatTableSize - 2));
-    const VF part = hn::Sub(at, hn::ConvertTo(df, cell));
+    const VI cell = hn::Min(hn::ConvertTo(DI(), at), hn::Set(DI(), kCoatTableSize - 2));
+    const VF part = hn::Sub(at, hn::ConvertTo(DF(), cell));
     if (m.varies) return m.cell.Transmittance(m.table, cell, part);
     const VI index = hn::Add(m.offset, cell);
     const VF low = Gather(m.table, index), high = Gather(m.table + 1, index);

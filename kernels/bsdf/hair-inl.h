@@ -72,10 +72,9 @@ struct Around {
     return hn::Div(bell, hn::Mul(scale, Within()));
   }
   LANELIGHT_INLINE VF Sample(VF u) const {
-    const DF df;
     const VF below = hn::MulAdd(u, Within(), tail);
     const VF above = hn::MulAdd(hn::Sub(Splat(1.0f), u), Within(), tail);
-    const VF x = hn::Mul(scale, hn::Log(df, hn::Div(below, above)));
+    const VF x = hn::Mul(scale, hn::Log(DF(), hn::Div(below, above)));
     return hn::Clamp(x, Splat(-kPi), Splat(kPi));
   }
 };
@@ -98,11 +97,10 @@ struct HairBsdf : PlainBsdf {
   };
 
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const DF df;
     const VF m = in.AlphaX(), n = in.AlphaY();
     const VF h =
         in.path.uv_v == nullptr
-            ? hn::Zero(df)
+            ? hn::Zero(DF())
             : hn::MulSub(Splat(2.0f), Gather(in.path.uv_v, in.slot), Splat(1.0f));
     return {
         .h = hn::Clamp(h, Splat(-1.0f), Splat(1.0f)),
@@ -179,7 +177,7 @@ struct HairBsdf : PlainBsdf {
       lobes.share[p] = hn::Add(a.x, hn::Add(a.y, a.z));
       sum = hn::Add(sum, lobes.share[p]);
     }
-    // At an index of 1 along the fibre nothing is left of what is absorbed.
+    // At an index of 1 along the fibre the sum can be 0.
     const VF all_light = hn::Max(sum, Splat(1e-30f));
     for (VF& share : lobes.share) share = hn::Div(share, all_light);
   }
@@ -257,14 +255,13 @@ struct HairBsdf : PlainBsdf {
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
                                                     const BsdfPoints& u) {
-    const DF df;
     const Lobes lobes = LobesOf(m, wo);
     const Chosen c = Choose(m, lobes, u.lobe);
     // 1 - the cosine from the mirror direction.
     const VF tail = Exp(hn::Div(Splat(-2.0f), c.variance));
     const VF mass = hn::MulAdd(hn::Sub(Splat(1.0f), u.u0), tail, u.u0);
     const VF lift =
-        hn::Min(hn::Neg(hn::Mul(c.variance, hn::Log(df, hn::Max(mass, Splat(1e-9f))))),
+        hn::Min(hn::Neg(hn::Mul(c.variance, hn::Log(DF(), hn::Max(mass, Splat(1e-9f))))),
                 Splat(2.0f));
     const VF cos = hn::Sub(Splat(1.0f), lift);
     const VF sin = SafeSqrt(hn::Mul(lift, hn::Sub(Splat(2.0f), lift)));

@@ -59,7 +59,7 @@ struct Layer {
   }
 };
 
-/// Which outcomes CoatLayer::Sample may choose.
+/// The outcomes that CoatLayer::Sample may choose.
 enum class Outcome { kReflect, kTransmit, kEither };
 
 struct CoatLayer {

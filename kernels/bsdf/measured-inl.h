@@ -115,7 +115,7 @@ struct MeasuredBsdf : PlainBsdf {
       SetSlices();
     }
 
-    /// Its own inverse.
+    /// Applies the signs; it is its own inverse.
     LANELIGHT_INLINE V3 Fold(V3 w) const {
       return {hn::Mul(w.x, flip_x), hn::Mul(w.y, flip_y), hn::Mul(w.z, flip_z)};
     }

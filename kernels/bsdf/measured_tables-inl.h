@@ -40,8 +40,7 @@ struct MeasuredNodes {
   VF share;
 
   LANELIGHT_INLINE MeasuredNodes(const float* nodes, VI at, VI count, VF x) {
-    const DI di;
-    const VI one = hn::Set(di, 1);
+    const VI one = hn::Set(DI(), 1);
     first =
         LastBelow(count, x, [&](VI i) HWY_ATTR { return Gather(nodes, hn::Add(at, i)); });
     next = hn::Min(hn::Add(first, one), hn::Sub(count, one));
@@ -119,12 +118,11 @@ struct MeasuredFunction {
   /// Returns the values of a function with `count` slices per direction, at three places
   /// between the slices, in [0, count - 1].
   LANELIGHT_INLINE V3 Between(VF x, VF y, VI count, V3 at_slices) const {
-    const DI di;
     const Place p = PlaceOf(x, y);
-    const VI size = hn::Mul(width, height), one = hn::Set(di, 1);
+    const VI size = hn::Mul(width, height), one = hn::Set(DI(), 1);
     const VI last = hn::Sub(count, one);
     const auto value = [&](VF place) HWY_ATTR {
-      const VI low = hn::ConvertTo(di, place), high = hn::Min(hn::Add(low, one), last);
+      const VI low = hn::ConvertTo(DI(), place), high = hn::Min(hn::Add(low, one), last);
       const VF part = hn::Sub(place, hn::ConvertTo(DF(), low));
       VF sum = hn::Zero(DF());
       for (int i = 0; i < slices.count; ++i) {

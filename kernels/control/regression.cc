@@ -24,10 +24,8 @@
 #include "kernels/bsdf/coated_diffuse-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
-#include "kernels/queue/batch-inl.h"
 #include "kernels/queue/filter-inl.h"
 #include "kernels/shade/shade-inl.h"
-#include "src/scene/compiled/materials.h"
 #include "src/vocabulary/path/first_numbers.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -51,11 +49,10 @@ void FirstFilm(Wave& wave) {
 
 // Returns whether the kind has delta directions only.
 HWY_INLINE hn::Mask<DI> IsSpecular(VI kind) {
-  const DI di;
-  auto specular = hn::Lt(kind, hn::Zero(di));
+  auto specular = hn::Lt(kind, hn::Zero(DI()));
   for (int k = 0; k < kNumShadeKinds; ++k) {
     if (!HasTrait(static_cast<ShadeKind>(k), kSpecularOnly)) continue;
-    specular = hn::Or(specular, hn::Eq(kind, hn::Set(di, k)));
+    specular = hn::Or(specular, hn::Eq(kind, hn::Set(DI(), k)));
   }
   return specular;
 }
@@ -132,10 +129,9 @@ void Choices(Wave& wave) {
   const PathColumns& path = wave.path;
   const SurfaceReader<Bsdf> reader(wave);
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)), [&](const Slots& slots, MF) HWY_ATTR {
-    const DI di;
     const VI code = ChoiceCodes<Bsdf>(reader, slots), had = Gather(path.choices, slots);
-    const auto none = hn::Eq(had, hn::Zero(di));
-    const auto one = hn::Eq(hn::ShiftRight<16>(had), hn::Zero(di));
+    const auto none = hn::Eq(had, hn::Zero(DI()));
+    const auto one = hn::Eq(hn::ShiftRight<16>(had), hn::Zero(DI()));
     const VI second = hn::IfThenElse(one, hn::Or(had, hn::ShiftLeft<16>(code)), had);
     Scatter(hn::IfThenElse(none, code, second), path.choices, slots);
   });

@@ -60,7 +60,7 @@ void KeepCandidate(Wave& wave) {
 
 Stage BeginCandidatesStage() {
   return {.name = "light_candidates",
-          .meaning = "begins with the candidates of light samples",
+          .meaning = "clears the weights of light candidates",
           .input = QueueId::kLit,
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
@@ -70,7 +70,7 @@ Stage BeginCandidatesStage() {
 
 Stage KeepCandidateStage() {
   return {.name = "light_keep",
-          .meaning = "takes the candidate that was kept",
+          .meaning = "makes the kept candidate the light sample",
           .input = QueueId::kLit,
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},

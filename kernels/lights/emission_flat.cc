@@ -6,10 +6,8 @@
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/lights.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/wave.h"
-#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -97,24 +95,17 @@ void EmissionOfFlat(Wave& wave) {
   });
 }
 
-template <LightShape kShape, bool kImages>
-StageFn ResolveEmissionByPoints(const FeatureSet& features) {
-  using enum LightPoints;
-  if (!features.Has(Feature::kMis)) return EmissionOfFlat<kShape, false, kArea, kImages>;
-  if (features.Has(Feature::kProjectedHits)) {
-    return EmissionOfFlat<kShape, true, kProjected, kImages>;
-  }
-  if (features.Has(Feature::kSolidAngleLights)) {
-    return EmissionOfFlat<kShape, true, kSolidAngle, kImages>;
-  }
-  return EmissionOfFlat<kShape, true, kArea, kImages>;
-}
-
 template <LightShape kShape>
 StageFn ResolveEmissionOfFlat(const FeatureSet& features) {
-  return features.Has(Feature::kEmissionImages)
-             ? ResolveEmissionByPoints<kShape, true>(features)
-             : ResolveEmissionByPoints<kShape, false>(features);
+  const bool images = features.Has(Feature::kEmissionImages);
+  if (!features.Has(Feature::kMis)) {
+    return images ? EmissionOfFlat<kShape, false, LightPoints::kArea, true>
+                  : EmissionOfFlat<kShape, false, LightPoints::kArea, false>;
+  }
+  return ByLightPoints(features, Feature::kProjectedHits, [&](auto points) -> StageFn {
+    return images ? EmissionOfFlat<kShape, true, decltype(points)::value, true>
+                  : EmissionOfFlat<kShape, true, decltype(points)::value, false>;
+  });
 }
 
 Stage EmissionTriangleStage() {

@@ -1,11 +1,9 @@
 // Emission of hit spheres and disks, weighted against light sampling of the same point.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/geometry-inl.h"
 #include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/lights.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/wave.h"
 

@@ -8,7 +8,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/mapping-inl.h"
 #include "kernels/texture/texture-inl.h"
-#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -112,7 +111,7 @@ void ImageSamples(Wave& wave) {
 
 Stage EmissionImageSamplesStage() {
   return EmittedThereStage(
-      "light_emission_image", "what the images of emitting shapes have at sampled points",
+      "light_emission_image", "multiplies light samples by images of emitting shapes",
       Feature::kEmissionImages,
       ByFeature<Feature::kManyLights, ImageSamples<true>, ImageSamples<false>>);
 }
@@ -142,7 +141,7 @@ void CutSamples(Wave& wave) {
 
 Stage EmissionCutSamplesStage() {
   return EmittedThereStage(
-      "light_emission_cut", "what alpha leaves of emitting shapes at sampled points",
+      "light_emission_cut", "multiplies light samples by alpha of emitting shapes",
       Feature::kEmissionCuts,
       ByFeature<Feature::kManyLights, CutSamples<true>, CutSamples<false>>);
 }

@@ -4,7 +4,6 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/octahedral-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

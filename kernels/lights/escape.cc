@@ -4,7 +4,6 @@
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -14,9 +14,10 @@
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
 
 #include "kernels/lights/geometry-inl.h"
-#include "kernels/warp/bilinear-inl.h"
 #include "kernels/warp/spherical_rectangle-inl.h"
 #include "kernels/warp/spherical_triangle-inl.h"
+#include "src/vocabulary/path/stage.h"
+#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -115,6 +116,19 @@ struct SeenRectangle {
                                      hn::Sub(Dot(hit, rectangle.along_y), view.y0)});
   }
 };
+
+/// Returns kernel(points) for the LightPoints of a plan, an integral constant.
+template <class Kernel>
+StageFn ByLightPoints(const FeatureSet& features, Feature projected,
+                      const Kernel& kernel) {
+  using enum LightPoints;
+  if (features.Has(projected)) {
+    return kernel(std::integral_constant<LightPoints, kProjected>());
+  }
+  return features.Has(Feature::kSolidAngleLights)
+             ? kernel(std::integral_constant<LightPoints, kSolidAngle>())
+             : kernel(std::integral_constant<LightPoints, kArea>());
+}
 
 LANELIGHT_END_KERNELS
 

@@ -6,7 +6,6 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
-#include "src/scene/compiled/lights.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_parts.h"
 

@@ -10,7 +10,6 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/lights.h"
-#include "src/scene/compiled/spectra.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -186,15 +185,14 @@ LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
 /// Returns the light of a colour, of light `index`, at the wavelengths of its paths.
 inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI index,
                                      V3 color) {
-  const DI di;
   const SpectrumTable& table = *wave.spectra;
   const Wavelengths at(wave.path, slots);
   const VI row = Lookup(wave.lights->spectrum, index);
-  const auto own = hn::Gt(row, hn::Set(di, -1));
+  const auto own = hn::Gt(row, hn::Set(DI(), -1));
   // The weights of Luminance() (src/base/core/vec.h), in which the rows are stated.
   const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));
   const V3 by_row = Mul(AtRows(table, hn::IfThenElseZero(own, row), at), luminance);
-  if (hn::AllTrue(di, own)) return by_row;
+  if (hn::AllTrue(DI(), own)) return by_row;
   return IfThenElse(hn::RebindMask(DF(), own), by_row, UpsampledColors(table, color, at));
 }
 /// Does the same in any scene: paths that carry red, green and blue see the colour.

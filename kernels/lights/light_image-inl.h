@@ -6,7 +6,6 @@
 #include <cstddef>
 
 #include "kernels/lights/geometry-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/scene/compiled/lights.h"
 

@@ -13,8 +13,6 @@
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal_sums-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/surface/point-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -32,7 +30,6 @@ struct PortalWindow {
 LANELIGHT_INLINE V3 LoadV3(const float v[3]) { return Splat3(v[0], v[1], v[2]); }
 
 inline HWY_NOINLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
-  const DF df;
   const V3 w = {Dot(LoadV3(portal.x_axis), direction),
                 Dot(LoadV3(portal.y_axis), direction),
                 Dot(LoadV3(portal.z_axis), direction)};
@@ -40,8 +37,8 @@ inline HWY_NOINLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
   const MF ahead = hn::Gt(w.z, Splat(0));
   const VF inverse = hn::IfThenElseZero(ahead, hn::Div(one, w.z));
   const VF cosines = hn::Mul(hn::NegMulAdd(w.x, w.x, one), hn::NegMulAdd(w.y, w.y, one));
-  return {hn::MulAdd(hn::Atan(df, hn::Mul(w.x, inverse)), inv_pi, half),
-          hn::MulAdd(hn::Atan(df, hn::Mul(w.y, inverse)), inv_pi, half),
+  return {hn::MulAdd(hn::Atan(DF(), hn::Mul(w.x, inverse)), inv_pi, half),
+          hn::MulAdd(hn::Atan(DF(), hn::Mul(w.y, inverse)), inv_pi, half),
           hn::Mul(hn::Mul(cosines, inverse), Splat(kPi * kPi)), ahead};
 }
 

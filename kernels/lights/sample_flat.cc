@@ -18,7 +18,6 @@
 #include "kernels/queue/batch-inl.h"
 #include "src/scene/compiled/lights.h"
 #include "src/vocabulary/path/wave.h"
-#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -68,19 +67,11 @@ HWY_INLINE void SampleFlatLight(const PathColumns& p, const StoreSlots& slots,
 // Shape::Sample<kMany, kPoints> for the features of a plan.
 template <class Shape>
 StageFn ResolveSampleFlat(const FeatureSet& features) {
-  const bool many = features.Has(Feature::kManyLights);
-  const auto kernel = [&](auto points) -> StageFn {
-    return many ? Shape::template Sample<true, decltype(points)::value>
-                : Shape::template Sample<false, decltype(points)::value>;
-  };
-  using enum LightPoints;
-  if (features.Has(Feature::kProjectedLights)) {
-    return kernel(std::integral_constant<LightPoints, kProjected>());
-  }
-  if (features.Has(Feature::kSolidAngleLights)) {
-    return kernel(std::integral_constant<LightPoints, kSolidAngle>());
-  }
-  return kernel(std::integral_constant<LightPoints, kArea>());
+  return ByLightPoints(features, Feature::kProjectedLights, [&](auto points) -> StageFn {
+    return features.Has(Feature::kManyLights)
+               ? Shape::template Sample<true, decltype(points)::value>
+               : Shape::template Sample<false, decltype(points)::value>;
+  });
 }
 
 // The data of a batch's lights that a sample needs.
@@ -123,8 +114,7 @@ struct TriangleEmitters {
   }
 
   HWY_INLINE TriangleEmitters Choose(VI light) const {
-    const DF df;
-    const auto at = hn::IndicesFromVec(df, light);
+    const auto at = hn::IndicesFromVec(DF(), light);
     const auto pick = [&](V3 v) HWY_ATTR {
       return V3{hn::TableLookupLanes(v.x, at), hn::TableLookupLanes(v.y, at),
                 hn::TableLookupLanes(v.z, at)};
@@ -138,7 +128,7 @@ struct TriangleEmitters {
     chosen.radiance = pick(radiance);
     chosen.pmf = hn::TableLookupLanes(pmf, at);
     chosen.area = hn::TableLookupLanes(area, at);
-    const VF sides = hn::TableLookupLanes(hn::BitCast(df, two_sided), at);
+    const VF sides = hn::TableLookupLanes(hn::BitCast(DF(), two_sided), at);
     chosen.two_sided = hn::BitCast(DI(), sides);
     return chosen;
   }

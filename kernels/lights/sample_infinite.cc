@@ -8,8 +8,6 @@
 #include "kernels/lights/light_stage.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/math-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

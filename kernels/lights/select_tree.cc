@@ -12,11 +12,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/light-inl.h"
-#include "kernels/queue/batch-inl.h"
-#include "kernels/queue/filter-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/records-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -78,13 +74,12 @@ LANELIGHT_INLINE ChildProbabilities ProbabilitiesOf(const LightTree& tree, VI fi
 // One descent per lane: u is stretched back to [0, 1) after each choice.
 HWY_INLINE VI Descend(const LightTree& tree, V3 p, VF u, VF* pmf) {
   const DI di;
-  const DF df;
   VI node = hn::Zero(di);
   for (;;) {
     const VI child = LightNodes(tree, node).I(offsetof(LightNode, child));
     const auto leaf = hn::Lt(child, hn::Zero(di));
     if (hn::AllTrue(di, leaf)) return hn::Not(child);
-    const MF inner = hn::Not(hn::RebindMask(df, leaf));
+    const MF inner = hn::Not(hn::RebindMask(DF(), leaf));
     const VI safe = hn::IfThenZeroElse(leaf, child);
     const ChildProbabilities go = ProbabilitiesOf(tree, safe, p);
     const MF left = hn::Lt(u, go.first);
@@ -141,21 +136,19 @@ Stage SelectLightTreeStage() {
 // For MIS: the probability with which the tree would have selected the light that a ray
 // has hit, by walking up from its leaf.
 HWY_INLINE VF ClimbingProbability(const LightTree& tree, VI node, V3 p) {
-  const DI di;
-  const DF df;
   VF pmf = Splat(1.0f - tree.pmf_far * static_cast<float>(tree.far.size()));
   for (;;) {
-    const auto inner = hn::Gt(node, hn::Zero(di));  // the root is 0
-    if (hn::AllFalse(di, inner)) return pmf;
+    const auto inner = hn::Gt(node, hn::Zero(DI()));  // the root is 0
+    if (hn::AllFalse(DI(), inner)) return pmf;
     // The root has none: lanes that are there read the root again.
     const VI parent =
         hn::IfThenElseZero(inner, LightNodes(tree, node).I(offsetof(LightNode, parent)));
     const VI first =
         hn::IfThenElseZero(inner, LightNodes(tree, parent).I(offsetof(LightNode, child)));
     const ChildProbabilities go = ProbabilitiesOf(tree, first, p);
-    const MF is_first = hn::RebindMask(df, hn::Eq(node, first));
+    const MF is_first = hn::RebindMask(DF(), hn::Eq(node, first));
     const VF chosen = hn::IfThenElse(is_first, go.first, go.second);
-    pmf = hn::IfThenElse(hn::RebindMask(df, inner), hn::Mul(pmf, chosen), pmf);
+    pmf = hn::IfThenElse(hn::RebindMask(DF(), inner), hn::Mul(pmf, chosen), pmf);
     node = hn::IfThenElse(inner, parent, node);
   }
 }
@@ -179,7 +172,7 @@ void HitLightTree(Wave& wave) {
 
 Stage HitLightTreeStage() {
   return {.name = "light_hit_tree",
-          .meaning = "probability of having selected the light that was hit",
+          .meaning = "computes the probability of selecting the light that was hit",
           .input = QueueId::kHit,
           .role = StageRole::kEmission,
           .needs = {Feature::kAreaLights, Feature::kLightTree, Feature::kMis},

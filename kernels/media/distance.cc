@@ -46,7 +46,7 @@ HWY_INLINE void AddEmission(const Wave& wave, const StoreSlots& slots, V3 beta,
   Scatter3(l + Mul(beta, emitted), p.l_r, p.l_g, p.l_b, slots);
 }
 
-// Template parameters: the parts of the walk that a scene and a strategy need.
+// The parts of the walk that a scene and a strategy need.
 template <bool interfaces, bool emission, bool equiangular>
 struct Needs {
   static constexpr bool kInterfaces = interfaces, kEmission = emission,
@@ -119,27 +119,23 @@ void MediumDistance(Wave& wave) {
   LeaveWithEvents(wave);
 }
 
-template <bool kInterfaces, bool kEmission>
-StageFn ByDistances(const FeatureSet& features) {
-  return features.Has(Feature::kEquiangularDistances)
-             ? MediumDistance<Needs<kInterfaces, kEmission, true>>
-             : MediumDistance<Needs<kInterfaces, kEmission, false>>;
-}
-
-template <bool kInterfaces>
-StageFn ByEmission(const FeatureSet& features) {
-  return features.Has(Feature::kMediumEmission)
-             ? ByDistances<kInterfaces, true>(features)
-             : ByDistances<kInterfaces, false>(features);
-}
-
 StageFn ResolveMediumDistance(const FeatureSet& features) {
-  return features.Has(Feature::kInterfaces) ? ByEmission<true>(features)
-                                            : ByEmission<false>(features);
+  const auto by = [&](Feature feature, const auto& kernel) -> StageFn {
+    return features.Has(feature) ? kernel(std::true_type()) : kernel(std::false_type());
+  };
+  return by(Feature::kInterfaces, [&](auto interfaces) {
+    return by(Feature::kMediumEmission, [&](auto emission) {
+      return by(Feature::kEquiangularDistances, [&](auto equiangular) -> StageFn {
+        return MediumDistance<
+            Needs<decltype(interfaces)::value, decltype(emission)::value,
+                  decltype(equiangular)::value>>;
+      });
+    });
+  });
 }
 
 Stage MediumDistanceStage() {
-  return MediumEventStage("medium_distance", "how far rays get in homogeneous media",
+  return MediumEventStage("medium_distance", "samples distances in homogeneous media",
                           Feature::kMedia, ResolveMediumDistance);
 }
 

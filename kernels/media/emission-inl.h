@@ -12,7 +12,6 @@ LANELIGHT_BEGIN_KERNELS
 
 /// Returns the colour of a black body of at least kLeastKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
-  const DI di;
   const VF least = Splat(kLeastKelvin);
   const VF ratio = hn::Mul(hn::Max(kelvin, least), Splat(1 / kLeastKelvin));
   const VF at = hn::Mul(hn::Log(DF(), ratio), Splat(table.entries_per_log));
@@ -20,7 +19,7 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   const auto last = static_cast<float>(table.colors.size() / 3 - 2);
   const VF low = hn::Clamp(hn::Floor(at), Splat(0), Splat(last));
   const VF share = hn::Sub(at, low);
-  const VI entry = hn::Mul(hn::ConvertTo(di, low), hn::Set(di, 3));
+  const VI entry = hn::Mul(hn::ConvertTo(DI(), low), hn::Set(DI(), 3));
   const auto channel = [&](int c) HWY_ATTR {
     const VF a = Gather(table.colors.data() + c, entry);
     const VF b = Gather(table.colors.data() + 3 + c, entry);
@@ -61,7 +60,7 @@ struct GridEmission {
     if (spectral && grid.emission.channels == 4) place = Places(wave, slots);
   }
 
-  /// At p of the box, in the lanes of `mask`.
+  /// Returns the emission at p of the box, in the lanes of `mask`.
   LANELIGHT_INLINE V3 At(V3 p, MF mask) const {
     return grid.emission.empty() ? scale : Mul(scale, Factor(p, mask));
   }

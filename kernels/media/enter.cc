@@ -24,11 +24,10 @@ HWY_INLINE VF AlbedoOf(const MediumTable& media, VI table, VF reflectance) {
 HWY_INLINE void EnterInside(const Wave& wave, const StoreSlots& slots, VI before,
                             VI after) {
   const PathColumns& p = wave.path;
-  const DI di;
   const Media medium(*wave.media, after);
   const MF changes = hn::And(hn::RebindMask(DF(), hn::Ne(before, after)),
                              hn::And(IsInMedium(after), medium.IsTextured()));
-  const VI table = hn::Max(medium.I(offsetof(MediumRecord, albedos)), hn::Zero(di));
+  const VI table = hn::Max(medium.I(offsetof(MediumRecord, albedos)), hn::Zero(DI()));
   const auto of = [&](VF reflectance)
                       HWY_ATTR { return AlbedoOf(*wave.media, table, reflectance); };
   const V3 color = Gather3(p.color0_r, p.color0_g, p.color0_b, slots);
@@ -66,7 +65,7 @@ Stage EnterMediaStage() {
   const FieldSet ray = {Field::medium,   Field::passed,   Field::crossings, Field::walked,
                         Field::inside_r, Field::inside_g, Field::inside_b};
   return {.name = "enter_media",
-          .meaning = "which medium scattered rays go into",
+          .meaning = "finds the medium that scattered rays enter",
           .input = QueueId::kScattered,
           .role = StageRole::kMedia,
           .needs = {Feature::kMediumChanges, Feature::kScatters},
@@ -123,7 +122,7 @@ void PassInterfaces(Wave& wave) {
 
 Stage InterfacesStage() {
   return {.name = "interfaces",
-          .meaning = "takes out the paths that go through interfaces of media",
+          .meaning = "separates paths that pass interfaces of media",
           .input = QueueId::kSurface,
           .role = StageRole::kMedia,
           .needs = {Feature::kInterfaces, Feature::kScatters},
@@ -135,7 +134,7 @@ Stage InterfacesStage() {
 Stage PassInterfacesStage() {
   const FieldSet ray = {Field::medium, Field::passed, Field::crossings, Field::t};
   return {.name = "pass_interfaces",
-          .meaning = "sends paths on behind interfaces of media",
+          .meaning = "continues paths behind interfaces of media",
           .input = QueueId::kPassed,
           .role = StageRole::kMedia,
           .needs = {Feature::kInterfaces, Feature::kScatters},

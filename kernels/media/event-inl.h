@@ -32,7 +32,6 @@ struct Stretch {
 /// t = -1 marks the lanes of `event`; the surface stages overwrite the others later.
 LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, MF event,
                                  VF distance, VI material) {
-  const DI di;
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots), back = -d;
   const V3 at = MulAdd(d, distance, Gather3(p.o_x, p.o_y, p.o_z, slots));
   Scatter3(at, p.p_x, p.p_y, p.p_z, slots);
@@ -40,9 +39,9 @@ LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, 
   Scatter3(back, p.ng_x, p.ng_y, p.ng_z, slots);
   if (p.ns_x != nullptr) Scatter3(back, p.ns_x, p.ns_y, p.ns_z, slots);
   Scatter(material, p.material, slots);
-  const VI none = hn::Set(di, static_cast<int32_t>(kNoPrimitive));
+  const VI none = hn::Set(DI(), static_cast<int32_t>(kNoPrimitive));
   const VI prim = Gather(p.prim, slots);
-  Scatter(hn::IfThenElse(hn::RebindMask(di, event), none, prim), p.prim, slots);
+  Scatter(hn::IfThenElse(hn::RebindMask(DI(), event), none, prim), p.prim, slots);
   Scatter(hn::IfThenElse(event, Splat(-1.0f), Gather(p.t, slots)), p.t, slots);
 }
 

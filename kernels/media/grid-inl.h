@@ -5,7 +5,6 @@
 
 #include <limits>
 
-#include "kernels/media/medium-inl.h"
 #include "kernels/media/voxels-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -14,13 +14,10 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/math-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/simd/rng-inl.h"
-#include "kernels/simd/vec3-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/media.h"
-#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -78,8 +75,7 @@ struct Sides {
 
   /// `prim` may be kNoPrimitive.
   LANELIGHT_INLINE Sides(const MediumTable& t, VI prim) : table(t) {
-    const DI di;
-    const VI none = hn::Set(di, -1), zero = hn::Zero(di);
+    const VI none = hn::Set(DI(), -1), zero = hn::Zero(DI());
     const VI found = Gather(t.primitives.data(), hn::Max(prim, zero));
     index = hn::IfThenElse(hn::Gt(prim, none), found, none);
   }
@@ -90,11 +86,10 @@ struct Sides {
   }
   /// Returns the medium in direction d; `here` if the primitive has none beside it.
   LANELIGHT_INLINE VI Toward(V3 d, V3 normal, VI here) const {
-    const DI di;
-    const auto out = hn::RebindMask(di, hn::Gt(Dot(d, normal), hn::Zero(DF())));
+    const auto out = hn::RebindMask(DI(), hn::Gt(Dot(d, normal), hn::Zero(DF())));
     const VI beyond = hn::IfThenElse(out, Word(offsetof(MediumSides, outside)),
                                      Word(offsetof(MediumSides, inside)));
-    return hn::IfThenElse(hn::RebindMask(di, Known()), beyond, here);
+    return hn::IfThenElse(hn::RebindMask(DI(), Known()), beyond, here);
   }
 
  private:

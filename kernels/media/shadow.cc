@@ -29,7 +29,7 @@ StageFn ResolveShadowMedia(const FeatureSet& features) {
 Stage ShadowMediaStage() {
   const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
   return {.name = "media_dim",
-          .meaning = "what media leave of shadow rays",
+          .meaning = "applies the transmittance of media to shadow rays",
           .input = QueueId::kShadow,
           .role = StageRole::kMedia,
           .needs = {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights,

@@ -13,7 +13,6 @@
 #include "kernels/media/emission-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
-#include "kernels/media/medium-inl.h"
 #include "kernels/queue/filter-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -57,12 +56,10 @@ struct Track {
     const MF real = hn::And(mask, hn::Lt(hn::Mul(u, own_m), own_t));
     const VF rate = hn::Div(Splat(1.0f), own_t);
     const VF null_rate = hn::Div(Splat(1.0f), channel.Of(null));
-    const MF passes = hn::AndNot(real, mask);
     const V3 happens_f = IfThenElse(real, Mul(at.sigma_s, rate), Mul(null, null_rate));
     const V3 happens_p = IfThenElse(real, Mul(sigma_t, rate), Mul(null, null_rate));
-    const MF either = hn::Or(real, passes);
-    f = IfThenElse(either, Mul(f, happens_f), f);
-    pdf = IfThenElse(either, Mul(pdf, happens_p), pdf);
+    f = IfThenElse(mask, Mul(f, happens_f), f);
+    pdf = IfThenElse(mask, Mul(pdf, happens_p), pdf);
     return real;
   }
   HWY_INLINE void Walk(CellWalk& at, WalkRandom& random, VF depth_left) {
@@ -145,7 +142,8 @@ void MediumTracking(Wave& wave) {
 
 Stage MediumTrackingStage() {
   return MediumEventStage(
-      "medium_tracking", "how far rays get in media that vary", Feature::kMediumGrids,
+      "medium_tracking", "samples distances in heterogeneous media",
+      Feature::kMediumGrids,
       ByFeature<Feature::kMediumEmission, MediumTracking<true>, MediumTracking<false>>);
 }
 

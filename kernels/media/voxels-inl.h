@@ -18,17 +18,16 @@ struct AxisSamples {
   MF has_low, has_high;  // they lie in the grid; others are zero
 
   LANELIGHT_INLINE AxisSamples(VF x, int32_t size) {
-    const DF df;
     const DI di;
     const VF at = hn::MulAdd(x, Splat(static_cast<float>(size)), Splat(-0.5f));
     const VF floor = hn::Floor(at);
     low = hn::ConvertTo(di, floor);
     weight = hn::Sub(at, floor);
     const VI last = hn::Set(di, size - 1), before = hn::Set(di, -1);
-    has_low =
-        hn::RebindMask(df, hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
+    has_low = hn::RebindMask(
+        DF(), hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
     has_high =
-        hn::RebindMask(df, hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
+        hn::RebindMask(DF(), hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
   }
 };
 

@@ -11,6 +11,12 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+HWY_INLINE void StoreAt(V3 v, float* x, float* y, float* z, uint32_t at) {
+  hn::StoreU(v.x, DF(), x + at);
+  hn::StoreU(v.y, DF(), y + at);
+  hn::StoreU(v.z, DF(), z + at);
+}
+
 HWY_INLINE VI StateLanes(ReuseState state) {
   return hn::Set(DI(), static_cast<int32_t>(state));
 }

@@ -6,7 +6,6 @@
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -135,7 +134,7 @@ HWY_INLINE void ConnectBlock(Wave& wave) {
 
 Stage ReuseShadowStage() {
   return {.name = "reuse_shadow",
-          .meaning = "finds out which pairs of a block see each other",
+          .meaning = "traces shadow rays between pairs of a block",
           .input = QueueId::kShadow,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},
@@ -145,7 +144,7 @@ Stage ReuseShadowStage() {
 
 Stage ReuseConnectStage() {
   return {.name = "reuse_connect",
-          .meaning = "shares the light of second vertices out to the block",
+          .meaning = "distributes the light of second vertices to the block",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},

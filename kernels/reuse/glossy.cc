@@ -50,12 +50,9 @@ HWY_INLINE V3 LoadF(const PairColumns& pairs, uint32_t at) {
 }
 
 HWY_INLINE void StoreF(V3 f, const PairColumns& pairs, uint32_t at) {
-  const DF df;
   const auto finite = [](VF v)
                           HWY_ATTR { return hn::IfThenElseZero(IsPositiveFinite(v), v); };
-  hn::StoreU(finite(f.x), df, pairs.f_r + at);
-  hn::StoreU(finite(f.y), df, pairs.f_g + at);
-  hn::StoreU(finite(f.z), df, pairs.f_b + at);
+  StoreAt({finite(f.x), finite(f.y), finite(f.z)}, pairs.f_r, pairs.f_g, pairs.f_b, at);
 }
 
 // The begin of the pairs of a second vertex, by part; one row serves a single part.
@@ -122,7 +119,7 @@ void LightGlossy(Wave& wave) {
 
 Stage ReuseGlossyStage() {
   return {.name = "reuse_glossy",
-          .meaning = "evaluates what glossy second vertices send to all first ones",
+          .meaning = "evaluates light from glossy second vertices to all first ones",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},

@@ -1,16 +1,14 @@
 // reuse=block: splits the light that glossy second vertices have gathered into the path's
 // own part and the part that serves the block.
 //
-// A path shares the light that wide lobes scatter from a direction w: f_s(o, w) of f(o, w),
-// o being the direction to its first vertex. Narrow lobes, such as the
-// reflection of a coat, and mirrors are of no use to other paths. The shared part is
-// divided by f(o, w), so that the f of any first vertex can replace it
-// (kernels/reuse/glossy.cc). Both parts keep the densities and the weights with which the
-// path has found them.
+// A path shares the light that wide lobes scatter from a direction w: f_s(o, w) of f(o,
+// w), o being the direction to its first vertex. Narrow lobes, such as the reflection of
+// a coat, and mirrors are of no use to other paths. The shared part is divided by f(o,
+// w), so that the f of any first vertex can replace it (kernels/reuse/glossy.cc). Both
+// parts keep the densities and the weights with which the path has found them.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/filter-inl.h"
-#include "kernels/reuse/block-inl.h"
 #include "kernels/reuse/glossy-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -138,7 +136,7 @@ void SplitGlossy(Wave& wave) {
 
 Stage ReuseOwnLightStage() {
   return {.name = "reuse_own_light",
-          .meaning = "takes what serves others out of what paths have gathered",
+          .meaning = "splits gathered light into own and shared parts",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
@@ -184,7 +182,7 @@ void SecondVerticesLight(Wave& wave) {
 Stage SecondVerticesLightStage() {
   using namespace fields;
   return {.name = "reuse_light",
-          .meaning = "keeps what lights glossy second vertices",
+          .meaning = "keeps the light of glossy second vertices",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},

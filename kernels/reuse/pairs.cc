@@ -50,7 +50,7 @@ struct SecondVertex {
   }
 };
 
-// From first vertices to a second one.
+// The connection of first vertices to a second one.
 struct Connection {
   V3 wi;  // unit
   VF geometry;
@@ -112,26 +112,19 @@ struct Receivers {
 template <class Lanes>
 HWY_INLINE void StoreRay(const PathColumns& ray, uint32_t at, const Lanes& x,
                          const SecondVertex& y) {
-  const DF df;
   const VF clearance = Clearance(x.p, y.at, hn::Max(x.p_error, y.p_error));
   const V3 to = MulAdd(y.ng, clearance, y.at) - x.p;
   const VF distance = hn::Sqrt(Dot(to, to));
   const V3 direction = Mul(to, hn::Div(Splat(1.0f), distance));
-  hn::StoreU(direction.x, df, ray.ls_x + at);
-  hn::StoreU(direction.y, df, ray.ls_y + at);
-  hn::StoreU(direction.z, df, ray.ls_z + at);
-  hn::StoreU(distance, df, ray.ls_distance + at);
+  StoreAt(direction, ray.ls_x, ray.ls_y, ray.ls_z, at);
+  hn::StoreU(distance, DF(), ray.ls_distance + at);
 }
 
 template <class Lanes>
 HWY_INLINE void StoreOrigin(const PathColumns& ray, uint32_t at, const Lanes& x) {
   const DF df;
-  hn::StoreU(x.p.x, df, ray.p_x + at);
-  hn::StoreU(x.p.y, df, ray.p_y + at);
-  hn::StoreU(x.p.z, df, ray.p_z + at);
-  hn::StoreU(x.ng.x, df, ray.ng_x + at);
-  hn::StoreU(x.ng.y, df, ray.ng_y + at);
-  hn::StoreU(x.ng.z, df, ray.ng_z + at);
+  StoreAt(x.p, ray.p_x, ray.p_y, ray.p_z, at);
+  StoreAt(x.ng, ray.ng_x, ray.ng_y, ray.ng_z, at);
   hn::StoreU(x.p_error, df, ray.p_error + at);
   if (ray.prim != nullptr) {
     hn::StoreU(hn::BitCast(df, Gather(x.path().prim, x.records)), df,
@@ -153,9 +146,7 @@ HWY_INLINE void StorePair(Wave& wave, uint32_t at, const Lanes& x, const SecondV
   const MF found = hn::And(hn::And(valid, c.connects), proposes);
   const V3 f = IfThenElseZero(found, Mul(value.f_cos, c.geometry));
   const MF own = hn::RebindMask(df, hn::Eq(x.records.index, y.record));
-  hn::StoreU(f.x, df, pairs.f_r + at);
-  hn::StoreU(f.y, df, pairs.f_g + at);
-  hn::StoreU(f.z, df, pairs.f_b + at);
+  StoreAt(f, pairs.f_r, pairs.f_g, pairs.f_b, at);
   hn::StoreU(hn::IfThenElseZero(found, pdf), df, pairs.pdf_area + at);
   hn::StoreU(hn::IfThenElseZero(own, Splat(1.0f)), df, pairs.visible + at);
   const MF traced = hn::AndNot(own, found);

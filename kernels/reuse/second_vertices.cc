@@ -14,7 +14,6 @@
 
 #include "kernels/queue/filter-inl.h"
 #include "kernels/reuse/block-inl.h"
-#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 

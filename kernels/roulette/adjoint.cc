@@ -18,7 +18,6 @@
 //               in Light Transport Simulation"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -37,9 +36,9 @@ struct AdjointWindow {
 };
 
 Stage AdjointRouletteStage() {
-  return WindowStage<AdjointWindow>("roulette_adjoint",
-                                    "roulette and splitting on the expected contribution",
-                                    Feature::kAdjointRoulette);
+  return WindowStage<AdjointWindow>(
+      "roulette_adjoint", "plays roulette and splitting on the expected contribution",
+      Feature::kAdjointRoulette);
 }
 
 LANELIGHT_END_KERNELS

@@ -20,7 +20,6 @@
 //               Aware Russian Roulette and Splitting"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -42,7 +41,7 @@ struct EfficiencyWindow {
 
 Stage EfficiencyRouletteStage() {
   return WindowStage<EfficiencyWindow>("roulette_efficiency",
-                                       "roulette and splitting for efficiency",
+                                       "plays roulette and splitting for efficiency",
                                        Feature::kEfficiencyRoulette);
 }
 

@@ -9,7 +9,6 @@
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -16,9 +16,7 @@
 // alone. A split path begins with l = 0, but with L.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -119,7 +117,7 @@ constexpr FieldSet kTransport =
 
 Stage SinglePathBeforeStage() {
   return {.name = "single_path_before",
-          .meaning = "what a training path would be alone, before it may split",
+          .meaning = "records single-path light before a decision",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -129,7 +127,7 @@ Stage SinglePathBeforeStage() {
 }
 Stage SinglePathAfterStage() {
   return {.name = "single_path_after",
-          .meaning = "the weight of a training path that has been decided on",
+          .meaning = "records the weight of a path after a decision",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -138,21 +136,18 @@ Stage SinglePathAfterStage() {
           .resolve = Always<SinglePathAfter>};
 }
 Stage SinglePathDecisionStage() {
-  return {
-      .name = "single_path_decision",
-      .meaning =
-          "what roulette would add to the second moment of a training path that splits",
-      .input = QueueId::kScattered,
-      .role = StageRole::kRecord,
-      .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
-      .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
-      .writes = fields::kRisk,
-      .resolve = Always<SinglePathDecision>};
+  return {.name = "single_path_decision",
+          .meaning = "records the second moment by roulette for split training paths",
+          .input = QueueId::kScattered,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
+          .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
+          .writes = fields::kRisk,
+          .resolve = Always<SinglePathDecision>};
 }
 Stage SinglePathEndStage() {
   return {.name = "single_path_end",
-          .meaning =
-              "writes what a finished training path would have brought without splitting",
+          .meaning = "writes the single-path estimate of a finished training path",
           .input = QueueId::kDone,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},

@@ -17,9 +17,7 @@
 // the samples, so that the sums depend on no order of execution.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -44,7 +42,6 @@ void RecordDecision(Wave& wave) {
 }
 
 void RecordVertex(Wave& wave) {
-  const DI di;
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
@@ -54,7 +51,7 @@ void RecordVertex(Wave& wave) {
     const VF at = Brightness(values, Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
     const VF got = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
     for (int k = 0; k < kRecordedVertices; ++k) {
-      const auto here = hn::Eq(depth, hn::Set(di, k));
+      const auto here = hn::Eq(depth, hn::Set(DI(), k));
       const MF mine = hn::RebindMask(DF(), here);
       Scatter(hn::IfThenElse(here, cell, Gather(v.cell[k], slots)), v.cell[k], slots);
       Scatter(hn::IfThenElse(mine, at, Gather(v.at[k], slots)), v.at[k], slots);
@@ -102,7 +99,7 @@ Stage RecordVertexStage() {
 }
 Stage RecordDecisionStage() {
   return {.name = "record_decision",
-          .meaning = "what roulette would add to the second moment of a training path",
+          .meaning = "records the second moment by roulette",
           .input = QueueId::kScattered,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},

@@ -15,7 +15,6 @@
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/mapped_normals-inl.h"
 #include "kernels/texture/levels-inl.h"
-#include "kernels/texture/texture-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -116,7 +115,7 @@ void Bumps(Wave& wave) {
 Stage BumpsStage() {
   return {
       .name = "bumps",
-      .meaning = "shading normals of displacement textures",
+      .meaning = "computes shading normals of displacement textures",
       .input = QueueId::kSurface,
       .role = StageRole::kTexture,
       .needs = {Feature::kBumps, Feature::kScatters},
@@ -155,7 +154,7 @@ void NormalMaps(Wave& wave) {
 
 Stage NormalMapsStage() {
   return {.name = "normal_maps",
-          .meaning = "shading normals of normal maps",
+          .meaning = "computes shading normals of normal maps",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kNormalMaps, Feature::kScatters},

@@ -9,7 +9,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_kinds.h"
@@ -59,7 +58,7 @@ HWY_INLINE OnCurve PointOnCurve(const CurveLanes& curve) {
           {hn::Mul(chord.x, three), hn::Mul(chord.y, three), hn::Mul(chord.z, three)}};
 }
 
-// From the middle line to the point of the ray.
+// The point of the ray, and its offset from the middle line.
 struct CurvePlaces {
   V3 p, aside, tangent;
 };
@@ -149,7 +148,6 @@ HWY_INLINE CurveFaces FaceCurves(const Geometry& geometry, VI index,
   const VF half = Splat(0.5f);
   const VF aside =
       hn::Clamp(hn::Div(apart, hn::Max(width, Splat(1e-37f))), hn::Neg(half), half);
-  // Half a turn from side to side.
   const VF turn = hn::IfThenElseZero(curve.cylinder, hn::Mul(Splat(0.5f), aside));
   const SinCosPair a = SinCos2Pi(turn);
   return {MulAdd(face, a.cos, Mul(side, a.sin)),

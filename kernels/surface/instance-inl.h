@@ -6,7 +6,6 @@
 #include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/base/core/motion_record.h"
 #include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -30,9 +29,8 @@ struct InstanceMaps {
 /// `inst` is -1 for the world.
 LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
                                          VI inst) {
-  const DI di;
-  const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(di)));
-  const RecordWords record(records.data(), hn::Max(inst, hn::Zero(di)));
+  const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(DI())));
+  const RecordWords record(records.data(), hn::Max(inst, hn::Zero(DI())));
   const auto map = [&](std::size_t byte_offset) HWY_ATTR {
     const auto word = [&](std::size_t row, std::size_t column) HWY_ATTR {
       const VF value = record.F(byte_offset + (4 * row + column) * sizeof(float));
@@ -59,9 +57,8 @@ struct MovingLanes {
 
 LANELIGHT_INLINE MovingLanes GatherMotions(const AlignedVector<MotionRecord>& motions,
                                            VI inst, VF time) {
-  const DI di;
-  const auto count = hn::Set(di, static_cast<int32_t>(motions.size()));
-  const auto moves = hn::AndNot(hn::Lt(inst, hn::Zero(di)), hn::Lt(inst, count));
+  const auto count = hn::Set(DI(), static_cast<int32_t>(motions.size()));
+  const auto moves = hn::AndNot(hn::Lt(inst, hn::Zero(DI())), hn::Lt(inst, count));
   const RecordWords words(motions.data(), hn::IfThenElseZero(moves, inst));
   const MovedSpace space = SpaceAt(words, time);
   return {hn::RebindMask(DF(), moves),

@@ -2,7 +2,6 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/scene/geometry/geometry.h"
 
@@ -11,10 +10,8 @@ LANELIGHT_BEGIN_KERNELS
 HWY_INLINE void PlaneBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = *wave.geometry;
-  const DI di;
-  const auto first = static_cast<int32_t>(geometry.ranges.planes);
-  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const RecordWords record(geometry.planes.data(), index);
+  const RecordWords record =
+      HitRecords(geometry.planes, Gather(path.prim, slots), geometry.ranges.planes);
   const V3 point = record.F3(offsetof(PlaneRecord, point));
   const V3 n = record.F3(offsetof(PlaneRecord, normal));
   const D3 lower = ProjectToPlane<false>(RayPoint<false>(path, slots), point, n);
@@ -58,10 +55,8 @@ Stage SurfacePlaneStage() {
 HWY_INLINE void DiskBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = *wave.geometry;
-  const DI di;
-  const auto first = static_cast<int32_t>(geometry.ranges.disks);
-  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const RecordWords record(geometry.disks.data(), index);
+  const RecordWords record =
+      HitRecords(geometry.disks, Gather(path.prim, slots), geometry.ranges.disks);
   const V3 center = record.F3(offsetof(DiskRecord, center));
   const V3 n = record.F3(offsetof(DiskRecord, normal));
   const VF radius = record.F(offsetof(DiskRecord, radius));

@@ -2,7 +2,6 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/scene/geometry/geometry.h"
 
@@ -25,10 +24,8 @@ HWY_INLINE void Reproject(const SphereHits& s, D3 hit, D3& p, D3& outward) {
 HWY_INLINE void SphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = *wave.geometry;
-  const DI di;
-  const auto first = static_cast<int32_t>(geometry.ranges.spheres);
-  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const RecordWords record(geometry.spheres.data(), index);
+  const RecordWords record =
+      HitRecords(geometry.spheres, Gather(path.prim, slots), geometry.ranges.spheres);
   const SphereHits s{record.F3(offsetof(SphereRecord, center)),
                      record.F(offsetof(SphereRecord, radius))};
   D3 p[2], outward[2];
@@ -80,10 +77,8 @@ HWY_INLINE void Reproject(const LargeSphereHits& s, D3 hit, D3& p, D3& outward,
 HWY_INLINE void LargeSphereBatch(const Wave& wave, const StoreSlots& slots) {
   const PathColumns& path = wave.path;
   const Geometry& geometry = *wave.geometry;
-  const DI di;
-  const auto first = static_cast<int32_t>(geometry.ranges.large_spheres);
-  const VI index = hn::Sub(Gather(path.prim, slots), hn::Set(di, first));
-  const RecordWords record(geometry.large_spheres.data(), index);
+  const RecordWords record = HitRecords(geometry.large_spheres, Gather(path.prim, slots),
+                                        geometry.ranges.large_spheres);
   const LargeSphereHits s{record.F3(offsetof(LargeSphereRecord, point)),
                           record.F3(offsetof(LargeSphereRecord, normal)),
                           record.F(offsetof(LargeSphereRecord, curvature))};

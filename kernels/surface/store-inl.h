@@ -19,6 +19,14 @@ struct SurfaceLanes {
   VI material;
 };
 
+/// Returns the records of hits on primitives of one shape, whose ids begin at `first`.
+template <class Record>
+LANELIGHT_INLINE RecordWords<Record> HitRecords(const AlignedVector<Record>& records,
+                                                VI prim, uint32_t first) {
+  const VI begin = hn::Set(DI(), static_cast<int32_t>(first));
+  return RecordWords(records.data(), hn::Sub(prim, begin));
+}
+
 template <bool kUpper>
 LANELIGHT_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
   const V3 o = Gather3(path.o_x, path.o_y, path.o_z, slots);

@@ -3,7 +3,6 @@
 #define LANELIGHT_TEXTURE_MAPPING_INL_H_
 
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/vec3-inl.h"
 #include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -91,7 +91,6 @@ inline constexpr float kMarbleColors[kMarbleSegments + 3][3] = {
 /// Returns the colour of marble, by de Casteljau's scheme; q is scaled.
 inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float variation) {
   const DI di;
-  const DF df;
   const VF phase = hn::MulAdd(Splat(variation), FBm(q, octaves, roughness), q.y);
   const VF turns = hn::Mul(phase, Splat(0.159154943f));
   const VF sine = SinCos2Pi(hn::Sub(turns, hn::Floor(turns))).sin;
@@ -99,7 +98,7 @@ inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float vari
   const VF x = hn::Mul(hn::MulAdd(half, sine, half), Splat(float{kMarbleSegments}));
   const VI last = hn::Set(di, kMarbleSegments - 1);
   const VI first = hn::Max(hn::Min(hn::ConvertTo(di, x), last), hn::Zero(di));
-  const VF t = hn::Sub(x, hn::ConvertTo(df, first)), rest = hn::Sub(Splat(1.0f), t);
+  const VF t = hn::Sub(x, hn::ConvertTo(DF(), first)), rest = hn::Sub(Splat(1.0f), t);
   V3 point[4];
   for (int i = 0; i < 4; ++i) {
     point[i] = Gather3(kMarbleColors[i], first);

@@ -6,7 +6,6 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
-#include "src/base/core/check.h"
 #include "src/scene/compiled/materials.h"
 #include "src/scene/compiled/texture_table.h"
 
@@ -28,7 +27,6 @@ class TexturedHits {
   /// Moves the hits with the texture of the first one to `taken`; returns that texture.
   LANELIGHT_INLINE int32_t Take(Queue& taken) {
     const DI di;
-    const DF df;
     const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
     const int32_t first = ids_[0];
     uint32_t left = 0;
@@ -36,8 +34,8 @@ class TexturedHits {
     for (uint32_t i = 0; i < size_; i += lanes) {
       // Appended slots lie before the end of this vector, so they have been read already.
       const VI slots = hn::LoadU(di, slots_ + i), ids = hn::LoadU(di, ids_ + i);
-      const MF valid = hn::FirstN(df, size_ - i);
-      const MF same = hn::RebindMask(df, hn::Eq(ids, hn::Set(di, first)));
+      const MF valid = hn::FirstN(DF(), size_ - i);
+      const MF same = hn::RebindMask(DF(), hn::Eq(ids, hn::Set(di, first)));
       const MF others = hn::AndNot(same, valid);
       Push(taken, slots, hn::And(same, valid));
       Append(slots, others, slots_, left);
@@ -51,8 +49,7 @@ class TexturedHits {
  private:
   // Returns the number appended.
   LANELIGHT_INLINE static uint32_t Append(VI values, MF mask, int32_t* to, uint32_t end) {
-    const DI di;
-    hn::StoreU(hn::Compress(values, hn::RebindMask(di, mask)), di, to + end);
+    hn::StoreU(hn::Compress(values, hn::RebindMask(DI(), mask)), DI(), to + end);
     return static_cast<uint32_t>(hn::CountTrue(DF(), mask));
   }
 
@@ -94,11 +91,10 @@ LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
 // values.
 template <class Point, class Parameter>
 HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
-  const DI di;
   const PathColumns& path = wave.path;
   const TextureTable& table = *wave.textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DI()));
   HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
   Queue taken = {room, 0};
   for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMost) {
@@ -109,7 +105,7 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
       const VI material = Gather(path.material, slots);
       parameter.Store(slots, material, parameter.Constant(material));
       const VI ids = Lookup(parameter.textures, material);
-      const MF textured = hn::RebindMask(DF(), hn::Gt(ids, hn::Set(di, -1)));
+      const MF textured = hn::RebindMask(DF(), hn::Gt(ids, hn::Set(DI(), -1)));
       if (hn::AllFalse(DF(), textured)) continue;
       hits.Add(slots, ids, hn::And(textured, hn::FirstN(DF(), end - i)));
     }
@@ -128,16 +124,14 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
 
 // Returns the upper bound of a colour parameter: 1 for reflectances, none for indices.
 LANELIGHT_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
-  const DI di;
-  const DF df;
   const VI kind = Lookup(materials.kind, material);
   const auto is = [&](ShadeKind k) HWY_ATTR {
-    return hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k)));
+    return hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k)));
   };
   const auto index_of_refraction = hn::Or(
       hn::Or(is(ShadeKind::kConductorSmooth), is(ShadeKind::kConductorRough)),
       hn::Or(is(ShadeKind::kCoatedConductor), is(ShadeKind::kCoatedConductorMedium)));
-  return hn::IfThenElse(hn::RebindMask(df, index_of_refraction), Splat(3e38f),
+  return hn::IfThenElse(hn::RebindMask(DF(), index_of_refraction), Splat(3e38f),
                         Splat(1.0f));
 }
 
@@ -240,7 +234,7 @@ void Textures(Wave& wave) {
 
 Stage TextureStage() {
   return {.name = "texture",
-          .meaning = "textured material parameters of surface hits",
+          .meaning = "evaluates textured material parameters",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kTextures},
