@@ -1,6 +1,6 @@
-// Precompiled headers of other projects for all kernel files. Nothing of
-// Highway's own that differs by target may be here, and no table of the scene: a change
-// of one compiles only the kernels that read it.
+// Precompiled headers for all kernel files. Headers of Highway that differ by target must
+// not be here, nor tables of the scene, whose changes compile only the kernels that read
+// them.
 #pragma once
 
 #include "kernels/targets.h"

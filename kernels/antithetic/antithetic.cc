@@ -1,13 +1,12 @@
-// pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; here the
-// second one's are reflected. Before, the points stages have given both the same numbers
-// (PairedSample in kernels/points/fill-inl.h) and generate has put them in adjacent
-// slots.
+// pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; these
+// stages reflect those of the second one. The points stages have given both the same
+// numbers (PairedSample in kernels/points/fill-inl.h).
 //   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, or u + 1/2 for
 //               azimuths. Numbers that are not paired are independent in both samples
 //   unbiased    u' is as uniform as u
 //   variance    (1 + rho) sigma^2 / (2N) for N pairs, rho the correlation of f(u) and
-// f(u'): 0 if f is linear in the reflected numbers, a gain if f is monotonic in them, a
-// loss if it is symmetric about the middle (at worst twice the variance)
+//               f(u'). 0 if f is linear in the reflected numbers, less if f is monotonic
+//               in them, more if it is symmetric about the middle (at worst twice)
 //   dependence  a pair is one observation
 //   cost        a few instructions per number; half of the hashes could be spared
 //   source      Hammersley and Morton 1956; the paper's equation 6

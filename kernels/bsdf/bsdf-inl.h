@@ -2,33 +2,67 @@
 // normal (+z). kernels/shade/shade-inl.h turns each policy into a stage.
 //
 //   struct XBsdf : PlainBsdf {
-//     what PlainBsdf below has, where it is otherwise
+//     members of PlainBsdf that differ
 //     struct Params;
 //     static Params Load(const MaterialInputs&);
 //     static BsdfValue Eval(const Params&, V3 wo, V3 wi);
 //     static BsdfSample Sample(const Params&, V3 wo, const BsdfPoints&);
-//     static BsdfValue EvalShared(const Params&, V3 wo, V3 wi);  of the lobes that are
-//     wide
-//                                 enough to serve others (kernels/reuse/), if not of all
-//     static VF FirstLobe(const Params&, V3 wo);  probability of the first of two lobes,
-//                                 which BsdfPoints::lobe below it chooses: if control/
-//                                 choices.cc has a line for the kind
+//     // Optional: the lobes that other paths can reuse (kernels/reuse/).
+//     static BsdfValue EvalShared(const Params&, V3 wo, V3 wi);
+//     // For control/regression.cc: the probability of the first of two lobes.
+//     static VF FirstLobe(const Params&, V3 wo);
 //   };
 // wo and wi are unit and point away from the surface; wo.z is never 0.
 #ifndef LANELIGHT_BSDF_BSDF_INL_H_
 #define LANELIGHT_BSDF_BSDF_INL_H_
 
-#include "kernels/bsdf/random-inl.h"
 #include "kernels/queue/slots-inl.h"
 #include "kernels/simd/math-inl.h"
+#include "kernels/simd/rng-inl.h"
 #include "src/scene/compiled/materials.h"
 
-// Eval and Sample are part of three kernels each. Long ones, whose lanes are full of
-// work, lose nothing by a call, and the compiler sees them once.
+// Eval and Sample are part of three kernels each. Long ones are called: the call costs
+// little, and they are compiled once.
 #undef LANELIGHT_LONG_BSDF_CALL
 #define LANELIGHT_LONG_BSDF_CALL HWY_NOINLINE
 
 LANELIGHT_BEGIN_KERNELS
+
+/// Random numbers for materials that are evaluated by a random walk and need more than
+/// the three sample points of a bounce. Uniform in [0, 1) with 24 bits, a pure function
+/// of the four key words and of how many were drawn before. Each hash (Pcg4d) gives four
+/// numbers. The counter advances with every call of Next4, whichever lanes need it, so
+/// lanes never influence each other.
+struct LaneRandom {
+  /// Combined with the seed, keeps these numbers apart from the sample points.
+  static constexpr std::uint32_t kStream = 0x7feb352du;
+
+  VU pixel, sample, depth, seed;
+
+  LaneRandom() = default;
+  LANELIGHT_INLINE LaneRandom(VU of_pixel, VU of_sample, VU of_depth, VU of_seed)
+      : pixel(of_pixel), sample(of_sample), depth(of_depth), seed(of_seed) {}
+  /// The stream of each path.
+  LANELIGHT_INLINE LaneRandom(const PathColumns& p, const Slots& slots,
+                              std::uint32_t stream)
+      : pixel(AsUnsigned(Gather(p.pixel, slots))),
+        sample(AsUnsigned(Gather(p.sample, slots))),
+        depth(AsUnsigned(Gather(p.depth, slots))),
+        seed(SplatU(stream)) {
+    if (p.branch == nullptr) return;
+    seed = hn::Xor(seed, hn::ShiftLeft<24>(AsUnsigned(Gather(p.branch, slots))));
+  }
+
+  HWY_NOINLINE void Next4(VF out[4]) {
+    const U4 bits = Pcg4d({pixel, sample, depth, seed});
+    out[0] = ToUnit(bits.x);
+    out[1] = ToUnit(bits.y);
+    out[2] = ToUnit(bits.z);
+    out[3] = ToUnit(bits.w);
+    // The bounce number uses the low bits of `depth`; draws count above them.
+    depth = hn::Add(depth, SplatU(1u << 20));
+  }
+};
 
 /// Uniform in [0,1): the choice of a lobe, and a direction within it.
 struct BsdfPoints {
@@ -43,8 +77,8 @@ struct BsdfValue {
 };
 
 /// A direction, f * |cos| / density, and the density with respect to solid angle, 0 for a
-/// delta direction. weight 0: absorbed, nothing else counts. eta_scale: square of the
-/// relative index entered, 1 without refraction.
+/// delta direction. A weight of 0 means absorption. eta_scale: square of the relative
+/// index entered, 1 without refraction.
 struct BsdfSample {
   V3 wi, weight;
   VF pdf, eta_scale;
@@ -61,103 +95,59 @@ struct PlainBsdf {
                                                // then returns density 0
   static constexpr bool kEvenSides = false;  // f for wi is the same for all wo on a side
   static constexpr bool kTransmits = false;  // not all directions are on wo's side
-  static constexpr bool kFibre = false;      // MaterialSource has uv_v
+  static constexpr bool kFibre = false;      // Load reads the column uv_v
   static constexpr bool kByWavelength = false;  // Load looks at the path's wavelengths
 };
 
-/// The source of material parameters: the table, or columns filled by the texture stage.
-/// It is the same for all paths of a scene, so it is resolved once per stage call.
-struct MaterialSource {
-  const MaterialTable* table;
-  const float *color0_r, *color0_g, *color0_b, *alpha_x, *alpha_y;
-  const float *color1_r, *color1_g, *color1_b;
-  const float *alpha2_x, *alpha2_y, *coat_thickness;
-  const float *coat_albedo_r, *coat_albedo_g, *coat_albedo_b, *coat_g;
-  bool color_by_path, alpha_by_path, color1_by_path, coat_by_path, medium_by_path;
-  const float* uv_v;        // only for kFibre; null otherwise
-  const float* eta;         // of glass, by path; null: of the table
-  const float* wavelength;  // of paths that carry wavelengths; else null
-};
-
-LANELIGHT_INLINE MaterialSource TableSource(const MaterialTable& t) {
-  return {&t,
-          t.color0_r.data(),
-          t.color0_g.data(),
-          t.color0_b.data(),
-          t.alpha_x.data(),
-          t.alpha_y.data(),
-          t.color1_r.data(),
-          t.color1_g.data(),
-          t.color1_b.data(),
-          t.alpha2_x.data(),
-          t.alpha2_y.data(),
-          t.coat_thickness.data(),
-          t.coat_albedo_r.data(),
-          t.coat_albedo_g.data(),
-          t.coat_albedo_b.data(),
-          t.coat_g.data(),
-          false,
-          false,
-          false,
-          false,
-          false,
-          nullptr,
-          nullptr,
-          nullptr};
-}
-
-/// Parameters of one batch of paths.
+/// Parameters of one batch of paths: from columns that the texture stages fill, if the
+/// scene has them, else from the table. Colours are in range, reflectances in [0, 1].
 struct MaterialInputs {
-  const MaterialSource& source;
+  const MaterialTable& table;
+  const PathColumns& path;
   Slots slot;
   VI material;
   LaneRandom random;  // only filled for kStochastic
 
-  /// Colours are in range, reflectances in [0, 1]: constants since the scene was
-  /// compiled, textures since they were looked up.
+  LANELIGHT_INLINE bool CoatVaries() const { return path.coat_thickness != nullptr; }
+
   LANELIGHT_INLINE V3 Color0() const {
-    const MaterialSource& s = source;
-    return s.color_by_path
-               ? Gather3(s.color0_r, s.color0_g, s.color0_b, slot)
-               : LookUp3(s.table->color0_r, s.table->color0_g, s.table->color0_b);
+    return path.color0_r != nullptr
+               ? Gather3(path.color0_r, path.color0_g, path.color0_b, slot)
+               : LookUp3(table.color0_r, table.color0_g, table.color0_b);
   }
   LANELIGHT_INLINE V3 Color1() const {
-    const MaterialSource& s = source;
-    return s.color1_by_path
-               ? Gather3(s.color1_r, s.color1_g, s.color1_b, slot)
-               : LookUp3(s.table->color1_r, s.table->color1_g, s.table->color1_b);
+    return path.color1_r != nullptr
+               ? Gather3(path.color1_r, path.color1_g, path.color1_b, slot)
+               : LookUp3(table.color1_r, table.color1_g, table.color1_b);
   }
   LANELIGHT_INLINE VF AlphaX() const {
-    return Varying(source.alpha_by_path, source.alpha_x, source.table->alpha_x);
+    return Varying(path.alpha_x != nullptr, path.alpha_x, table.alpha_x);
   }
   LANELIGHT_INLINE VF AlphaY() const {
-    return Varying(source.alpha_by_path, source.alpha_y, source.table->alpha_y);
+    return Varying(path.alpha_x != nullptr, path.alpha_y, table.alpha_y);
   }
   /// Returns the roughness of the metal below a coat.
   LANELIGHT_INLINE VF Alpha2X() const {
-    return Varying(source.coat_by_path, source.alpha2_x, source.table->alpha2_x);
+    return Varying(CoatVaries(), path.alpha2_0, table.alpha2_x);
   }
   LANELIGHT_INLINE VF Alpha2Y() const {
-    return Varying(source.coat_by_path, source.alpha2_y, source.table->alpha2_y);
+    return Varying(CoatVaries(), path.alpha2_1, table.alpha2_y);
   }
   LANELIGHT_INLINE VF CoatThickness() const {
-    return Varying(source.coat_by_path, source.coat_thickness,
-                   source.table->coat_thickness);
+    return Varying(CoatVaries(), path.coat_thickness, table.coat_thickness);
   }
   /// Returns the albedo of the medium in a coat.
   LANELIGHT_INLINE V3 CoatAlbedo() const {
-    const MaterialSource& s = source;
-    return s.medium_by_path
-               ? Gather3(s.coat_albedo_r, s.coat_albedo_g, s.coat_albedo_b, slot)
-               : LookUp3(s.table->coat_albedo_r, s.table->coat_albedo_g,
-                         s.table->coat_albedo_b);
+    return path.coat_g != nullptr
+               ? Gather3(path.coat_albedo_r, path.coat_albedo_g, path.coat_albedo_b, slot)
+               : LookUp3(table.coat_albedo_r, table.coat_albedo_g, table.coat_albedo_b);
   }
   LANELIGHT_INLINE VF CoatG() const {
-    return Varying(source.medium_by_path, source.coat_g, source.table->coat_g);
+    return Varying(path.coat_g != nullptr, path.coat_g, table.coat_g);
   }
   /// Returns the index of glass without a coat.
   LANELIGHT_INLINE VF Eta() const {
-    return Varying(source.eta != nullptr, source.eta, source.table->eta);
+    return Varying(path.eta != nullptr, path.eta, table.eta);
   }
   LANELIGHT_INLINE VF Float(const AlignedVector<float>& column) const {
     return Lookup(column, material);
@@ -185,7 +175,7 @@ LANELIGHT_INLINE V3 Grey(VF v) { return {v, v, v}; }
 LANELIGHT_INLINE MF SameSide(V3 a, V3 b) {
   return hn::Gt(hn::Mul(a.z, b.z), hn::Zero(DF()));
 }
-/// v with its height taken to the side of wo, for v on the upper side.
+/// Moves v from the upper side to the side of wo.
 LANELIGHT_INLINE V3 ToSideOf(V3 wo, V3 v) { return {v.x, v.y, hn::CopySign(v.z, wo.z)}; }
 
 LANELIGHT_END_KERNELS

@@ -24,7 +24,7 @@ struct DiffuseLayer {
   LANELIGHT_INLINE LayerValue Eval(V3, V3 wi) const {
     return {Mul(reflectance, Splat(kInvPi)), PdfCosineHemisphere(wi.z)};
   }
-  /// The base is even: a part for the interface's own reflection, the rest a cosine lobe.
+  /// Mixes a lobe for the reflection of the interface with a cosine lobe.
   LANELIGHT_INLINE VF Proxy(const CoatLayer& coat, V3 wo, V3 wi) const {
     const VF f = DielectricInterface(wo.z, coat.eta).reflectance;
     const VF share = hn::IfThenZeroElse(coat.layer.smooth, hn::Mul(Splat(0.9f), f));
@@ -34,7 +34,6 @@ struct DiffuseLayer {
   }
 };
 
-/// A metal below a medium that spreads what it reflects.
 struct MetalBelowMedium {
   MetalLayer metal;
 
@@ -46,7 +45,7 @@ struct MetalBelowMedium {
     return metal.Sample(wo, u0, u1);
   }
   LANELIGHT_INLINE LayerValue Eval(V3 wo, V3 wi) const { return metal.Eval(wo, wi); }
-  /// As without the medium, and half of it even.
+  /// Returns the mean of the proxy without the medium and a cosine lobe.
   LANELIGHT_INLINE VF Proxy(const CoatLayer& coat, V3 wo, V3 wi) const {
     const CoatedConductorBsdf::Params clear = {coat, metal, {}, {}, {}};
     const VF half = Splat(0.5f), even = PdfCosineHemisphere(wi.z);

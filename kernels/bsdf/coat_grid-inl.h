@@ -7,14 +7,14 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// The four tables around a coat, two roughnesses for each of two thicknesses, and what
-/// each counts. An axis of one node has one neighbour only, twice.
+/// The four tables around a coat, two roughnesses for each of two thicknesses, and their
+/// weights. An axis of one node has that node twice.
 struct CoatCell {
   VI table[4];
   VF weight[4];
 
   LANELIGHT_INLINE static CoatCell Of(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     const VF alpha = hn::Sqrt(hn::Mul(in.AlphaX(), in.AlphaY()));
     const VF one = Splat(1.0f);
     const VI alphas = in.Int(t.coat_alphas);
@@ -42,7 +42,8 @@ struct CoatCell {
     }
     return sum;
   }
-  /// Transmittance at entry `cell` of the tables; `part` of the way to the next one.
+  /// Returns the transmittance at entry `cell` of the tables; `part` of the way to the
+  /// next one.
   LANELIGHT_INLINE VF Transmittance(const float* tables, VI cell, VF part) const {
     VF sum = hn::Zero(DF());
     for (int i = 0; i < 4; ++i) {

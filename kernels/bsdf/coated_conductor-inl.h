@@ -29,7 +29,7 @@ struct CoatedConductorBsdf : PlainBsdf {
     LaneRandom random;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     return {{Layer::FromAlpha(in.AlphaX(), in.AlphaY()), in.Float(t.eta)},
             {Layer::FromAlpha(in.Alpha2X(), in.Alpha2Y()), in.Color0(), in.Color1()},
             in.CoatThickness(),
@@ -40,17 +40,6 @@ struct CoatedConductorBsdf : PlainBsdf {
   /// exp(-thickness / |cos w|): one crossing of the medium.
   LANELIGHT_LONG_BSDF_CALL static VF Crossing(const Params& p, V3 w) {
     return Exp(hn::Neg(hn::Div(p.thickness, hn::Max(hn::Abs(w.z), Splat(1e-6f)))));
-  }
-  LANELIGHT_INLINE static MF Carries(V3 beta) {
-    return hn::Gt(MaxComponent(beta), hn::Zero(DF()));
-  }
-  LANELIGHT_INLINE static MF Deeper(const Params& p, int depth) {
-    return hn::RebindMask(DF(), hn::Gt(p.depth, hn::Set(DI(), depth)));
-  }
-  /// pa^2 / (pa^2 + pb^2).
-  LANELIGHT_INLINE static VF Heuristic(VF pa, VF pb) {
-    const VF ratio = hn::Div(pb, hn::Max(pa, Splat(1e-30f)));
-    return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
   }
 
   /// The proxy q (see above), both directions on the upper side. It sums the coat's
@@ -100,16 +89,16 @@ struct CoatedConductorBsdf : PlainBsdf {
     const LayerEvent in = p.coat.Sample<Outcome::kTransmit>(wo, one, u[0], u[1], true);
     const LayerEvent out = p.coat.Sample<Outcome::kTransmit>(wi, one, u[2], u[3], false);
     const VF out_medium = Crossing(p, out.wi);
-    const MF found_out = Carries(out.weight);
+    const MF found_out = CarriesAny(out.weight);
     V3 beta = in.weight, w = in.wi;
     for (int depth = 0;; depth += 2) {
-      const MF active = hn::And(Deeper(p, depth), Carries(beta));
+      const MF active = hn::And(IsDeeper(p.depth, depth), CarriesAny(beta));
       if (hn::AllFalse(DF(), active)) break;
       beta = IfThenElseZero(active, Mul(beta, Crossing(p, w)));
       const V3 to_walk = -w, to_light = -out.wi;
       const LayerValue at = p.metal.Eval(to_walk, to_light);
       const VF weight_out =
-          hn::IfThenElse(p.coat.layer.smooth, one, Heuristic(out.pdf, at.pdf));
+          hn::IfThenElse(p.coat.layer.smooth, one, PowerHeuristic(out.pdf, at.pdf));
       const V3 metal =
           Mul(Mul(beta, at.f), Mul(out.weight, hn::Mul(weight_out, out_medium)));
       random.Next4(u);
@@ -117,15 +106,15 @@ struct CoatedConductorBsdf : PlainBsdf {
       beta = Mul(beta, up.weight);
       const LayerValue exit = p.coat.EvalExit(-up.wi, wi);
       const VF weight_exit =
-          hn::IfThenElse(p.metal.layer.smooth, one, Heuristic(up.pdf, exit.pdf));
+          hn::IfThenElse(p.metal.layer.smooth, one, PowerHeuristic(up.pdf, exit.pdf));
       const VF medium = Crossing(p, up.wi);
       const V3 coat = Mul(Mul(beta, exit.f), hn::Mul(weight_exit, medium));
       sum = sum + IfThenElseZero(hn::And(active, found_out), metal) +
-            IfThenElseZero(hn::And(active, Carries(beta)), coat);
-      beta = IfThenElseZero(Deeper(p, depth + 1), Mul(beta, medium));
+            IfThenElseZero(hn::And(active, CarriesAny(beta)), coat);
+      beta = IfThenElseZero(IsDeeper(p.depth, depth + 1), Mul(beta, medium));
       const LayerEvent down =
           p.coat.Sample<Outcome::kReflect>(-up.wi, one, u[2], u[3], true);
-      beta = IfThenElseZero(Carries(beta), Mul(beta, down.weight));
+      beta = IfThenElseZero(CarriesAny(beta), Mul(beta, down.weight));
       w = down.wi;
     }
     return sum;
@@ -137,32 +126,32 @@ struct CoatedConductorBsdf : PlainBsdf {
     const LayerEvent first =
         p.coat.Sample<Outcome::kEither>(wo, points.lobe, points.u0, points.u1, true);
     V3 wi = first.wi, beta = first.weight, weight = IfThenElseZero(first.reflected, beta);
-    MF walking = hn::AndNot(first.reflected, Carries(beta));
+    MF walking = hn::AndNot(first.reflected, CarriesAny(beta));
     MF delta = p.coat.layer.smooth;  // so far; of a walk that ends: all its events
     const MF both_smooth = hn::And(p.coat.layer.smooth, p.metal.layer.smooth);
     V3 w = first.wi;
-    // Another stream than Eval's, and from its start: how far Eval got depends on the
-    // other lanes of the batch.
+    // Not Eval's stream, and from its start: the number of values that Eval draws depends
+    // on the other lanes of the batch.
     LaneRandom random = p.random;
     random.seed = hn::Xor(random.seed, hn::Set(DU(), 0x9e3779b9u));
     VF u[4];
     for (int depth = 0;; depth += 2) {
-      walking = hn::And(walking, Deeper(p, depth + 1));
+      walking = hn::And(walking, IsDeeper(p.depth, depth + 1));
       if (hn::AllFalse(DF(), walking)) break;
       random.Next4(u);
       beta = Mul(beta, Crossing(p, w));
       const LayerEvent up = p.metal.Sample(-w, u[0], u[1]);
       beta = Mul(Mul(beta, up.weight), Crossing(p, up.wi));
-      walking = hn::And(walking, Carries(beta));
+      walking = hn::And(walking, CarriesAny(beta));
       random.Next4(u);
       const LayerEvent at =
           p.coat.Sample<Outcome::kEither>(-up.wi, u[0], u[1], u[2], true);
       beta = Mul(beta, at.weight);
-      const MF leaves = hn::And(walking, hn::AndNot(at.reflected, Carries(beta)));
+      const MF leaves = hn::And(walking, hn::AndNot(at.reflected, CarriesAny(beta)));
       wi = IfThenElse(leaves, at.wi, wi);
       weight = IfThenElse(leaves, beta, weight);
       delta = hn::Or(hn::AndNot(leaves, delta), hn::And(leaves, both_smooth));
-      walking = hn::And(walking, hn::And(at.reflected, Carries(beta)));
+      walking = hn::And(walking, hn::And(at.reflected, CarriesAny(beta)));
       w = at.wi;
     }
     const VF proxy = Proxy(p, wo, {wi.x, wi.y, hn::Abs(wi.z)});

@@ -1,16 +1,15 @@
 // Plastic: a dielectric coat over a Lambertian base, in closed form.
 //
-// Light that passes the coat is spread evenly by the base, so only total fluxes matter:
+// The base spreads evenly the light that passes the coat, so only total fluxes matter:
 //   f = f_coat + T(wo) T(wi) / (pi eta^2) * rho S,   S = sum_{k < n} (rho Fi)^k
-// T: what reaches the base from outside (and by reciprocity leaves towards outside); Fi:
-// what the coat sends back to the base; 1 / eta^2: radiance spreads when it leaves the
-// denser medium. n base bounces: pbrt-v4 follows a random walk of at most coat_depth
-// layer crossings, which meets the base at every second one; the series stops there too.
+// T: the fraction that reaches the base from outside (and by reciprocity leaves towards
+// outside); Fi: the fraction that the coat sends back to the base; 1 / eta^2: radiance
+// spreads when it leaves the denser medium. n base bounces: pbrt-v4 follows a random walk
+// of at most coat_depth layer crossings, which meets the base at every second one.
 // Both faces of the surface are coated.
 #ifndef LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 #define LANELIGHT_BSDF_COATED_DIFFUSE_INL_H_
 
-#include "kernels/bsdf/bsdf-inl.h"
 #include "kernels/bsdf/coat_grid-inl.h"
 #include "kernels/bsdf/ggx-inl.h"
 #include "kernels/warp/sphere-inl.h"
@@ -24,10 +23,10 @@ struct CoatedBase {
   VF inverse_eta2, escape, eta;
 
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in) {
-    return Load(in, in.Float(in.source.table->coat_internal));
+    return Load(in, in.Float(in.table.coat_internal));
   }
   LANELIGHT_INLINE static CoatedBase Load(const MaterialInputs& in, VF internal) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     const VF eta = in.Float(t.eta);
     const V3 rho = in.Color0();
     const VI one = hn::Set(DI(), 1);
@@ -40,29 +39,26 @@ struct CoatedBase {
   /// S_(k+1) = 1 + x S_k. Without cancellation, and exact in length: under a coat of high
   /// index x comes close to 1, and thousands of terms count.
   LANELIGHT_INLINE static V3 Series(V3 x, VI n) {
-    const DI di;
-    const DF df;
-    const int longest = hn::GetLane(hn::MaxOfLanes(di, n));
+    const int longest = hn::GetLane(hn::MaxOfLanes(DI(), n));
     V3 sum = Splat3(0, 0, 0), power = Splat3(1, 1, 1);  // S_k, x^k
     for (int bit = 1 << 30; bit != 0; bit >>= 1) {
       if (bit > longest) continue;
       sum = Mul(sum, power) + sum;
       power = Mul(power, power);
-      const MF odd = hn::RebindMask(df, hn::TestBit(n, hn::Set(di, bit)));
+      const MF odd = hn::RebindMask(DF(), hn::TestBit(n, hn::Set(DI(), bit)));
       sum = IfThenElse(odd, Mul(x, sum) + Splat3(1, 1, 1), sum);
       power = IfThenElse(odd, Mul(power, x), power);
     }
     return sum;
   }
 
-  /// f cos of the light that meets the base, per T(wo) T(wi), towards a wi of that
-  /// cosine.
+  /// Returns f cos of the base, per T(wo) T(wi), towards a wi of that cosine.
   LANELIGHT_INLINE V3 Lambert(VF cos_i) const {
     return Mul(rho_series, hn::Mul(inverse_eta2, PdfCosineHemisphere(cos_i)));
   }
 
-  /// Probability of following the coat's own reflection: its share of the reflectance, of
-  /// which the base's is about T(wo) rho S (1 - Fi).
+  /// Returns the probability of following the coat's reflection: its share of the
+  /// reflectance, of which the base has about T(wo) rho S (1 - Fi).
   LANELIGHT_INLINE VF CoatProbability(VF coat_reflectance, VF t_wo) const {
     const VF base = hn::Mul(hn::Mul(t_wo, escape), MaxComponent(rho_series));
     const VF sum = hn::Add(coat_reflectance, base);
@@ -79,10 +75,10 @@ struct CoatedDiffuseSmoothBsdf : PlainBsdf {
     VF thickness;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    if (!in.source.coat_by_path) {
-      return {CoatedBase::Load(in), in.Float(in.source.table->coat_thickness)};
+    if (!in.CoatVaries()) {
+      return {CoatedBase::Load(in), in.Float(in.table.coat_thickness)};
     }
-    const VF internal = CoatCell::Of(in).Internal(*in.source.table);
+    const VF internal = CoatCell::Of(in).Internal(in.table);
     return {CoatedBase::Load(in, internal), in.CoatThickness()};
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, const Interface& at) {
@@ -141,11 +137,11 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     CoatCell cell;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     Params m;
     m.ggx = Ggx::FromAlpha(in.AlphaX(), in.AlphaY());
     m.table = t.coat_transmittance.data();
-    m.varies = in.source.coat_by_path;
+    m.varies = in.CoatVaries();
     if (m.varies) {
       m.cell = CoatCell::Of(in);
       m.base = CoatedBase::Load(in, m.cell.Internal(t));
@@ -156,12 +152,10 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     return m;
   }
   LANELIGHT_INLINE static VF Transmittance(const Params& m, VF mu) {
-    const DF df;
-    const DI di;
     const VF at =
         hn::Min(hn::Mul(mu, Splat(kCoatTableSize - 1.0f)), Splat(kCoatTableSize - 1.0f));
-    const VI cell = hn::Min(hn::ConvertTo(di, at), hn::Set(di, kCoatTableSize - 2));
-    const VF part = hn::Sub(at, hn::ConvertTo(df, cell));
+    const VI cell = hn::Min(hn::ConvertTo(DI(), at), hn::Set(DI(), kCoatTableSize - 2));
+    const VF part = hn::Sub(at, hn::ConvertTo(DF(), cell));
     if (m.varies) return m.cell.Transmittance(m.table, cell, part);
     const VI index = hn::Add(m.offset, cell);
     const VF low = Gather(m.table, index), high = Gather(m.table + 1, index);
@@ -173,7 +167,6 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     return m.base.CoatProbability(hn::Sub(Splat(1.0f), to), to);
   }
 
-  /// Which lobes of an evaluation.
   enum class Lobes { kBoth, kBase };
   /// Both directions on the upper side; n = their half vector.
   template <Lobes kLobes = Lobes::kBoth>

@@ -7,10 +7,10 @@
 // through it; a walk has at most coat_depth of them after its entry, as pbrt's samples.
 //
 // Eval and Sample are estimates and the density is a proxy, as in coated_conductor-inl.h.
-// Where interface and base are both smooth, Eval finds only what a scattering sends
-// straight out; walks that leave straight from the base report density 0, so that each is
-// found by exactly one technique or by both with weights. (Of lights that no ray can hit
-// they find nothing, nor do pbrt's.)
+// If interface and base are both smooth, Eval finds only light that a scattering sends
+// straight out. Walks that leave straight from the base report density 0, so that each is
+// found by exactly one technique or by both with weights. (As in pbrt, such walks miss
+// lights that no ray can hit.)
 #ifndef LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
 #define LANELIGHT_BSDF_COATED_MEDIUM_INL_H_
 
@@ -35,7 +35,7 @@ struct CoatedMediumBsdf : PlainBsdf {
     LaneRandom random;
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const MaterialTable& t = *in.source.table;
+    const MaterialTable& t = in.table;
     return {{Layer::FromAlpha(in.AlphaX(), in.AlphaY()), in.Float(t.eta)},
             Base::Load(in),
             in.CoatThickness(),
@@ -51,16 +51,10 @@ struct CoatedMediumBsdf : PlainBsdf {
     VF height;
     V3 w, beta;
   };
-  /// Which kind of event comes next; at most one of the three.
+  /// The kind of the next event; at most one of the three.
   struct Next {
     MF scatters, at_base, at_coat;
   };
-  LANELIGHT_INLINE static MF Carries(V3 beta) {
-    return CoatedConductorBsdf::Carries(beta);
-  }
-  LANELIGHT_INLINE static MF Deeper(const Params& p, int depth) {
-    return hn::RebindMask(DF(), hn::Gt(p.depth, hn::Set(DI(), depth)));
-  }
   /// Returns the fraction of light that survives a path of this height along w.
   LANELIGHT_INLINE static VF Passes(VF height, V3 w) {
     return Exp(hn::Neg(hn::Div(height, hn::Max(hn::Abs(w.z), Splat(1e-6f)))));
@@ -103,7 +97,7 @@ struct CoatedMediumBsdf : PlainBsdf {
     return {IfThenElseZero(same, f_cos), hn::IfThenElseZero(same, proxy)};
   }
 
-  /// Light that a refraction from wi sends down to where the walk is: scattered there
+  /// Returns the light that a refraction from wi sends down to the event, scattered there
   /// towards the walk. `found` is that refraction, as importance.
   static HWY_NOINLINE V3 FromLight(const Params& p, const Next& next,
                                    const LayerEvent& found, const Walk& walk) {
@@ -115,23 +109,23 @@ struct CoatedMediumBsdf : PlainBsdf {
     const VF cosine = hn::Max(to_light.z, Splat(1e-6f));
     const V3 f = IfThenElse(next.scatters, Mul(p.albedo, hn::Div(phase, cosine)), base.f);
     const VF pdf = hn::IfThenElse(next.scatters, phase, base.pdf);
-    const VF weight = hn::IfThenElse(p.coat.layer.smooth, one,
-                                     CoatedConductorBsdf::Heuristic(found.pdf, pdf));
+    const VF weight =
+        hn::IfThenElse(p.coat.layer.smooth, one, PowerHeuristic(found.pdf, pdf));
     const VF passes = Passes(hn::Sub(p.thickness, walk.height), to_light);
-    const MF meet = hn::And(Carries(found.weight), hn::Or(next.scatters, next.at_base));
+    const MF meet =
+        hn::And(CarriesAny(found.weight), hn::Or(next.scatters, next.at_base));
     const V3 carried = Mul(Mul(walk.beta, f), Mul(found.weight, hn::Mul(weight, passes)));
     return IfThenElseZero(meet, carried);
   }
 
-  /// The walk leaves along its direction, sampled with `pdf` (`sure`: a mirror), through
-  /// the interface towards wi.
+  /// Returns the light of a walk that leaves along its direction, sampled with `pdf`
+  /// (`sure`: a mirror), through the interface towards wi.
   static HWY_NOINLINE V3 ThroughCoat(const Params& p, MF sure, VF pdf, V3 wi,
                                      const Walk& walk) {
     const LayerValue exit = p.coat.EvalExit(-walk.w, wi);
-    const VF weight =
-        hn::IfThenElse(sure, Splat(1.0f), CoatedConductorBsdf::Heuristic(pdf, exit.pdf));
+    const VF weight = hn::IfThenElse(sure, Splat(1.0f), PowerHeuristic(pdf, exit.pdf));
     const VF passes = Passes(hn::Sub(p.thickness, walk.height), walk.w);
-    const MF goes = hn::And(Carries(walk.beta), hn::Gt(walk.w.z, hn::Zero(DF())));
+    const MF goes = hn::And(CarriesAny(walk.beta), hn::Gt(walk.w.z, hn::Zero(DF())));
     return IfThenElseZero(goes, Mul(Mul(walk.beta, exit.f), hn::Mul(weight, passes)));
   }
 
@@ -147,7 +141,7 @@ struct CoatedMediumBsdf : PlainBsdf {
         p.coat.template Sample<Outcome::kTransmit>(wi, one, u[2], u[3], false);
     Walk walk = {p.thickness, in.wi, in.weight};
     for (int depth = 0;; ++depth) {  // one event, and the exit after it
-      const MF active = hn::And(Deeper(p, depth + 1), Carries(walk.beta));
+      const MF active = hn::And(IsDeeper(p.depth, depth + 1), CarriesAny(walk.beta));
       if (hn::AllFalse(DF(), active)) break;
       walk.beta = IfThenElseZero(active, walk.beta);
       random.Next4(u);
@@ -166,7 +160,7 @@ struct CoatedMediumBsdf : PlainBsdf {
     return sum;
   }
 
-  /// Where a walk has left, and how.
+  /// The direction and weight with which a walk has left.
   struct Exit {
     V3 wi, weight;
     MF delta;
@@ -175,14 +169,15 @@ struct CoatedMediumBsdf : PlainBsdf {
                                                   const LayerEvent& first) {
     Exit exit = {first.wi, IfThenElseZero(first.reflected, first.weight),
                  p.coat.layer.smooth};
-    MF walking = hn::AndNot(first.reflected, Carries(first.weight));
+    MF walking = hn::AndNot(first.reflected, CarriesAny(first.weight));
     MF from_mirror = walking;  // the last event was a reflection at a smooth base
     Walk walk = {p.thickness, first.wi, first.weight};
     LaneRandom random = p.random;  // another stream than Eval's
     random.seed = hn::Xor(random.seed, hn::Set(DU(), 0x9e3779b9u));
     VF u[4], v[4];
     for (int depth = 0;; ++depth) {
-      walking = hn::And(walking, hn::And(Deeper(p, depth), Carries(walk.beta)));
+      walking =
+          hn::And(walking, hn::And(IsDeeper(p.depth, depth), CarriesAny(walk.beta)));
       if (hn::AllFalse(DF(), walking)) break;
       random.Next4(u);
       random.Next4(v);
@@ -190,7 +185,7 @@ struct CoatedMediumBsdf : PlainBsdf {
       const LayerEvent at =
           p.coat.template Sample<Outcome::kEither>(-walk.w, v[0], v[1], v[2], true);
       const V3 after = IfThenElseZero(next.at_coat, Mul(walk.beta, at.weight));
-      const MF leaves = hn::And(hn::And(walking, Carries(after)),
+      const MF leaves = hn::And(hn::And(walking, CarriesAny(after)),
                                 hn::AndNot(at.reflected, next.at_coat));
       exit.wi = IfThenElse(leaves, at.wi, exit.wi);
       exit.weight = IfThenElse(leaves, after, exit.weight);

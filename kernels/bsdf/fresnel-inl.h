@@ -34,12 +34,13 @@ LANELIGHT_INLINE Interface DielectricInterface(VF c, VF eta) {
   return {hn::IfThenElse(total, one, partial), hn::Div(g, eta), bend};
 }
 
-/// Direction refracted at microfacet normal m, on wo's side of it (Snell's law):
+/// Returns the direction refracted at microfacet normal m, on wo's side of it (Snell's
+/// law):
 /// -(wo + bend m) / eta. Meaningless under total internal reflection.
 LANELIGHT_INLINE V3 Refract(V3 wo, V3 m, VF bend, VF eta) {
   return Mul(MulAdd(m, bend, wo), hn::Div(Splat(-1.0f), eta));
 }
-/// Mirror direction 2 (wo.m) m - wo, given cosine = wo.m.
+/// Returns the mirror direction 2 (wo.m) m - wo, given cosine = wo.m.
 LANELIGHT_INLINE V3 Reflect(V3 wo, V3 m, VF cosine) {
   return MulAdd(m, hn::Add(cosine, cosine), -wo);
 }

@@ -55,13 +55,13 @@ struct Ggx {
   }
 };
 
-/// Masking of a pair of directions, given z and Spread of both:
+/// Returns the masking of a pair of directions, given z and Spread of both:
 /// G2 / (4 zo zi) * zi = zi / (2 (so zi + si zo)).
 LANELIGHT_INLINE VF HalfPairMasking(VF zo, VF so, VF zi, VF si) {
   return hn::Div(zi, hn::MulAdd(so, zi, hn::Mul(si, zo)));
 }
 
-/// G2(wo, wi) / G1(wo): what a sample of the visible normals still weighs.
+/// G2(wo, wi) / G1(wo): the weight of a sample of the visible normals.
 LANELIGHT_INLINE VF MaskingRatio(VF zo, VF so, VF zi, VF si) {
   return hn::Mul(HalfPairMasking(zo, so, zi, si), hn::Add(zo, so));
 }

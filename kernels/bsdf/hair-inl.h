@@ -63,7 +63,7 @@ struct Around {
   LANELIGHT_INLINE VF Within() const {
     return hn::NegMulAdd(Splat(2.0f), tail, Splat(1.0f));
   }
-  /// Density at an angle, in turns that do not matter.
+  /// Returns the density at an angle, modulo a whole turn.
   LANELIGHT_INLINE VF Pdf(VF angle) const {
     const VF turns = hn::Mul(angle, Splat(1 / kTwoPi));
     const VF x = hn::Mul(hn::Sub(turns, hn::Round(turns)), Splat(kTwoPi));
@@ -72,10 +72,9 @@ struct Around {
     return hn::Div(bell, hn::Mul(scale, Within()));
   }
   LANELIGHT_INLINE VF Sample(VF u) const {
-    const DF df;
     const VF below = hn::MulAdd(u, Within(), tail);
     const VF above = hn::MulAdd(hn::Sub(Splat(1.0f), u), Within(), tail);
-    const VF x = hn::Mul(scale, hn::Log(df, hn::Div(below, above)));
+    const VF x = hn::Mul(scale, hn::Log(DF(), hn::Div(below, above)));
     return hn::Clamp(x, Splat(-kPi), Splat(kPi));
   }
 };
@@ -98,15 +97,14 @@ struct HairBsdf : PlainBsdf {
   };
 
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const DF df;
     const VF m = in.AlphaX(), n = in.AlphaY();
     const VF h =
-        in.source.uv_v == nullptr
-            ? hn::Zero(df)
-            : hn::MulSub(Splat(2.0f), Gather(in.source.uv_v, in.slot), Splat(1.0f));
+        in.path.uv_v == nullptr
+            ? hn::Zero(DF())
+            : hn::MulSub(Splat(2.0f), Gather(in.path.uv_v, in.slot), Splat(1.0f));
     return {
         .h = hn::Clamp(h, Splat(-1.0f), Splat(1.0f)),
-        .eta = in.Float(in.source.table->eta),
+        .eta = in.Float(in.table.eta),
         .variance = Sqr(hn::MulAdd(Splat(3.7f), Power(m, 20),
                                    hn::Mul(m, MulAddScalar(m, 0.812f, Splat(0.726f))))),
         .tilt = in.Alpha2X(),
@@ -117,7 +115,7 @@ struct HairBsdf : PlainBsdf {
         .absorption = AbsorptionOf(in.Color0(), n)};
   }
 
-  /// Returns the absorption that gives much hair of this roughness that reflectance.
+  /// Returns the absorption with which dense hair of this roughness has that reflectance.
   LANELIGHT_INLINE static V3 AbsorptionOf(V3 reflectance, VF n) {
     VF k = MulAddScalar(n, 0.245f, Splat(5.574f));
     k = hn::MulAdd(k, n, Splat(-10.73f));
@@ -179,7 +177,7 @@ struct HairBsdf : PlainBsdf {
       lobes.share[p] = hn::Add(a.x, hn::Add(a.y, a.z));
       sum = hn::Add(sum, lobes.share[p]);
     }
-    // At an index of 1 along the fibre nothing is left of what is absorbed.
+    // At an index of 1 along the fibre the sum can be 0.
     const VF all_light = hn::Max(sum, Splat(1e-30f));
     for (VF& share : lobes.share) share = hn::Div(share, all_light);
   }
@@ -187,7 +185,7 @@ struct HairBsdf : PlainBsdf {
   LANELIGHT_INLINE static Lobes LobesOf(const Params& m, V3 wo) {
     const VF one = Splat(1.0f);
     const Incline o = InclineOf(wo.x), at = InclineOf(m.h);
-    // Inside, with the index that the projection on the plane across has.
+    // Inside the fibre, with the index for the projection on the plane across it.
     const Incline inside = InclineOf(hn::Div(o.sin, m.eta));
     const VF across = SafeSqrt(hn::MulSub(m.eta, m.eta, Sqr(o.sin)));
     const VF sin_t = hn::Div(hn::Mul(m.h, o.cos), hn::Max(across, Splat(1e-18f)));
@@ -257,14 +255,13 @@ struct HairBsdf : PlainBsdf {
 
   LANELIGHT_LONG_BSDF_CALL static BsdfSample Sample(const Params& m, V3 wo,
                                                     const BsdfPoints& u) {
-    const DF df;
     const Lobes lobes = LobesOf(m, wo);
     const Chosen c = Choose(m, lobes, u.lobe);
     // 1 - the cosine from the mirror direction.
     const VF tail = Exp(hn::Div(Splat(-2.0f), c.variance));
     const VF mass = hn::MulAdd(hn::Sub(Splat(1.0f), u.u0), tail, u.u0);
     const VF lift =
-        hn::Min(hn::Neg(hn::Mul(c.variance, hn::Log(df, hn::Max(mass, Splat(1e-9f))))),
+        hn::Min(hn::Neg(hn::Mul(c.variance, hn::Log(DF(), hn::Max(mass, Splat(1e-9f))))),
                 Splat(2.0f));
     const VF cos = hn::Sub(Splat(1.0f), lift);
     const VF sin = SafeSqrt(hn::Mul(lift, hn::Sub(Splat(2.0f), lift)));

@@ -15,7 +15,7 @@ struct HenyeyGreensteinBsdf : PlainBsdf {
     VF g;  // -1 < g < 1; > 0 scatters forward
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    return {in.Float(in.source.table->eta)};
+    return {in.Float(in.table.eta)};
   }
 
   /// The density where 1 - cos of the angle with the peak is `versine`: forward for g >

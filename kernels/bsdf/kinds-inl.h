@@ -9,7 +9,6 @@
 #include "kernels/bsdf/conductor-inl.h"
 #include "kernels/bsdf/dielectric-inl.h"
 #include "kernels/bsdf/diffuse-inl.h"
-#include "kernels/bsdf/diffuse_transmission-inl.h"
 #include "kernels/bsdf/hair-inl.h"
 #include "kernels/bsdf/henyey_greenstein-inl.h"
 #include "kernels/bsdf/measured-inl.h"

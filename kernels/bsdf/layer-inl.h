@@ -12,8 +12,7 @@ LANELIGHT_BEGIN_KERNELS
 /// pbrt-v4 treats a surface below this roughness as smooth.
 inline constexpr float kSmoothAlpha = 1e-3f;
 
-/// One event at a layer: direction, weight, density (solid angle; of no use where
-/// smooth).
+/// One event at a layer: direction, weight, density (solid angle; unused if smooth).
 struct LayerEvent {
   V3 wi, weight;
   VF pdf;
@@ -25,6 +24,18 @@ struct LayerValue {
   V3 f;
   VF pdf;
 };
+
+LANELIGHT_INLINE MF CarriesAny(V3 beta) {
+  return hn::Gt(MaxComponent(beta), hn::Zero(DF()));
+}
+LANELIGHT_INLINE MF IsDeeper(VI limit, int depth) {
+  return hn::RebindMask(DF(), hn::Gt(limit, hn::Set(DI(), depth)));
+}
+/// pa^2 / (pa^2 + pb^2).
+LANELIGHT_INLINE VF PowerHeuristic(VF pa, VF pb) {
+  const VF ratio = hn::Div(pb, hn::Max(pa, Splat(1e-30f)));
+  return hn::Div(Splat(1.0f), hn::MulAdd(ratio, ratio, Splat(1.0f)));
+}
 
 struct Layer {
   Ggx ggx;
@@ -48,7 +59,7 @@ struct Layer {
   }
 };
 
-/// Which outcomes CoatLayer::Sample may choose.
+/// The outcomes that CoatLayer::Sample may choose.
 enum class Outcome { kReflect, kTransmit, kEither };
 
 struct CoatLayer {
@@ -60,7 +71,8 @@ struct CoatLayer {
   }
 
   /// Samples the interface from wo, on either side. `radiance`: refraction scales by
-  /// 1 / eta^2 (radiance flows towards wo), not so for importance. Weight 0: no outcome.
+  /// 1 / eta^2, because radiance flows towards wo; importance is not scaled. A weight of
+  /// 0 means no outcome.
   template <Outcome kOutcome>
   LANELIGHT_LONG_BSDF_CALL LayerEvent Sample(V3 wo_any, VF u_lobe, VF u0, VF u1,
                                              bool radiance) const {

@@ -21,12 +21,12 @@ struct MeasuredBsdf : PlainBsdf {
     const MeasuredTable* table;
     VI record;
     bool spectral;  // paths carry wavelengths
-    VI triple;      // those of them
+    VI triple;      // the paths' wavelengths
   };
   LANELIGHT_INLINE static Params Load(const MaterialInputs& in) {
-    const MeasuredTable& table = in.source.table->measured;
+    const MeasuredTable& table = in.table.measured;
     const VI record = hn::Max(in.Int(table.of_material), hn::Zero(DI()));
-    const float* number = in.source.wavelength;
+    const float* number = in.path.wavelength;
     if (number == nullptr) return {&table, record, false, hn::Zero(DI())};
     return {&table, record, true, Wavelengths(Gather(number, in.slot)).triple};
   }
@@ -79,7 +79,7 @@ struct MeasuredBsdf : PlainBsdf {
     RecordWords<MeasuredRecord> record;
     bool spectral;
     VI triple;
-    VF flip_x, flip_y, flip_z;  // to the upper side, and the part that was measured
+    VF flip_x, flip_y, flip_z;  // signs that move wo to the measured part
     V3 wo;
     VF theta, phi;
     MF turns;
@@ -115,7 +115,7 @@ struct MeasuredBsdf : PlainBsdf {
       SetSlices();
     }
 
-    /// Its own inverse.
+    /// Applies the signs; it is its own inverse.
     LANELIGHT_INLINE V3 Fold(V3 w) const {
       return {hn::Mul(w.x, flip_x), hn::Mul(w.y, flip_y), hn::Mul(w.z, flip_z)};
     }
@@ -151,7 +151,7 @@ struct MeasuredBsdf : PlainBsdf {
       return {OfTheta(Atan2(sine, h.z)), hn::Sub(y, hn::Floor(y)), sine};
     }
 
-    /// A direction whose azimuth counts from where this material's do.
+    /// Converts a direction from the azimuths of the measurement.
     LANELIGHT_INLINE V3 FromOwnAzimuth(V3 w) const {
       const VF flat = hn::Sqrt(hn::MulAdd(wo.x, wo.x, hn::Mul(wo.y, wo.y)));
       const MF plain = hn::Or(turns, hn::Eq(flat, hn::Zero(DF())));
@@ -176,7 +176,7 @@ struct MeasuredBsdf : PlainBsdf {
       return Mul(color, hn::IfThenElseZero(seen, scale));
     }
 
-    /// At the wavelengths of paths, linear between those of the file.
+    /// Interpolates linearly at the wavelengths of paths.
     LANELIGHT_INLINE V3 Spectrum(const MeasuredFunction& f, VF x, VF y) const {
       const VI bins = record.I(offsetof(MeasuredRecord, bins));
       const VI count = record.I(offsetof(MeasuredRecord, wavelengths));

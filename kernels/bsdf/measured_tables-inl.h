@@ -31,17 +31,16 @@ LANELIGHT_INLINE VI LastBelow(VI count, VF x, const Value& value) {
 struct MeasuredSlices {
   VI at[4];
   VF share[4];
-  int count;  // of those that matter: 4 where azimuths do, else 2
+  int count;  // used entries: 4 if azimuths matter, else 2
 };
 
-/// Between which nodes x lies, and how far: first in [0, count - 1], share of the next.
+/// The nodes around x, first in [0, count - 1], and the share of the next one.
 struct MeasuredNodes {
   VI first, next;
   VF share;
 
   LANELIGHT_INLINE MeasuredNodes(const float* nodes, VI at, VI count, VF x) {
-    const DI di;
-    const VI one = hn::Set(di, 1);
+    const VI one = hn::Set(DI(), 1);
     first =
         LastBelow(count, x, [&](VI i) HWY_ATTR { return Gather(nodes, hn::Add(at, i)); });
     next = hn::Min(hn::Add(first, one), hn::Sub(count, one));
@@ -53,7 +52,8 @@ struct MeasuredNodes {
   }
 };
 
-/// A function of a point of the unit square. Fields of the record from `offset` on.
+/// A function of a point of the unit square, whose fields begin at `offset` of the
+/// record.
 struct MeasuredFunction {
   const float* values;
   const MeasuredSlices& slices;
@@ -115,15 +115,14 @@ struct MeasuredFunction {
     }
     return sum;
   }
-  /// Of one with `count` slices for each, at three places between these in [0, count -
-  /// 1].
+  /// Returns the values of a function with `count` slices per direction, at three places
+  /// between the slices, in [0, count - 1].
   LANELIGHT_INLINE V3 Between(VF x, VF y, VI count, V3 at_slices) const {
-    const DI di;
     const Place p = PlaceOf(x, y);
-    const VI size = hn::Mul(width, height), one = hn::Set(di, 1);
+    const VI size = hn::Mul(width, height), one = hn::Set(DI(), 1);
     const VI last = hn::Sub(count, one);
     const auto value = [&](VF place) HWY_ATTR {
-      const VI low = hn::ConvertTo(di, place), high = hn::Min(hn::Add(low, one), last);
+      const VI low = hn::ConvertTo(DI(), place), high = hn::Min(hn::Add(low, one), last);
       const VF part = hn::Sub(place, hn::ConvertTo(DF(), low));
       VF sum = hn::Zero(DF());
       for (int i = 0; i < slices.count; ++i) {
@@ -140,7 +139,7 @@ struct MeasuredFunction {
   }
 };
 
-/// A density over the unit square as a map: (0, 1)^2, evenly, to points that have it.
+/// Maps uniform points of (0, 1)^2 to points with a density over the unit square.
 struct MeasuredMap : MeasuredFunction {
   VI along, before;
 
@@ -169,7 +168,7 @@ struct MeasuredMap : MeasuredFunction {
             Density(Lerp(p.x, left, right))};
   }
 
-  /// Where (u, v) goes to.
+  /// Returns the point to which (u, v) is mapped.
   LANELIGHT_INLINE Point Sample(VF u, VF v) const {
     const VI row =
         LastBelow(height, v, [&](VI i) HWY_ATTR { return Blend(before, i, height); });
@@ -218,18 +217,18 @@ struct MeasuredMap : MeasuredFunction {
     const VI last = hn::Sub(hn::Add(hn::Mul(row, width), width), hn::Set(DI(), 1));
     return {Blend(before, row, height), Blend(along, last), Blend(along, Above(last))};
   }
-  // Of a linear function from a to b, up to t in [0, 1].
+  // Integrates a linear function from a to b, up to t in [0, 1].
   LANELIGHT_INLINE static VF Integral(VF t, VF a, VF b) {
     return hn::Mul(t, hn::MulAdd(hn::Mul(Splat(0.5f), t), hn::Sub(b, a), a));
   }
-  // The t in [0, 1] up to which that is `integral`; nothing cancels.
+  // Returns the t in [0, 1] up to which that is `integral`, without cancellation.
   LANELIGHT_INLINE static VF Solve(VF a, VF b, VF integral) {
     const VF wanted = hn::Max(integral, hn::Zero(DF()));
     const VF twice = hn::Add(wanted, wanted);
     const VF root = SafeSqrt(hn::MulAdd(twice, hn::Sub(b, a), hn::Mul(a, a)));
     return Share(twice, hn::Add(a, root));
   }
-  // part / whole in [0, 1]; nothing of nothing is 0.
+  // Returns part / whole in [0, 1]; 0 / 0 is 0.
   LANELIGHT_INLINE static VF Share(VF part, VF whole) {
     const VF share = hn::Clamp(hn::Div(part, whole), hn::Zero(DF()), Splat(1.0f));
     return hn::IfThenElseZero(hn::Gt(whole, hn::Zero(DF())), share);

@@ -1,8 +1,9 @@
-// directions=mis, light: how much of the light along a direction is left to each of two
-// techniques that can find it.
+// directions=mis, light: weights of the two techniques that can find the light along a
+// direction.
 //   estimator   sum over techniques of w_i f / p_i, w_i >= 0, sum w_i = 1
-//   unbiased    as long as the weights sum to 1 wherever f > 0 and each technique finds
-//               what its weight is not 0 for; directions=light gives light samples all
+//   unbiased    if the weights sum to 1 wherever f > 0 and each technique can find all
+//               light for which its weight is not 0; directions=light weights light
+//               samples by 1
 //   variance    power heuristic (exponent 2): at most about the better technique's, plus
 //               a term that falls with the number of samples; balance heuristic: no
 //               other heuristic is better by more than (1/min n_i - 1/sum n_i) I^2
@@ -16,16 +17,16 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Weight of the technique of density `mine` > 0 against `other`, in a form that neither
-/// overflows nor divides zero by zero. Which heuristic: see MisParameters.
+/// Returns the weight of the technique of density `mine` > 0 against `other`, in a form
+/// that neither overflows nor divides zero by zero. Which heuristic: see MisParameters.
 LANELIGHT_INLINE VF HeuristicWeight(const MisParameters& mis, VF mine, VF other) {
   const VF ratio = hn::Min(hn::Div(other, mine), Splat(1e18f));
   const VF rest = hn::MulAdd(Splat(mis.square), ratio, Splat(mis.linear));
   return hn::Div(Splat(1.0f), hn::MulAdd(ratio, rest, Splat(1.0f)));
 }
 
-/// Weight of a light sample whose direction scattering has density bsdf_pdf. Delta lights
-/// (light_pdf = 0), which scattering cannot find, have weight 1.
+/// Returns the weight of a light sample whose direction scattering has density bsdf_pdf.
+/// Delta lights (light_pdf = 0), which scattering cannot find, have weight 1.
 LANELIGHT_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf,
                                       VF bsdf_pdf) {
   const VF one = Splat(1.0f);
@@ -34,8 +35,8 @@ LANELIGHT_INLINE VF LightSampleWeight(const MisParameters& mis, VF light_pdf,
   return hn::IfThenElse(delta, one, weight);
 }
 
-/// Weight of emission met by a scattered ray: 1 after the camera or a specular event
-/// (bsdf_pdf = 0), where no light sample could have found it.
+/// Returns the weight of emission met by a scattered ray: 1 after the camera or a
+/// specular event (bsdf_pdf = 0), where no light sample could have found it.
 LANELIGHT_INLINE VF EmissionWeight(const MisParameters& mis, VF bsdf_pdf, VF light_pdf) {
   const VF one = Splat(1.0f);
   const MF specular = hn::Eq(bsdf_pdf, hn::Zero(DF()));

@@ -1,5 +1,5 @@
-// directions=bsdf, light, mis: scattered directions distributed like the material, by the
-// policies' Sample: importance sampling.
+// directions=bsdf, light, mis: scattered directions by importance sampling of the
+// material.
 //   estimator   f(wo, wi) |cos| / p(wi), p close to proportional to f |cos|
 //   density     cosine for Lambert, visible normals for GGX (Heitz 2018), lobes chosen by
 //               their reflectance; each kernels/bsdf/*-inl.h states its own
@@ -16,7 +16,7 @@
 LANELIGHT_BEGIN_KERNELS
 
 /// A proposal of the next direction has two members, with the measure of solid angle:
-///   Sample  a direction, what it weighs, and its density
+///   Sample  a direction, its weight, and its density
 ///   Pdf     the density with which Sample would find wi, given that of the material
 /// `u`: the points of the bounce.
 struct MaterialProposal {

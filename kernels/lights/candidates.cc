@@ -1,13 +1,13 @@
-// light-candidates=resampled:M: of M light samples of a vertex one is kept, and traced.
+// light-candidates=resampled:M: keeps one of M light samples of a vertex and traces it.
 // The stages between the two of this file make and consider one candidate; the driver
 // runs them M times (src/render/wave/task_runner.cc).
 //   estimator   f(y) V(y) / v(y) 1/M sum v(x_i), y = x_i with probability in proportion
 //               to its worth v(x_i): what it would add unshadowed, over its density p
 //               (kernels/shade/consider.cc)
 //   candidates  the first has the numbers of the sample points; each further one those of
-//               the one before, shifted by a constant step modulo 1: every candidate by
-//               itself is distributed as a single light sample is, and together they fill
-//               the lights evenly
+//               the one before, shifted by a constant step modulo 1: each candidate is
+//               distributed as a single light sample, and together they fill the lights
+//               evenly
 //   density     ls_pdf stays that of one candidate: each is weighted against scattered
 //               rays as a single light sample would be, and resampling estimates the mean
 //               of such terms, whose expectation is that of each
@@ -32,8 +32,8 @@ void BeginCandidates(Wave& wave) {
                    HWY_ATTR { Scatter(hn::Zero(DF()), wave.path.worth_sum, slots); });
 }
 
-// Puts the kept sample where a single one would be. Where no candidate could add light
-// the last one stays, which carries none.
+// Stores the kept sample as the light sample. If no candidate could add light, the last
+// one stays, which carries none.
 void KeepCandidate(Wave& wave) {
   const PathColumns& p = wave.path;
   const VF inverse_count = Splat(1.0f / static_cast<float>(wave.run->candidates));
@@ -52,7 +52,7 @@ void KeepCandidate(Wave& wave) {
         put(p.kept_x, p.ls_x), put(p.kept_y, p.ls_y), put(p.kept_z, p.ls_z);
         put(p.kept_distance, p.ls_distance);
         put(p.kept_pdf, p.ls_pdf);
-        if (p.ls_light == nullptr) return;  // there is but one
+        if (p.ls_light == nullptr) return;  // the scene has one light
         put(reinterpret_cast<const float*>(p.kept_light),
             reinterpret_cast<float*>(p.ls_light));
       });
@@ -60,7 +60,7 @@ void KeepCandidate(Wave& wave) {
 
 Stage BeginCandidatesStage() {
   return {.name = "light_candidates",
-          .meaning = "begins with the candidates of light samples",
+          .meaning = "clears the weights of light candidates",
           .input = QueueId::kLit,
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
@@ -70,7 +70,7 @@ Stage BeginCandidatesStage() {
 
 Stage KeepCandidateStage() {
   return {.name = "light_keep",
-          .meaning = "takes the candidate that was kept",
+          .meaning = "makes the kept candidate the light sample",
           .input = QueueId::kLit,
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},

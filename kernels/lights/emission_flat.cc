@@ -2,10 +2,111 @@
 // point.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/emission_flat-inl.h"
+#include "kernels/lights/flat-inl.h"
+#include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
+#include "kernels/queue/batch-inl.h"
+#include "src/scene/geometry/geometry.h"
+#include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+// Returns the index of the light of triangle `prim`; -1: none.
+HWY_INLINE VI LightOfTriangle(const SceneParts& scene, VI prim) {
+  return RecordWords(scene.geometry->triangles.data(), prim)
+      .I(offsetof(TriangleRecord, light));
+}
+
+// Returns the slots of kHit that hit a triangle of a light of this shape.
+HWY_INLINE const Queue& HitsOf(Wave& wave, LightShape shape) {
+  const DI di;
+  const SceneParts& scene = wave;
+  const VI end = hn::Set(di, static_cast<int32_t>(scene.ranges->spheres));
+  const PrimitiveSpan lit = EmittingSpan(*scene.lights);
+  const VI begin = hn::Set(di, static_cast<int32_t>(lit.first));
+  const VI last = hn::Set(di, static_cast<int32_t>(lit.last));
+  const VI wanted = hn::Set(di, static_cast<int32_t>(shape));
+  return FilterQueue(wave, wave.queue(QueueId::kHit), [&](const Slots& slots) HWY_ATTR {
+    const VI prim = Gather(wave.path.prim, slots);
+    const auto outside = hn::Or(hn::Lt(prim, begin), hn::Gt(prim, last));
+    const auto triangle = hn::AndNot(outside, hn::Lt(prim, end));
+    if (hn::AllFalse(di, triangle)) return hn::RebindMask(DF(), triangle);
+    const VI index = LightOfTriangle(scene, hn::IfThenElseZero(triangle, prim));
+    const auto emits = hn::And(triangle, hn::Gt(index, hn::Set(di, -1)));
+    const Lights light(scene, hn::IfThenElseZero(emits, index));
+    return hn::RebindMask(
+        DF(), hn::And(emits, hn::Eq(light.I(offsetof(LightRecord, shape)), wanted)));
+  });
+}
+
+// Returns the density with which the light of a triangle that was hit is sampled there:
+// by solid angle where that is not too small, else `by_area`. The origin of the ray is
+// the point that was lit, up to rounding.
+template <LightPoints kPoints, class Seen>
+HWY_INLINE VF PdfAtHit(const PathColumns& p, const Slots& slots, const Seen& seen, VF pmf,
+                       VF by_area) {
+  VF pdf = hn::Div(pmf, seen.omega);
+  if constexpr (kPoints == LightPoints::kProjected) {
+    const Bilinear weights =
+        seen.Weights(Gather3(p.start_n_x, p.start_n_y, p.start_n_z, slots));
+    pdf = hn::Mul(pdf, weights.Pdf(seen.Square(p, slots)));
+  }
+  return hn::IfThenElse(BySolidAngle(seen.omega), pdf, by_area);
+}
+
+template <LightShape kShape, bool kMis, LightPoints kPoints, bool kImages>
+void EmissionOfFlat(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const SceneParts& scene = wave;
+  const Queue& mine = HitsOf(wave, kShape);
+  ForEachBatch(wave, mine, [&](const StoreSlots& slots, MF) HWY_ATTR {
+    const VI prim = Gather(p.prim, slots);
+    const VI index = LightOfTriangle(scene, prim);
+    const Lights light(scene, index);
+    const LightTriangle triangle(scene, prim);
+    const VF cosine = hn::Neg(Dot(triangle.n, Gather3(p.d_x, p.d_y, p.d_z, slots)));
+    const MF facing = hn::Or(hn::Gt(cosine, Splat(0)), light.TwoSided());
+    VF weight = Splat(1.0f);
+    if constexpr (kMis) {
+      const VF t = HitDistance(p, slots), pmf = Pmf(wave, slots, index);
+      VF pdf =
+          hn::Div(hn::Mul(hn::Mul(pmf, t), t), hn::Mul(light.Area(), hn::Abs(cosine)));
+      if constexpr (kPoints != LightPoints::kArea) {
+        const V3 from = ScatteredFrom(p, slots);
+        if constexpr (kShape == LightShape::kTriangle) {
+          const SeenTriangle seen(triangle, from);
+          pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
+        } else {
+          const LightRectangle rectangle(light);
+          const SeenRectangle seen(rectangle, from);
+          pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
+        }
+      }
+      weight = EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots), pdf);
+    }
+    V3 radiance = light.Radiance();
+    if constexpr (kImages) {
+      const LightUv at =
+          TriangleUv(*scene.geometry, prim, Gather(p.b1, slots), Gather(p.b2, slots));
+      radiance = Mul(radiance, ImageAt(scene, light, at));
+    }
+    radiance = AsCarried(wave, slots, index, radiance);
+    AddRadiance(p, slots, IfThenElseZero(facing, Mul(radiance, weight)));
+  });
+}
+
+template <LightShape kShape>
+StageFn ResolveEmissionOfFlat(const FeatureSet& features) {
+  const bool images = features.Has(Feature::kEmissionImages);
+  if (!features.Has(Feature::kMis)) {
+    return images ? EmissionOfFlat<kShape, false, LightPoints::kArea, true>
+                  : EmissionOfFlat<kShape, false, LightPoints::kArea, false>;
+  }
+  return ByLightPoints(features, Feature::kProjectedHits, [&](auto points) -> StageFn {
+    return images ? EmissionOfFlat<kShape, true, decltype(points)::value, true>
+                  : EmissionOfFlat<kShape, true, decltype(points)::value, false>;
+  });
+}
 
 Stage EmissionTriangleStage() {
   return EmissionStage("emission_triangle", "adds the emission of hit triangles",

@@ -1,19 +1,16 @@
 // Emission of hit spheres and disks, weighted against light sampling of the same point.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/emission_image-inl.h"
-#include "kernels/lights/geometry-inl.h"
+#include "kernels/lights/light_image-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/lights.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-// A batch of hits on one shape: where its records are, the normal n, the density with
-// which a light sample would have been taken there, and the coordinates of images. What
-// both have use for of the path is read once.
+// A batch of hits on one shape: its records, the normal n, the density with which a light
+// sample would have been taken there, and the coordinates of images.
 struct EmittingSphere {
   using Record = SphereRecord;
   static constexpr auto kRecords = &Geometry::spheres;

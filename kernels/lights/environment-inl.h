@@ -2,11 +2,16 @@
 #ifndef LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
 #define LANELIGHT_LIGHTS_ENVIRONMENT_INL_H_
 
-#include "kernels/lights/map_samples-inl.h"
+#include "kernels/lights/light-inl.h"
 #include "kernels/warp/sphere-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+/// A direction drawn from a map of what lies infinitely far away.
+struct MapSample {
+  V3 direction, radiance;
+  VF pdf_sa;  // excludes the selection of the light
+};
 
 LANELIGHT_INLINE V3 ByRows(const float* m, V3 v) {
   return {Dot(Splat3(m[0], m[1], m[2]), v), Dot(Splat3(m[3], m[4], m[5]), v),
@@ -22,16 +27,15 @@ LANELIGHT_INLINE VF Stretched(VF pdf, VF length) {
 
 LANELIGHT_INLINE void TexelValues(const Environment& e, const EnvironmentTable& table,
                                   VI row, VI column, MapSample* out) {
-  const DI di;
   const float inv_four_pi = 0.0795774715459476679f;
-  const VI texel = hn::Add(hn::Mul(row, hn::Set(di, e.size)), column);
+  const VI texel = hn::Add(hn::Mul(row, hn::Set(DI(), e.size)), column);
   out->radiance = Gather3(e.rgb.data(), texel);
   const float texels = static_cast<float>(e.size) * static_cast<float>(e.size);
   out->pdf_sa =
       hn::Mul(Gather(table.probability.data(), texel), Splat(texels * inv_four_pi));
 }
 
-/// Of environment `index`, radiance and density of scene direction d.
+/// Returns radiance and density of environment `index` in scene direction d.
 LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index, V3 d) {
   const Environment& e = wave.lights->environments[index];
   const EnvironmentTable& table = *wave.chances->environments[index];
@@ -56,14 +60,15 @@ LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index
   return out;
 }
 
-/// A distribution per lane: where its values and its guide begin.
+/// A distribution per lane: the begin of its values and of its guide.
 struct Distribution {
   const float* cdf;
   const int32_t* guide;
   VI cdf_base, guide_base;
 };
 
-/// Largest i in [0, size) with cdf[i] <= u in [0, 1), and u's position inside that step.
+/// Returns the largest i in [0, size) with cdf[i] <= u in [0, 1), and u's position inside
+/// that step.
 LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* inside) {
   const DI di;
   const VI one = hn::Set(di, 1), last_part = hn::Set(di, (1 << bits) - 1);
@@ -87,8 +92,8 @@ LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* ins
   return low;
 }
 
-/// Direction of environment `index` with density proportional to the luminance of its
-/// texel.
+/// Draws a direction of environment `index` with density proportional to the luminance of
+/// its texel.
 LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index, VF u0,
                                              VF u1) {
   const Environment& e = wave.lights->environments[index];

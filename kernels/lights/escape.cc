@@ -1,10 +1,9 @@
-// Rays that left the scene see every environment; the path ends.
+// Adds every environment to rays that left the scene; their paths end.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -3,21 +3,21 @@
 //   density     pdf_sa = b(u) / omega; b bilinear over the primary-sample square, in the
 //               cosines at the corners of the light, but at least a tenth of the largest
 //               among them and the one in the light's middle
-//   floor       keeps the density of what lies below the receiver, which surfaces that
-//               transmit see, above an eighth of that by solid angle alone: weights of
-//               such light are at most 7.75 times as large (six times the error under a
-//               leaf that a window crosses). Measured from the largest cosine it leaves
-//               grazing lights their warp; with the middle's it leaves lights alone that
-//               surround the receiver, whose corners say nothing
-//   below       a light that the receiver's normal does not see at all is not warped
-//   source      Hart et al. 2020 (kernels/warp/solid_angle-inl.h)
+//   floor       surfaces that transmit see light below the receiver: the floor keeps its
+//               density above an eighth of that by solid angle alone, and its weights at
+//               most 7.75 times as large (six times the error under a leaf that a window
+//               crosses). Relative to the largest cosine it keeps the warp of grazing
+//               lights; the middle's cosine serves lights that surround the receiver
+//   below       a light wholly below the receiver's plane is not warped
+//   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
 #ifndef LANELIGHT_LIGHTS_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
 
 #include "kernels/lights/geometry-inl.h"
-#include "kernels/warp/solid_angle-inl.h"
 #include "kernels/warp/spherical_rectangle-inl.h"
 #include "kernels/warp/spherical_triangle-inl.h"
+#include "src/vocabulary/path/stage.h"
+#include "src/vocabulary/strategy/choices.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -116,6 +116,19 @@ struct SeenRectangle {
                                      hn::Sub(Dot(hit, rectangle.along_y), view.y0)});
   }
 };
+
+/// Returns kernel(points) for the LightPoints of a plan, an integral constant.
+template <class Kernel>
+StageFn ByLightPoints(const FeatureSet& features, Feature projected,
+                      const Kernel& kernel) {
+  using enum LightPoints;
+  if (features.Has(projected)) {
+    return kernel(std::integral_constant<LightPoints, kProjected>());
+  }
+  return features.Has(Feature::kSolidAngleLights)
+             ? kernel(std::integral_constant<LightPoints, kSolidAngle>())
+             : kernel(std::integral_constant<LightPoints, kArea>());
+}
 
 LANELIGHT_END_KERNELS
 

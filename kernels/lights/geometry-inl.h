@@ -6,7 +6,6 @@
 
 #include "kernels/lights/light-inl.h"
 #include "kernels/warp/solid_angle-inl.h"
-#include "src/scene/compiled/lights.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_parts.h"
 
@@ -64,8 +63,8 @@ struct LightSphere {
   }
 };
 
-/// 1 - cos of the half-angle under which a sphere is seen from squared distance d2 > r^2,
-/// without cancellation for small spheres.
+/// Returns 1 - cos of the half-angle under which a sphere is seen from squared distance
+/// d2 > r^2, without cancellation for small spheres.
 LANELIGHT_INLINE VF OneMinusCosCone(VF radius, VF d2) {
   const VF sin2 = hn::Min(hn::Div(hn::Mul(radius, radius), d2), Splat(1.0f));
   const VF cosine = hn::Sqrt(hn::Sub(Splat(1.0f), sin2));

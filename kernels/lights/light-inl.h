@@ -10,7 +10,6 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/lights.h"
-#include "src/scene/compiled/spectra.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -28,14 +27,14 @@ struct Lights : RecordWords<LightRecord> {
   LANELIGHT_INLINE MF TwoSided() const { return IsSet(offsetof(LightRecord, two_sided)); }
 };
 
-/// Probabilities of selecting lights: of these, or where they depend on the place (a
-/// tree), of the paths.
+/// Returns the probabilities of selecting lights; a light tree has computed them for the
+/// paths, because they depend on the place.
 LANELIGHT_INLINE VF Pmf(const Wave& wave, const Slots& slots, VI light) {
   if (wave.path.light_pmf != nullptr) return Gather(wave.path.light_pmf, slots);
   return Gather(wave.chances->pmf.data(), light);
 }
 
-/// Primitive ids that may emit, so that most hits need no look at their record.
+/// Primitive ids that may emit: most hits need no look at their record.
 struct PrimitiveSpan {
   uint32_t first = 0, last = 0x7fffffffu;
 };
@@ -77,7 +76,7 @@ LANELIGHT_INLINE void ForEachLit(Wave& wave, LightShape shape, Body&& body) {
   }
 }
 
-/// A light sample. Without use, it carries nothing.
+/// A light sample; it carries no light if it is not usable.
 struct LightSample {
   V3 direction;
   VF distance;
@@ -94,8 +93,8 @@ LANELIGHT_INLINE void StoreLightSample(const PathColumns& p, const StoreSlots& s
   Scatter(s.pdf_sa, p.ls_pdf, slots);
 }
 
-/// Distance of a hit from where its ray was scattered: interfaces of media may lie in
-/// between.
+/// Returns the distance of a hit from the point at which its ray was scattered;
+/// interfaces of media may lie between.
 LANELIGHT_INLINE VF HitDistance(const PathColumns& p, const Slots& slots) {
   const VF t = Gather(p.t, slots);
   return p.passed == nullptr ? t : hn::Add(t, Gather(p.passed, slots));
@@ -113,17 +112,16 @@ LANELIGHT_INLINE VF SumAbs(V3 v) {
   return hn::Add(hn::Abs(v.x), hn::Add(hn::Abs(v.y), hn::Abs(v.z)));
 }
 
-/// Returns the distance from the surface at q at which a ray from the surface at `from`
-/// must end, so that rounding of both points and of the ray cannot make it meet q's
-/// surface.
+/// Returns how far in front of the surface at q a ray from `from` ends. Rounding of the
+/// points and of the ray then cannot make it meet that surface.
 LANELIGHT_INLINE VF Clearance(V3 from, V3 q, VF p_error) {
   return hn::MulAdd(Splat(1e-6f), hn::Add(SumAbs(from), SumAbs(q)),
                     hn::Mul(Splat(2.0f), p_error));
 }
 
-/// The shadow ray to point q with unit normal n of a surface light. It ends slightly in
-/// front of the light, by a bound on the rounding of both end points (about 8 ulp) and
-/// the offset of its origin, so the light does not shadow itself.
+/// The shadow ray to point q with unit normal n of a surface light. The light must not
+/// shadow itself: the ray ends in front of it, by a bound on the rounding of both end
+/// points (about 8 ulp) and on the offset of its origin.
 struct ShadowRay {
   V3 direction;
   VF distance2, distance, cos_light;
@@ -150,7 +148,7 @@ struct SurfaceEmission {
   MF two_sided;
 };
 
-/// Light sample by a shadow ray with density pdf_sa (selection included).
+/// Stores a light sample by a shadow ray with density pdf_sa (selection included).
 LANELIGHT_INLINE void StoreShadowRay(const PathColumns& p, const StoreSlots& slots,
                                      const ShadowRay& ray, VF pdf_sa,
                                      const SurfaceEmission& light) {
@@ -169,7 +167,6 @@ struct SurfacePoint {
   VF pdf_area;
 };
 
-/// The same to a point.
 LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots& slots,
                                          const SurfacePoint& point,
                                          const SurfaceEmission& light) {
@@ -185,21 +182,20 @@ LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
 }
 
-/// Light of a colour, of light `index`, at the wavelengths of its paths.
+/// Returns the light of a colour, of light `index`, at the wavelengths of its paths.
 inline HWY_NOINLINE V3 AtWavelengths(const Wave& wave, const Slots& slots, VI index,
                                      V3 color) {
-  const DI di;
   const SpectrumTable& table = *wave.spectra;
   const Wavelengths at(wave.path, slots);
   const VI row = Lookup(wave.lights->spectrum, index);
-  const auto own = hn::Gt(row, hn::Set(di, -1));
+  const auto own = hn::Gt(row, hn::Set(DI(), -1));
   // The weights of Luminance() (src/base/core/vec.h), in which the rows are stated.
   const VF luminance = Dot(color, Splat3(0.212671f, 0.715160f, 0.072169f));
   const V3 by_row = Mul(AtRows(table, hn::IfThenElseZero(own, row), at), luminance);
-  if (hn::AllTrue(di, own)) return by_row;
+  if (hn::AllTrue(DI(), own)) return by_row;
   return IfThenElse(hn::RebindMask(DF(), own), by_row, UpsampledColors(table, color, at));
 }
-/// The same in any scene: paths that carry red, green and blue see the colour.
+/// Does the same in any scene: paths that carry red, green and blue see the colour.
 LANELIGHT_INLINE V3 AsCarried(const Wave& wave, const Slots& slots, VI index, V3 color) {
   if (HWY_LIKELY(wave.path.wavelength == nullptr)) return color;
   return AtWavelengths(wave, slots, index, color);

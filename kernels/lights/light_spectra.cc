@@ -21,7 +21,7 @@ void LightSpectra(Wave& wave) {
 Stage LightSpectraStage() {
   const FieldSet color = {Field::ls_r, Field::ls_g, Field::ls_b};
   return {.name = "light_spectra",
-          .meaning = "light samples at the wavelengths of their paths",
+          .meaning = "converts light samples to wavelengths of paths",
           .input = QueueId::kLit,
           .role = StageRole::kLight,
           .needs = {Feature::kSpectral, Feature::kLights, Feature::kScatters},

@@ -1,8 +1,8 @@
-// Environments seen through a portal: look-up, and sampling of what of the map a point
-// sees, by the summed weights of its texels (src/scene/compiled/lights.h, Portal).
+// Environments seen through a portal: look-up, and sampling of the part of the map that a
+// point sees, by the summed weights of its texels (src/scene/compiled/lights.h, Portal).
 //   density     pdf(s, t) = weight of the texel / weight of the window, both per area;
 //               pdf_sa = pdf(s, t) / (solid angle per area of the square)
-//   window      what the portal covers of the square: a rectangle
+//   window      the part of the square that the portal covers: a rectangle
 //   source      Bitterli, Novak and Jarosz 2015
 // The long routines are called, not inlined: each has hundreds of instructions for a
 // vector, and a kernel that holds all their copies takes half a minute to compile.
@@ -10,11 +10,9 @@
 #define LANELIGHT_LIGHTS_PORTAL_INL_H_
 
 #include "hwy/contrib/math/math-inl.h"
-#include "kernels/lights/map_samples-inl.h"
+#include "kernels/lights/environment-inl.h"
 #include "kernels/lights/portal_sums-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/surface/point-inl.h"
-#include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -32,7 +30,6 @@ struct PortalWindow {
 LANELIGHT_INLINE V3 LoadV3(const float v[3]) { return Splat3(v[0], v[1], v[2]); }
 
 inline HWY_NOINLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
-  const DF df;
   const V3 w = {Dot(LoadV3(portal.x_axis), direction),
                 Dot(LoadV3(portal.y_axis), direction),
                 Dot(LoadV3(portal.z_axis), direction)};
@@ -40,8 +37,8 @@ inline HWY_NOINLINE PortalPlace PlaceOf(const Portal& portal, V3 direction) {
   const MF ahead = hn::Gt(w.z, Splat(0));
   const VF inverse = hn::IfThenElseZero(ahead, hn::Div(one, w.z));
   const VF cosines = hn::Mul(hn::NegMulAdd(w.x, w.x, one), hn::NegMulAdd(w.y, w.y, one));
-  return {hn::MulAdd(hn::Atan(df, hn::Mul(w.x, inverse)), inv_pi, half),
-          hn::MulAdd(hn::Atan(df, hn::Mul(w.y, inverse)), inv_pi, half),
+  return {hn::MulAdd(hn::Atan(DF(), hn::Mul(w.x, inverse)), inv_pi, half),
+          hn::MulAdd(hn::Atan(DF(), hn::Mul(w.y, inverse)), inv_pi, half),
           hn::Mul(hn::Mul(cosines, inverse), Splat(kPi * kPi)), ahead};
 }
 
@@ -79,8 +76,8 @@ LANELIGHT_INLINE V3 PortalTexel(const Portal& portal, VF column, VF row) {
   return Gather3(portal.rgb.data(), texel);
 }
 
-/// Direction that `from` sees through the portal, with density proportional to the weight
-/// of its texel.
+/// Draws a direction that `from` sees through the portal, with density proportional to
+/// the weight of its texel.
 inline HWY_NOINLINE MapSample SamplePortal(const Portal& portal, V3 from, VF u0, VF u1) {
   const PortalWindow window = WindowFrom(portal, from);
   const PortalSums low = SumsOf<false>(portal, window),
@@ -101,7 +98,7 @@ inline HWY_NOINLINE MapSample SamplePortal(const Portal& portal, V3 from, VF u0,
   return out;
 }
 
-/// Radiance and density of a direction from `from`.
+/// Returns radiance and density of a direction from `from`.
 inline HWY_NOINLINE MapSample LookThrough(const Portal& portal, V3 from, V3 direction) {
   const PortalWindow w = WindowFrom(portal, from);
   const PortalPlace place = PlaceOf(portal, direction);

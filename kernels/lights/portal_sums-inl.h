@@ -77,7 +77,7 @@ class PortalSums {
     const VD next = hn::Add(x.texel, hn::Set(DD(), 1.0));
     return Mix(Node(x.texel, row), Node(next, row), x.part);
   }
-  // Of all to the left of x and below y, both in [0, size].
+  // Returns the sum to the left of x and below y, both in [0, size].
   LANELIGHT_INLINE VD Below(VD x, VD y) const {
     const Split split = SplitOf(x), rows = SplitOf(y);
     const VD next = hn::Add(rows.texel, hn::Set(DD(), 1.0));

@@ -14,12 +14,11 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// The number chooses a bin, and its fraction between the bin's own light and its alias.
-// Of many lights little is left of its 24 bits: with a million, 16 steps, by which a
-// light of a hundredth of the mean would come six times too often. And a lattice whose
-// step is a multiple of 1 / n meets the same fraction in every bin. Turned by another
-// amount in each bin, fractions are as uniform as before, and neither happens in the mean
-// of all bins.
+// The number chooses a bin, and its fraction chooses between the bin's light and its
+// alias. With many lights the fraction has few of the 24 bits: with a million, 16 steps,
+// which select a light of a hundredth of the mean six times too often. A lattice whose
+// step is a multiple of 1 / n has the same fraction in every bin. A different shift per
+// bin keeps fractions uniform and removes both errors in the mean of all bins.
 HWY_INLINE VF TurnFraction(VF fraction, VI bin, uint32_t step) {
   const VU turn = hn::Mul(AsUnsigned(bin), SplatU(step));
   const VF sum = hn::Add(fraction, ToUnit(turn));

@@ -3,12 +3,12 @@
 //               reaching the surface: exp(-sigma_t t)
 //   estimator   sigma_s T / mean density over channels, and T / mean density
 //               (medium-inl.h)
-//   unbiased    a channel that scatters has sigma_t > 0, so one that finds it is drawn
-//   variance    none from T where all channels are alike
-//   absorbers   sigma_s = 0: nothing to find on the way, T counts in full
+//   unbiased    a channel that scatters has sigma_t > 0, so its distances are drawn
+//   variance    none from T if all channels are equal
+//   absorbers   sigma_s = 0: there are no events, and T is the weight
 //   distances=equiangular  half of the points by the angle around a light
 //   emission    what the medium emits along the ray is known in closed form, and added
-//   interfaces  optical depth left over is again exponential: the same number goes on
+//   interfaces  the remaining optical depth is again exponential: the number is reused
 //   source      Novak et al. 2018, "Monte Carlo Methods for Volumetric Light Transport
 //               Simulation"; Wilkie et al. 2014 (spectral sampling)
 #include "kernels/simd/each_target-inl.h"
@@ -25,7 +25,7 @@ LANELIGHT_BEGIN_KERNELS
 HWY_INLINE V3 EmittedOver(V3 emission, V3 sigma_t, VF length) {
   const auto one = [&](VF e, VF sigma) HWY_ATTR {
     const VF depth = hn::Mul(sigma, length);
-    // (1 - exp(-x)) / x cancels for small x; there its series does not.
+    // (1 - exp(-x)) / x cancels for small x, where its series is used.
     const VF series =
         hn::MulAdd(depth, hn::MulAdd(depth, Splat(1.0f / 6), Splat(-0.5f)), Splat(1.0f));
     const VF thick = hn::Div(hn::Sub(Splat(1.0f), Transmittance(sigma, length)), sigma);
@@ -46,7 +46,7 @@ HWY_INLINE void AddEmission(const Wave& wave, const StoreSlots& slots, V3 beta,
   Scatter3(l + Mul(beta, emitted), p.l_r, p.l_g, p.l_b, slots);
 }
 
-// Template parameters: the parts of the walk that a scene and a strategy need.
+// The parts of the walk that a scene and a strategy need.
 template <bool interfaces, bool emission, bool equiangular>
 struct Needs {
   static constexpr bool kInterfaces = interfaces, kEmission = emission,
@@ -72,7 +72,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   VF d = hn::IfThenElse(can, hn::Div(hn::Neg(hn::Log(df, keep)), drawn), far);
   const MF event = hn::Lt(d, t);
   if constexpr (Needs::kEmission) AddEmission(wave, slots, path.beta, medium, t);
-  V3 left, found;  // transmittance, and the densities of an event at its end
+  V3 left, found;  // transmittance, and the densities of an event after it
   const auto reach = [&]() HWY_ATTR {
     left = Transmittance(sigma_t, hn::Min(d, t));
     found = Mul(left, sigma_t);
@@ -119,27 +119,23 @@ void MediumDistance(Wave& wave) {
   LeaveWithEvents(wave);
 }
 
-template <bool kInterfaces, bool kEmission>
-StageFn ByDistances(const FeatureSet& features) {
-  return features.Has(Feature::kEquiangularDistances)
-             ? MediumDistance<Needs<kInterfaces, kEmission, true>>
-             : MediumDistance<Needs<kInterfaces, kEmission, false>>;
-}
-
-template <bool kInterfaces>
-StageFn ByEmission(const FeatureSet& features) {
-  return features.Has(Feature::kMediumEmission)
-             ? ByDistances<kInterfaces, true>(features)
-             : ByDistances<kInterfaces, false>(features);
-}
-
 StageFn ResolveMediumDistance(const FeatureSet& features) {
-  return features.Has(Feature::kInterfaces) ? ByEmission<true>(features)
-                                            : ByEmission<false>(features);
+  const auto by = [&](Feature feature, const auto& kernel) -> StageFn {
+    return features.Has(feature) ? kernel(std::true_type()) : kernel(std::false_type());
+  };
+  return by(Feature::kInterfaces, [&](auto interfaces) {
+    return by(Feature::kMediumEmission, [&](auto emission) {
+      return by(Feature::kEquiangularDistances, [&](auto equiangular) -> StageFn {
+        return MediumDistance<
+            Needs<decltype(interfaces)::value, decltype(emission)::value,
+                  decltype(equiangular)::value>>;
+      });
+    });
+  });
 }
 
 Stage MediumDistanceStage() {
-  return MediumEventStage("medium_distance", "how far rays get in homogeneous media",
+  return MediumEventStage("medium_distance", "samples distances in homogeneous media",
                           Feature::kMedia, ResolveMediumDistance);
 }
 

@@ -10,14 +10,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Temperature that `t` stands for.
-LANELIGHT_INLINE VF Kelvin(const BlackbodyTable& table, VF t) {
-  return hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
-}
-
-/// Colour of a black body, of kLeastKelvin at least.
+/// Returns the colour of a black body of at least kLeastKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
-  const DI di;
   const VF least = Splat(kLeastKelvin);
   const VF ratio = hn::Mul(hn::Max(kelvin, least), Splat(1 / kLeastKelvin));
   const VF at = hn::Mul(hn::Log(DF(), ratio), Splat(table.entries_per_log));
@@ -25,7 +19,7 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   const auto last = static_cast<float>(table.colors.size() / 3 - 2);
   const VF low = hn::Clamp(hn::Floor(at), Splat(0), Splat(last));
   const VF share = hn::Sub(at, low);
-  const VI entry = hn::Mul(hn::ConvertTo(di, low), hn::Set(di, 3));
+  const VI entry = hn::Mul(hn::ConvertTo(DI(), low), hn::Set(DI(), 3));
   const auto channel = [&](int c) HWY_ATTR {
     const VF a = Gather(table.colors.data() + c, entry);
     const VF b = Gather(table.colors.data() + 3 + c, entry);
@@ -34,21 +28,21 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
   return {channel(0), channel(1), channel(2)};
 }
 
-/// Spectra of black bodies of `kelvin` over their maxima, at wavelengths of which the row
-/// kPlanck has `planck` (Planck's law).
+/// Returns the spectra of black bodies of `kelvin` over their maxima (Planck's law);
+/// `planck` is the row kPlanck at the wavelengths.
 LANELIGHT_INLINE V3 BlackbodySpectra(V3 planck, VF kelvin) {
   const VF safe = hn::Clamp(kelvin, Splat(kLeastKelvin), Splat(1e9f));
   const auto one = [&](VF of) HWY_ATTR {
     const VF x = hn::Div(of, safe), q = hn::Mul(x, Splat(float(1 / kPlanckPeak)));
     const VF q2 = hn::Mul(q, q), q5 = hn::Mul(hn::Mul(q2, q2), q);
-    // Of cold bodies, whose light is below 1e-20, more than Expm1 can take.
+    // Expm1 overflows for cold bodies, whose light is below 1e-20.
     const VF e = hn::Expm1(DF(), hn::Min(x, Splat(80.0f)));
     return hn::Div(hn::Mul(q5, Splat(float(kPlanckAtPeak))), e);
   };
   return {one(planck.x), one(planck.y), one(planck.z)};
 }
 
-/// What a medium that varies emits over its absorption, for a batch of paths.
+/// Emission over absorption of a heterogeneous medium, for a batch of paths.
 struct GridEmission {
   const MediumGrid& grid;
   V3 scale;
@@ -66,7 +60,7 @@ struct GridEmission {
     if (spectral && grid.emission.channels == 4) place = Places(wave, slots);
   }
 
-  /// At p of the box, in the lanes of `mask`.
+  /// Returns the emission at p of the box, in the lanes of `mask`.
   LANELIGHT_INLINE V3 At(V3 p, MF mask) const {
     return grid.emission.empty() ? scale : Mul(scale, Factor(p, mask));
   }
@@ -89,9 +83,10 @@ struct GridEmission {
     } else {
       Interpolate(grid.size, emission.temperatures.data(), 1, p, &t);
     }
-    const VF kelvin = Kelvin(emission.blackbody, t);
-    const V3 body = spectral ? BlackbodySpectra(planck, kelvin)
-                             : BlackbodyColor(emission.blackbody, kelvin);
+    const BlackbodyTable& table = emission.blackbody;
+    const VF kelvin = hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
+    const V3 body =
+        spectral ? BlackbodySpectra(planck, kelvin) : BlackbodyColor(table, kelvin);
     const MF glows = hn::Gt(kelvin, Splat(kLeastKelvin));
     return Mul(factor, IfThenElseZero(glows, body));
   }

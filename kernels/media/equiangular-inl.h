@@ -1,17 +1,17 @@
-// Distances along rays that are uniform in the angle around a light (Kulla and Fajardo
-// 2012, "Importance Sampling Techniques for Path Tracing in Participating Media"): they
-// are found where its light, which falls with the square of the distance, is strong.
+// Distances along rays that are uniform in the angle around a light, and so dense where
+// its light is strong.
+//   source  Kulla and Fajardo 2012, "Importance Sampling Techniques for Path Tracing in
+//           Participating Media"
 #ifndef LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
 #define LANELIGHT_MEDIA_EQUIANGULAR_INL_H_
 
 #include "kernels/media/medium-inl.h"
-#include "kernels/media/walk_random-inl.h"
 #include "src/scene/compiled/lights.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// The middle of a light, drawn by power with two numbers in [0, 1); infinite for lights
-/// that have no place.
+/// Draws the middle of a light by power with two numbers in [0, 1); infinite for lights
+/// without a place.
 LANELIGHT_INLINE V3 DrawAnchor(const LightChances& table, VF u0, VF u1) {
   const DI di;
   const LightAnchor* anchors = table.anchors.data();
@@ -27,14 +27,14 @@ LANELIGHT_INLINE V3 DrawAnchor(const LightChances& table, VF u0, VF u1) {
 }
 
 /// Distances in (0, length) of a ray from o along d by the angle around `anchor`. The
-/// length may be infinite. `least` above 0 keeps rays through the anchor, and from it,
-/// away from a density without bound: any distance of ray and anchor makes a density.
+/// length may be infinite. The distance of ray and anchor is at least `least` > 0, which
+/// bounds the density of rays through the anchor.
 struct Equiangular {
-  VF closest;   // distance along the ray of what is nearest to the anchor
-  VF beside;    // distance of the anchor from there
+  VF closest;   // distance along the ray of the point nearest to the anchor
+  VF beside;    // distance of the anchor from that point
   VF squared;   // distance of origin and anchor, squared
-  VF angle;     // that the length fills, seen from the anchor
-  MF possible;  // the anchor is somewhere
+  VF angle;     // the angle of the length, seen from the anchor
+  MF possible;  // the anchor is finite
 
   LANELIGHT_INLINE Equiangular(V3 o, V3 d, VF length, V3 anchor, VF least) {
     const V3 to = anchor - o;
@@ -60,10 +60,10 @@ struct Equiangular {
   }
 };
 
-/// Of the points in media that rays find, one half by the angle around a light: whether
-/// there is one at all is left to the transmittance, so that surfaces behind are found as
-/// often as ever. Of a channel with extinction sigma, on a ray of length t, the density
-/// is (sigma T(d) + (1 - T(t)) p_angle(d)) / 2.
+/// Samples one half of the events in media by the angle around a light. Transmittance
+/// decides whether there is an event, so surfaces behind are found as often as before.
+/// For a channel with extinction sigma, on a ray of length t, the density is (sigma T(d)
+/// + (1 - T(t)) p_angle(d)) / 2.
 struct EquiangularHalf {
   Equiangular around;
   VF jitter;  // in [0, 2^-24)
@@ -71,7 +71,8 @@ struct EquiangularHalf {
   LANELIGHT_INLINE EquiangularHalf(const Wave& wave, const Slots& slots, VF drawn, VF t)
       : EquiangularHalf(wave, slots, drawn, t, WalkRandom(wave, slots, 0x9e3779b1u)) {}
 
-  /// Distance of an event of a channel with extinction `drawn`, u in [0, 1 - T(t)).
+  /// Returns the distance of an event of a channel with extinction `drawn`, u in [0, 1 -
+  /// T(t)).
   LANELIGHT_INLINE VF Sample(VF drawn, VF t, VF u) const {
     const VF half = Splat(0.5f);
     const VF share = hn::Div(hn::Add(u, jitter), Interacted(drawn, t));
@@ -82,7 +83,7 @@ struct EquiangularHalf {
     const VF xi = hn::Min(hn::MulAdd(share, Splat(2), Splat(-1.0f)), Splat(1.0f));
     return hn::Min(hn::IfThenElse(turns, around.Sample(xi), straight), t);
   }
-  /// Densities of an event at d, from those by transmittance alone.
+  /// Converts the densities of an event at d by transmittance alone.
   LANELIGHT_INLINE V3 Density(V3 by_transmittance, V3 sigma_t, VF t, VF d) const {
     const V3 by_angle = Mul(Interacted(sigma_t, t), around.Pdf(d));
     return IfThenElse(around.possible, Mul(by_transmittance + by_angle, Splat(0.5f)),

@@ -7,7 +7,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What is known of a path, to be changed by what happens to it.
+/// The throughput and the odds of the channels of a path.
 struct Stretch {
   V3 beta, odds;
 
@@ -15,7 +15,7 @@ struct Stretch {
       : beta(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
         odds(Gather3(p.odds_r, p.odds_g, p.odds_b, slots)) {}
 
-  /// Something of contribution f and densities pdf, both over any common factor.
+  /// Applies an event of contribution f and densities pdf, both over any common factor.
   LANELIGHT_INLINE void Happen(V3 f, V3 pdf) {
     const V3 each = Mul(odds, pdf);
     const VF scale = hn::Div(Splat(1.0f), MeanChannel(each));
@@ -28,12 +28,10 @@ struct Stretch {
   }
 };
 
-/// Where the ray is after `distance`, with a normal that looks back along it; of the
-/// lanes of `event` this is what follows, and t = -1 marks them. The others find their
-/// surface later, which overwrites it.
+/// Stores the point of the ray at `distance`, with a normal that looks back along it.
+/// t = -1 marks the lanes of `event`; the surface stages overwrite the others later.
 LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, MF event,
                                  VF distance, VI material) {
-  const DI di;
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots), back = -d;
   const V3 at = MulAdd(d, distance, Gather3(p.o_x, p.o_y, p.o_z, slots));
   Scatter3(at, p.p_x, p.p_y, p.p_z, slots);
@@ -41,14 +39,14 @@ LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, 
   Scatter3(back, p.ng_x, p.ng_y, p.ng_z, slots);
   if (p.ns_x != nullptr) Scatter3(back, p.ns_x, p.ns_y, p.ns_z, slots);
   Scatter(material, p.material, slots);
-  const VI none = hn::Set(di, static_cast<int32_t>(kNoPrimitive));
+  const VI none = hn::Set(DI(), static_cast<int32_t>(kNoPrimitive));
   const VI prim = Gather(p.prim, slots);
-  Scatter(hn::IfThenElse(hn::RebindMask(di, event), none, prim), p.prim, slots);
+  Scatter(hn::IfThenElse(hn::RebindMask(DI(), event), none, prim), p.prim, slots);
   Scatter(hn::IfThenElse(event, Splat(-1.0f), Gather(p.t, slots)), p.t, slots);
 }
 
-/// Takes the paths with an event out of kActive: to all that scatters, or to their end
-/// where they may not scatter any more.
+/// Moves the paths with an event from kActive to kVertex, or to kDone if they may not
+/// scatter any more.
 LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
   const PathColumns& p = wave.path;
   Queue& active = wave.queue(QueueId::kActive);
@@ -70,7 +68,7 @@ LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
   wave.rays_closest += before - rest.size;  // the others are counted by the stage `split`
 }
 
-/// A stage that finds out what happens to rays on their way through media of a kind.
+/// A stage that samples the events of rays in media of a kind.
 inline Stage MediumEventStage(const char* name, const char* meaning, Feature kind,
                               StageFn (*resolve)(const FeatureSet&)) {
   const FieldSet ray = {Field::medium,  Field::u_medium_0, Field::u_medium_1,

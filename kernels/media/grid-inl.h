@@ -1,12 +1,10 @@
 // Media that vary within a box, for a vector of rays in the same medium: the cells of the
-// majorant grid that rays go through, and what the medium is like at a point.
+// majorant grid along rays, and the coefficients at a point.
 #ifndef LANELIGHT_MEDIA_GRID_INL_H_
 #define LANELIGHT_MEDIA_GRID_INL_H_
 
 #include <limits>
 
-#include "kernels/media/cloud-inl.h"
-#include "kernels/media/medium-inl.h"
 #include "kernels/media/voxels-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -50,7 +48,7 @@ struct GridMedium {
     };
     return {row(0), row(1), row(2)};
   }
-  /// At `p` of the box, in the lanes of `mask`.
+  /// Returns the coefficients at `p` of the box, in the lanes of `mask`.
   LANELIGHT_INLINE Coefficients At(V3 p, MF mask) const {
     if (IsColored() && spectral) {
       V3 v[2];
@@ -81,9 +79,9 @@ struct GridMedium {
 /// Distances are those of the scene.
 struct CellWalk {
   V3 o, d;      // in the box
-  VF t, end;    // where the ray is, where it leaves the box or ends
-  VF next[3];   // where it crosses into the next cell, along each axis
-  VF delta[3];  // from one crossing to the next
+  VF t, end;    // position of the ray, and of its end or its exit from the box
+  VF next[3];   // position of the next crossing along each axis
+  VF delta[3];  // distance between crossings
   VI cell[3], step[3];
 
   LANELIGHT_INLINE CellWalk(const GridMedium& medium, V3 origin, V3 direction,
@@ -121,8 +119,8 @@ struct CellWalk {
   LANELIGHT_INLINE VF Exit() const {
     return hn::Min(end, hn::Min(next[0], hn::Min(next[1], next[2])));
   }
-  /// Goes on to where it leaves the cell, in the lanes of `mask`. The walk ends more than
-  /// a cell behind the box, where rounding alone leads: cells may be smaller than an ulp.
+  /// Advances to the exit of the cell, in the lanes of `mask`. The walk ends more than a
+  /// cell behind the box, which only rounding reaches: cells may be smaller than an ulp.
   LANELIGHT_INLINE void Cross(MF mask) {
     const DI di;
     const VI before = hn::Set(di, -1), behind = hn::Set(di, kMajorantCells);

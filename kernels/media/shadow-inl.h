@@ -3,12 +3,12 @@
 #define LANELIGHT_MEDIA_SHADOW_INL_H_
 
 #include "kernels/media/grid-inl.h"
-#include "kernels/media/walk_random-inl.h"
+#include "kernels/media/medium-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-/// The medium that a shadow ray starts in: that of the path, or what lies on the light's
-/// side of the surface.
+/// Returns the medium in which a shadow ray starts: that of the path, or the one on the
+/// light's side of the surface.
 template <bool kChanges>
 LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
@@ -19,9 +19,8 @@ LANELIGHT_INLINE VI ShadowStartMedium(const Wave& wave, const Slots& slots) {
   return Sides(*wave.media, Gather(p.prim, slots)).Toward(ls, ng, here);
 }
 
-/// What a tentative collision leaves of a ray, of which `real` is the share of collisions
-/// in each channel: all but that share (ratio tracking: Novak, Selle and Jarosz 2014),
-/// and nothing below 0.
+/// Returns what a tentative collision leaves of a ray: all but the share `real` of real
+/// collisions in each channel (ratio tracking: Novak, Selle and Jarosz 2014), at least 0.
 LANELIGHT_INLINE V3 Leaves(V3 left, V3 real) {
   const V3 after = Mul(left, Splat3(1, 1, 1) - real);
   return IfThenElse(hn::Gt(MaxComponent(after), Splat(0)), after, Splat3(0, 0, 0));
@@ -57,8 +56,7 @@ LANELIGHT_INLINE V3 TrackedTransmittance(const GridMedium& medium, V3 o, V3 d, V
   }
 }
 
-/// A length of a shadow ray from o in a medium. `number`: how many such lengths of the
-/// ray came before.
+/// A length of a shadow ray from o in a medium. `number` counts the lengths before it.
 struct ShadowLeg {
   VI medium;
   V3 o;
@@ -84,8 +82,7 @@ HWY_NOINLINE V3 GridTransmittance(const Wave& wave, const Slots& slots,
   return left;
 }
 
-/// Takes away from what the shadow ray carries what a length of it takes. Zero where
-/// nothing is left, which Connect adds like any other.
+/// Multiplies what the shadow ray carries by the transmittance of a length of it.
 LANELIGHT_INLINE void DimShadow(const Wave& wave, const StoreSlots& slots,
                                 const ShadowLeg& leg) {
   const PathColumns& p = wave.path;

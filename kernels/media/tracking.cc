@@ -2,25 +2,23 @@
 // cells.
 //   density     of tentative collisions: that of the channel's majorant sigma_m; of each,
 //               that it is real: sigma_t / sigma_m
-//   estimator   a real one scatters with sigma_s / sigma_t, a null one goes on; over the
-//               mean density of the channels (medium-inl.h), as real and null ones alike
-//               have the density that the channel would have had
-//   unbiased    sigma_m >= sigma_t everywhere in the cell, which compile sees to
+//   estimator   a real one scatters with sigma_s / sigma_t, after a null one the ray
+//               continues; over the mean density of the channels (medium-inl.h)
+//   unbiased    sigma_m >= sigma_t everywhere in the cell, as the scene is compiled
 //   emission    sigma_a Le / sigma_m at each tentative collision
-//   cost        of the majorants along the ray, not of the density
+//   cost        proportional to the majorants along the ray
 //   source      Woodcock et al. 1965; Kutz et al. 2017; Miller, Georgiev and Jarosz 2019
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/media/emission-inl.h"
 #include "kernels/media/event-inl.h"
 #include "kernels/media/grid-inl.h"
-#include "kernels/media/walk_random-inl.h"
 #include "kernels/queue/batch-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 // A walk of a vector of rays: f and the densities of the channels over that of the one
-// drawn, where it ended, and what the medium emitted on the way.
+// drawn, the event at its end, and the emission on the way.
 template <bool kEmission>
 struct Track {
   const GridMedium& medium;
@@ -31,7 +29,7 @@ struct Track {
   V3 emitted = Splat3(0, 0, 0);
   MF event = hn::FirstN(DF(), 0);
 
-  // To distance dt of a cell with majorants sigma_m.
+  // Advances by dt in a cell with majorants sigma_m.
   HWY_INLINE void Pass(MF mask, V3 sigma_m, VF dt) {
     const VF own = channel.Of(sigma_m);
     const auto other = [&](VF sigma) HWY_ATTR {
@@ -48,7 +46,7 @@ struct Track {
     const V3 sent = Mul(Mul(f, sigma_a), hn::Div(Splat(1.0f), MeanChannel(candidates)));
     emitted = emitted + IfThenElseZero(mask, Mul(sent, emission->At(p, mask)));
   }
-  // A tentative collision at p; true where it is real.
+  // Samples a tentative collision at p; returns whether it is real.
   HWY_INLINE MF Collide(MF mask, V3 sigma_m, V3 p, VF u) {
     const Coefficients at = medium.At(p, mask);
     const V3 sigma_t = at.sigma_a + at.sigma_s, null = sigma_m - sigma_t;
@@ -58,12 +56,10 @@ struct Track {
     const MF real = hn::And(mask, hn::Lt(hn::Mul(u, own_m), own_t));
     const VF rate = hn::Div(Splat(1.0f), own_t);
     const VF null_rate = hn::Div(Splat(1.0f), channel.Of(null));
-    const MF passes = hn::AndNot(real, mask);
     const V3 happens_f = IfThenElse(real, Mul(at.sigma_s, rate), Mul(null, null_rate));
     const V3 happens_p = IfThenElse(real, Mul(sigma_t, rate), Mul(null, null_rate));
-    const MF either = hn::Or(real, passes);
-    f = IfThenElse(either, Mul(f, happens_f), f);
-    pdf = IfThenElse(either, Mul(pdf, happens_p), pdf);
+    f = IfThenElse(mask, Mul(f, happens_f), f);
+    pdf = IfThenElse(mask, Mul(pdf, happens_p), pdf);
     return real;
   }
   HWY_INLINE void Walk(CellWalk& at, WalkRandom& random, VF depth_left) {
@@ -146,7 +142,8 @@ void MediumTracking(Wave& wave) {
 
 Stage MediumTrackingStage() {
   return MediumEventStage(
-      "medium_tracking", "how far rays get in media that vary", Feature::kMediumGrids,
+      "medium_tracking", "samples distances in heterogeneous media",
+      Feature::kMediumGrids,
       ByFeature<Feature::kMediumEmission, MediumTracking<true>, MediumTracking<false>>);
 }
 

@@ -1,11 +1,12 @@
-// Numbers of grids at a vector of points: voxels one after the other, and the sparse ones
-// of NanoVDB.
+// Values of media at a vector of points: dense voxels, sparse NanoVDB grids, and
+// pbrt-v4's procedural cloud, which is noise whose threshold rises with the height.
 #ifndef LANELIGHT_MEDIA_VOXELS_INL_H_
 #define LANELIGHT_MEDIA_VOXELS_INL_H_
 
 #include <limits>
 
 #include "kernels/media/medium-inl.h"
+#include "kernels/texture/noise-inl.h"
 #include "src/base/core/sparse_grid.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -17,17 +18,16 @@ struct AxisSamples {
   MF has_low, has_high;  // they lie in the grid; others are zero
 
   LANELIGHT_INLINE AxisSamples(VF x, int32_t size) {
-    const DF df;
     const DI di;
     const VF at = hn::MulAdd(x, Splat(static_cast<float>(size)), Splat(-0.5f));
     const VF floor = hn::Floor(at);
     low = hn::ConvertTo(di, floor);
     weight = hn::Sub(at, floor);
     const VI last = hn::Set(di, size - 1), before = hn::Set(di, -1);
-    has_low =
-        hn::RebindMask(df, hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
+    has_low = hn::RebindMask(
+        DF(), hn::And(hn::Gt(low, before), hn::Lt(low, hn::Set(di, size))));
     has_high =
-        hn::RebindMask(df, hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
+        hn::RebindMask(DF(), hn::And(hn::Gt(low, hn::Set(di, -2)), hn::Lt(low, last)));
   }
 };
 
@@ -72,8 +72,8 @@ LANELIGHT_INLINE V3 Places(const Wave& wave, const Slots& slots) {
   return ByBin(wave.spectra->place.data(), Wavelengths(wave.path, slots).triple);
 }
 
-/// The same of kCount VoxelSpectrum for each voxel: what they are at three wavelengths,
-/// by their places (SpectrumTable::place).
+/// Interpolates kCount VoxelSpectrum for each voxel at three wavelengths, by their places
+/// (SpectrumTable::place).
 template <int kCount>
 LANELIGHT_INLINE void InterpolateSpectra(const int32_t size[3], const float* values,
                                          V3 place, V3 p, V3* out) {
@@ -103,8 +103,8 @@ LANELIGHT_INLINE V3 MapPoint(const float* m, V3 p) {
   return {row(0), row(1), row(2)};
 }
 
-/// A NanoVDB grid at p of the box, in the lanes of `mask`, one after the other; 0 in the
-/// others, which are not looked up.
+/// Looks up a NanoVDB grid at p of the box, one lane of `mask` after the other; 0 in the
+/// other lanes.
 inline HWY_NOINLINE VF SparseValue(const PlacedSparseGrid& placed, V3 p, MF mask) {
   const DF df;
   HWY_ALIGN float x[hn::MaxLanes(df)], y[hn::MaxLanes(df)], z[hn::MaxLanes(df)];
@@ -116,6 +116,40 @@ inline HWY_NOINLINE VF SparseValue(const PlacedSparseGrid& placed, V3 p, MF mask
   hn::Store(at.z, df, z);
   placed.grid->Interpolate(x, y, z, hn::Lanes(df), out);
   return hn::Load(df, out);
+}
+
+/// Differences of the noise over 0.01, as pbrt-v4 approximates its derivatives.
+LANELIGHT_INLINE V3 NoiseSlope(V3 p) {
+  const VF step = Splat(0.01f), per_step = Splat(1 / 0.01f), here = Noise(p);
+  const auto slope = [&](V3 beside) HWY_ATTR {
+    return hn::Mul(hn::Sub(Noise(beside), here), per_step);
+  };
+  return {slope({hn::Add(p.x, step), p.y, p.z}), slope({p.x, hn::Add(p.y, step), p.z}),
+          slope({p.x, p.y, hn::Add(p.z, step)})};
+}
+
+/// Returns the density in [0, 1] at p of the box: five octaves of noise at a point that
+/// two octaves have displaced, scaled by 1 - height, and solid below a height of 0.5.
+inline HWY_NOINLINE VF CloudDensity(const CloudShape& cloud, V3 p) {
+  const float *low = cloud.low, *size = cloud.size;
+  const VF zero = Splat(0), one = Splat(1.0f);
+  const VF height = hn::MulAdd(p.y, Splat(size[1]), Splat(low[1]));
+  V3 at = Mul(V3{hn::MulAdd(p.x, Splat(size[0]), Splat(low[0])), height,
+                 hn::MulAdd(p.z, Splat(size[2]), Splat(low[2]))},
+              Splat(cloud.frequency));
+  if (cloud.wispiness > 0) {
+    float reach = 0.05f * cloud.wispiness, frequency = 10;
+    for (int i = 0; i < 2; ++i) {
+      at = at + Mul(NoiseSlope(Mul(at, Splat(frequency))), Splat(reach));
+      reach *= 0.5f;
+      frequency *= kLacunarity;
+    }
+  }
+  const VF noise = hn::Mul(FBm(at, 5, 0.5f), Splat(0.5f));
+  const VF amount = hn::Mul(hn::Sub(one, height), Splat(4.5f * cloud.density));
+  const VF lumps = hn::Clamp(hn::Mul(amount, noise), zero, one);
+  const VF solid = hn::Max(zero, hn::Sub(Splat(0.5f), height));
+  return hn::Min(hn::MulAdd(Splat(2.0f), solid, lumps), one);
 }
 
 LANELIGHT_END_KERNELS

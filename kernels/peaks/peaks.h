@@ -1,5 +1,5 @@
-// Loops that do nothing but reach the limits of the machine: what profiles are held
-// against.
+// Loops that reach the read bandwidth and the multiply-add peak of the machine, with
+// which profiles are compared.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@
 
 namespace lanelight {
 
-/// Sum, modulo 2^32, of `count` words at `words`, read `passes` times in full vectors
-/// with eight independent sums. `count` is a multiple of 1024, `words` aligned to 64
-/// bytes.
+/// Returns the sum, modulo 2^32, of `count` words at `words`, read `passes` times in full
+/// vectors with eight independent sums. `count` is a multiple of 1024, `words` aligned to
+/// 64 bytes.
 std::uint32_t ReadSum(SimdTarget target, const std::uint32_t* words, std::size_t count,
                       std::size_t passes);
 
-/// Operations of one iteration of MultiplyAdds: a multiply-add
-/// of a lane counts as two.
+/// Returns the operations of one iteration of MultiplyAdds: two per lane and
+/// multiply-add.
 int MultiplyAddsOperations(SimdTarget target);
 
 /// Twelve independent vectors go `iterations` times through x <- x * factor + addend in

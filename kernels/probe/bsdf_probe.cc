@@ -18,23 +18,29 @@ HWY_INLINE void Store3(V3 v, float* const a[3], std::uint32_t i) {
 }
 
 /// Inputs of lanes i .. of the batch: the identity of a path is its place in the batch.
-HWY_INLINE MaterialInputs ProbeInputs(const MaterialSource& source,
-                                      const BsdfBatch& batch, std::uint32_t i) {
+HWY_INLINE MaterialInputs ProbeInputs(const PathColumns& path, const BsdfBatch& batch,
+                                      std::uint32_t i) {
   const DU du;
   const VI material = hn::Set(DI(), static_cast<std::int32_t>(batch.material));
   const LaneRandom random = {hn::Iota(du, i), hn::Zero(du), hn::Zero(du),
                              hn::Set(du, batch.seed)};
-  return {source, Slots(material), material, random};
+  return {*batch.materials, path, Slots(material), material, random};
+}
+
+/// The columns that materials read.
+HWY_INLINE PathColumns ProbeColumns(const BsdfBatch& batch) {
+  PathColumns path;
+  path.uv_v = const_cast<float*>(batch.uv_v);
+  path.wavelength = const_cast<float*>(batch.wavelength);
+  return path;
 }
 
 template <class Bsdf>
 void ProbeSample(const BsdfBatch& batch) {
   const DF df;
-  MaterialSource source = TableSource(*batch.materials);
-  source.uv_v = batch.uv_v;
-  source.wavelength = batch.wavelength;
+  const PathColumns path = ProbeColumns(batch);
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
-    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
+    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(path, batch, i));
     const V3 u = Load3(batch.u, i);
     const BsdfSample s = Bsdf::Sample(material, Load3(batch.wo, i), {u.x, u.y, u.z});
     Store3(s.wi, batch.wi, i);
@@ -47,11 +53,9 @@ void ProbeSample(const BsdfBatch& batch) {
 template <class Bsdf>
 void ProbeEval(const BsdfBatch& batch) {
   const DF df;
-  MaterialSource source = TableSource(*batch.materials);
-  source.uv_v = batch.uv_v;
-  source.wavelength = batch.wavelength;
+  const PathColumns path = ProbeColumns(batch);
   for (std::uint32_t i = 0; i < batch.n; i += hn::Lanes(df)) {
-    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(source, batch, i));
+    const typename Bsdf::Params material = Bsdf::Load(ProbeInputs(path, batch, i));
     const BsdfValue v = Bsdf::Eval(material, Load3(batch.wo, i), Load3(batch.wi, i));
     Store3(v.f_cos, batch.value, i);
     hn::StoreU(v.pdf, df, batch.pdf + i);

@@ -1,4 +1,4 @@
-// reuse=block: which pairs see each other, and what each pixel of the block gets
+// reuse=block: visibility of pairs, and the light of each pixel of the block
 // (kernels/reuse/pairs.cc has the estimator).
 #include "kernels/simd/each_target-inl.h"
 
@@ -6,7 +6,6 @@
 #include "kernels/points/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
-#include "src/scene/compiled/spectra.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -20,7 +19,7 @@ void TracePairs(Wave& wave) {
   for (uint32_t i = 0; i < rays.size; ++i) visible[rays.items[i]] = 1;
 }
 
-// Of a row of pairs, whose rays may be those of another row.
+// Sums a row of pairs, whose rays may be those of another row.
 HWY_INLINE VF SumOfDensities(const float* pdf_area, const float* visible, uint32_t n) {
   const DF df;
   VF sum = hn::Zero(df);
@@ -30,7 +29,8 @@ HWY_INLINE VF SumOfDensities(const float* pdf_area, const float* visible, uint32
   return hn::SumOfLanes(df, sum);
 }
 
-// What the second vertex sends to all alike, where that is not in its pairs.
+// Returns the light that the second vertex sends to all receivers alike; 1 if its pairs
+// contain the light.
 HWY_INLINE V3 EvenColor(const Wave& wave, const SuffixRow& row) {
   if (row.part != SuffixPart::kEven) return Splat3(1, 1, 1);
   const float* color = ColorOf(wave, row.record);
@@ -38,7 +38,7 @@ HWY_INLINE V3 EvenColor(const Wave& wave, const SuffixRow& row) {
   return Splat3(color[0], color[stride], color[2 * stride]);
 }
 
-// Adds what a second vertex sends to each receiver.
+// Adds the light of a second vertex to each receiver.
 HWY_INLINE void AddRow(const Wave& wave, uint32_t s) {
   const DF df;
   const Block& block = *wave.block;
@@ -62,8 +62,9 @@ HWY_INLINE void AddRow(const Wave& wave, uint32_t s) {
   }
 }
 
-// What a sample had before, where all that it has gathered since has been shared out. (Of
-// glossy second vertices it has its own already.)
+// Restores the light that a sample had before its second vertex, since all light gathered
+// after that is shared. (Samples with glossy second vertices have their own light
+// already.)
 HWY_INLINE void TakeBack(const Wave& wave) {
   const Block& block = *wave.block;
   const ReuseColumns& second = block.second;
@@ -77,14 +78,13 @@ HWY_INLINE void TakeBack(const Wave& wave) {
   }
 }
 
-// The wavelengths of the block's paths: those of the tile.
 HWY_INLINE Wavelengths BlockWavelengths(const Wave& wave) {
   const TileWork& work = wave.work;
   const VU sample = SplatU(work.first_sample + wave.block->sample);
   return Wavelengths(TileWavelength(*wave.run, SplatU(work.pixels[0]), sample));
 }
 
-// Makes samples of light, once all of it is there.
+// Converts the complete light of the block to samples.
 template <bool kSigned>
 HWY_INLINE void FinishSamples(Wave& wave) {
   const DI di;
@@ -134,7 +134,7 @@ HWY_INLINE void ConnectBlock(Wave& wave) {
 
 Stage ReuseShadowStage() {
   return {.name = "reuse_shadow",
-          .meaning = "finds out which pairs of a block see each other",
+          .meaning = "traces shadow rays between pairs of a block",
           .input = QueueId::kShadow,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},
@@ -144,7 +144,7 @@ Stage ReuseShadowStage() {
 
 Stage ReuseConnectStage() {
   return {.name = "reuse_connect",
-          .meaning = "shares the light of second vertices out to the block",
+          .meaning = "distributes the light of second vertices to the block",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuse, Feature::kScatters},

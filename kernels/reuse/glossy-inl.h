@@ -9,7 +9,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// The lobes whose light other pixels reuse.
+/// Evaluates the lobes whose light other pixels reuse.
 template <class Bsdf>
 HWY_INLINE BsdfValue EvalShared(const typename Bsdf::Params& material, V3 wo, V3 wi) {
   if constexpr (requires { &Bsdf::EvalShared; }) {
@@ -44,7 +44,6 @@ struct GlossyVertices {
     const GlossyColumns& c = block.glossy;
     return frame.ToLocal(Gather3(c.next_x, c.next_y, c.next_z, records));
   }
-  /// To first vertices.
   HWY_INLINE V3 ToFirst(const Slots& records) const {
     const PathColumns& p = block.first->path;
     const V3 to = Gather3(p.p_x, p.p_y, p.p_z, records) - at;

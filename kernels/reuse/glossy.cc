@@ -1,34 +1,31 @@
-// reuse=block: what glossy second vertices send to each first one.
+// reuse=block: light that glossy second vertices send to each first one.
 //
-// Path j has found y from x_j, and there taken a light sample from direction w_l and gone
-// on in direction w_b. What it gathered is f(o_j, w), o_j being the direction to x_j,
-// times a factor that knows nothing of o_j: another first vertex x_i gets that factor
-// times f(o_i, w), of the lobes that are shared (kernels/reuse/own_light.cc). Three
-// parts:
+// Path j has found y from x_j, taken a light sample from direction w_l there, and
+// continued in direction w_b. It gathered f(o_j, w), o_j being the direction to x_j,
+// times a factor that is independent of o_j: another first vertex x_i gets that factor
+// times f(o_i, w), of the shared lobes (kernels/reuse/own_light.cc). Three parts:
 //
 //   lit    by the light sample, from w_l
-//   hit    of a lamp, or the environment, that the path has met next, from w_b
-//   far    gathered from there on, from w_b
+//   hit    of a lamp, or the environment, that the path meets next, from w_b
+//   far    gathered after that, from w_b
 //
-//   weights    lit and hit: those of the pair (kernels/reuse/pairs.cc), beside which the
-//              two have weights of their own, whose sum is 1 for each j. No factor is
-//              above what light samples have without those.
-//              far: p_k(y) V_k g_k(w_b) / sum of the same, g_k being the density with
-//              which the lobes at y scatter to w_b what comes from x_k: that of y and w_b
-//              together, so that what a lobe has found goes to those that would have
+//   weights    lit and hit: those of the pair (kernels/reuse/pairs.cc), and their own MIS
+//              weights, whose sum is 1 for each j.
+//              far: p_k(y) V_k g_k(w_b) / sum of the same. g_k is the density with which
+//              the lobes at y scatter light from x_k to w_b
 //   unbiased   both sets of weights sum to 1 over the k that may have found y (and w_b)
 //   source     as kernels/reuse/pairs.cc; Veach and Guibas 1995
 //
 // Lanes are first vertices; the material of y is the same in all of them. The f of pairs
-// then has the light in it; a row of pairs more is made where there are near parts, lit
-// and hit, as well as a far one.
+// then contains the light. Near parts (lit and hit) and a far part need a row of pairs
+// each.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/reuse/glossy-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-// Of a second vertex, the same in all lanes.
+// The light of a second vertex, the same in all lanes.
 struct SentColors {
   V3 lit, hit, far;
   bool any_lit, any_hit, any_far;
@@ -53,15 +50,12 @@ HWY_INLINE V3 LoadF(const PairColumns& pairs, uint32_t at) {
 }
 
 HWY_INLINE void StoreF(V3 f, const PairColumns& pairs, uint32_t at) {
-  const DF df;
   const auto finite = [](VF v)
                           HWY_ATTR { return hn::IfThenElseZero(IsPositiveFinite(v), v); };
-  hn::StoreU(finite(f.x), df, pairs.f_r + at);
-  hn::StoreU(finite(f.y), df, pairs.f_g + at);
-  hn::StoreU(finite(f.z), df, pairs.f_b + at);
+  StoreAt({finite(f.x), finite(f.y), finite(f.z)}, pairs.f_r, pairs.f_g, pairs.f_b, at);
 }
 
-// Where pairs of a second vertex begin, by part: one of the two has those that there are.
+// The begin of the pairs of a second vertex, by part; one row serves a single part.
 struct PartRows {
   uint32_t near, far;
 };
@@ -125,7 +119,7 @@ void LightGlossy(Wave& wave) {
 
 Stage ReuseGlossyStage() {
   return {.name = "reuse_glossy",
-          .meaning = "evaluates what glossy second vertices send to all first ones",
+          .meaning = "evaluates light from glossy second vertices to all first ones",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},

@@ -1,20 +1,21 @@
-// reuse=block: what glossy second vertices have gathered, split into what is the path's
-// own and what serves all of the block.
+// reuse=block: splits the light that glossy second vertices have gathered into the path's
+// own part and the part that serves the block.
 //
-// Of a path's light from a direction w that of its wide lobes is shared, f_s(o, w) of
-// f(o, w), o being the direction to its first vertex: those of narrow ones, as the
-// reflection of a coat, and of mirrors have nothing for others. What is shared is divided
-// by f(o, w), so that any first vertex may be put in (kernels/reuse/glossy.cc). Both
-// parts have the densities and the weights with which the path has found them.
+// A path shares the light that wide lobes scatter from a direction w: f_s(o, w) of f(o,
+// w), o being the direction to its first vertex. Narrow lobes, such as the reflection of
+// a coat, and mirrors are of no use to other paths. The shared part is divided by f(o,
+// w), so that the f of any first vertex can replace it (kernels/reuse/glossy.cc). Both
+// parts keep the densities and the weights with which the path has found them.
 #include "kernels/simd/each_target-inl.h"
 
+#include "kernels/queue/batch-inl.h"
 #include "kernels/reuse/glossy-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 Map(V3 v, VF (*of)(VF)) { return {of(v.x), of(v.y), of(v.z)}; }
 
-// What a second vertex has gathered, as its path gets it.
+// The light of a second vertex for its own path.
 struct Gathered {
   V3 lit, hit, far, mirrored;
 
@@ -43,7 +44,7 @@ struct Gathered {
   }
 };
 
-// Of a direction, for the path itself.
+// Values of a direction for the path itself.
 struct OwnValue {
   V3 inverse, share;  // 1 / f, and f_s / f
   VF shared_pdf;
@@ -59,7 +60,6 @@ struct OwnValue {
   }
 
  private:
-  // Returns 0 for 0: without gain there is nothing to share.
   HWY_INLINE static VF Inverse(VF v) {
     return hn::IfThenElseZero(hn::Gt(v, Splat(std::numeric_limits<float>::min())),
                               hn::Div(Splat(1.0f), v));
@@ -100,7 +100,7 @@ HWY_NOINLINE void SplitVector(Wave& wave, const Slots& records, VI at) {
   Scatter3(color, red, red + stride, red + 2 * stride, at);
 }
 
-// Records of the tile of one kind, a vector at a time.
+// Splits records of the tile of one kind, a vector at a time.
 HWY_INLINE void SplitKind(Wave& wave, uint32_t kind) {
   const DI di;
   const Block& block = *wave.block;
@@ -136,12 +136,61 @@ void SplitGlossy(Wave& wave) {
 
 Stage ReuseOwnLightStage() {
   return {.name = "reuse_own_light",
-          .meaning = "takes what serves others out of what paths have gathered",
+          .meaning = "splits gathered light into own and shared parts",
           .input = QueueId::kScratch,
           .role = StageRole::kBlock,
           .needs = {Feature::kReuseGlossy, Feature::kScatters},
           .scope = StageScope::kTile,
           .resolve = Always<SplitGlossy>};
+}
+
+// Keeps, for glossy second vertices whose light sample has been connected, its direction
+// and light, and the direction in which the path continues.
+
+HWY_INLINE void KeepLight(const Wave& wave, const Slots& slots, VI record) {
+  const PathColumns& p = wave.path;
+  const GlossyColumns& glossy = wave.block->glossy;
+  if (p.ls_x != nullptr) {
+    Scatter3(Gather3(p.ls_x, p.ls_y, p.ls_z, slots), glossy.light_x, glossy.light_y,
+             glossy.light_z, record);
+  }
+  Scatter3(Gather3(p.d_x, p.d_y, p.d_z, slots), glossy.next_x, glossy.next_y,
+           glossy.next_z, record);
+  Scatter3(Gather3(p.l_r, p.l_g, p.l_b, slots), glossy.lit_r, glossy.lit_g, glossy.lit_b,
+           record);
+}
+
+void SecondVerticesLight(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const Queue& shaded =
+      FilterQueue(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots) HWY_ATTR {
+        const VI state = Gather(p.reuse, slots);
+        return hn::RebindMask(DF(), hn::Eq(state, StateLanes(ReuseState::kGlossy)));
+      });
+  ForEachBatch(wave, shaded, [&](const Slots& slots, MF) HWY_ATTR {
+    const VI record = RecordOf(wave.work, Gather(p.output, slots));
+    KeepLight(wave, slots, record);
+    const MF mirrored = hn::Le(Gather(p.bsdf_pdf, slots), hn::Zero(DF()));
+    const VI state =
+        hn::IfThenElse(hn::RebindMask(DI(), mirrored), StateLanes(ReuseState::kMirrored),
+                       StateLanes(ReuseState::kOnward));
+    Scatter(state, p.reuse, slots);
+    Scatter(state, wave.block->second.state, record);
+  });
+}
+
+Stage SecondVerticesLightStage() {
+  using namespace fields;
+  return {.name = "reuse_light",
+          .meaning = "keeps the light of glossy second vertices",
+          .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kReuseGlossy, Feature::kScatters},
+          .reads = kRadiance | kLightSample |
+                   FieldSet{Field::output, Field::bsdf_pdf, Field::reuse, Field::d_x,
+                            Field::d_y, Field::d_z},
+          .writes = {Field::reuse},
+          .resolve = Always<SecondVerticesLight>};
 }
 
 LANELIGHT_END_KERNELS

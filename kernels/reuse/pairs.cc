@@ -1,24 +1,23 @@
 // reuse=block: every second vertex of a block that carries light, seen from every first
 // vertex of the block.
 //
-// Path j has found its second vertex y from its first one x_j with a density p_j(y); the
-// light L_j that y sends back is what the path has gathered from there on. Of this each
-// pixel i of the block takes
+// Path j has found its second vertex y from its first one x_j with a density p_j(y), and
+// has gathered the light L_j that y sends back. Each pixel i of the block adds
 //
 //   estimator   beta_i f_i(x_i, y) |cos| G V_i L_j / sum over k of p_k(y) V_k,
 //               beta_i the throughput up to x_i, G the cosine at y over the distance
 //               squared, p_k in area measure at y, V whether x and y see each other:
 //               one sample of each of N techniques by the balance heuristic
-//               of a glossy y more than that: kernels/reuse/glossy.cc
-//   density     what material or uniform directions say; less the probability of a
-//               mirror's lobe. A path that finds y by such a lobe, or no y at all, offers
-//               nothing. Roulette is not played between x and y
-//   partition   y seen on its other side, by geometric or shading normal, is another
-//               point; paths whose first vertices come after different numbers of events
-//               are apart, as their suffixes may be cut at different lengths
+//               (kernels/reuse/glossy.cc has the terms of a glossy y)
+//   density     that of material or uniform directions, without a mirror's lobe. A path
+//               that finds y by such a lobe, or no y at all, serves no other pixel. There
+//               is no roulette between x and y
+//   partition   the other side of y, by geometric or shading normal, is another point;
+//               paths with different numbers of events before their first vertices are
+//               not paired, as max depth cuts their suffixes at different lengths
 //   unbiased    the p_k V_k are the densities with which y is found, all of them
-//   variance    where p_k V_k are alike, that of N suffixes; at edges and in corners no
-//               worse than about the best of the techniques
+//   variance    for equal p_k V_k that of N suffixes; at edges and in corners about that
+//               of the best technique
 //   cost        one evaluation per pair, and a shadow ray where p_k > 0; none for second
 //               vertices without light
 //   source      Bekaert, Sbert and Halton 2002, "Accelerating Path Tracing by Re-Using
@@ -29,7 +28,7 @@
 
 #include "kernels/bsdf/kinds-inl.h"
 #include "kernels/lights/light-inl.h"
-#include "kernels/reuse/members-inl.h"
+#include "kernels/reuse/block-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -51,7 +50,7 @@ struct SecondVertex {
   }
 };
 
-// From first vertices to a second one.
+// The connection of first vertices to a second one.
 struct Connection {
   V3 wi;  // unit
   VF geometry;
@@ -96,7 +95,7 @@ struct Receivers {
   }
   HWY_INLINE const PathColumns& path() const { return reader.wave.path; }
 
-  /// Throughput over geometry, and density by solid angle.
+  /// Returns throughput over geometry, and density by solid angle.
   HWY_INLINE BsdfValue Value(V3 wi) const {
     const V3 local = frame.ToLocal(wi);
     const BsdfValue value = Bsdf::Eval(material, wo, local);
@@ -109,30 +108,23 @@ struct Receivers {
   }
 };
 
-// It ends off the surface of y, by as much as shadow rays do off that of a light.
+// The ray ends in front of the surface of y, as shadow rays end in front of a light.
 template <class Lanes>
 HWY_INLINE void StoreRay(const PathColumns& ray, uint32_t at, const Lanes& x,
                          const SecondVertex& y) {
-  const DF df;
   const VF clearance = Clearance(x.p, y.at, hn::Max(x.p_error, y.p_error));
   const V3 to = MulAdd(y.ng, clearance, y.at) - x.p;
   const VF distance = hn::Sqrt(Dot(to, to));
   const V3 direction = Mul(to, hn::Div(Splat(1.0f), distance));
-  hn::StoreU(direction.x, df, ray.ls_x + at);
-  hn::StoreU(direction.y, df, ray.ls_y + at);
-  hn::StoreU(direction.z, df, ray.ls_z + at);
-  hn::StoreU(distance, df, ray.ls_distance + at);
+  StoreAt(direction, ray.ls_x, ray.ls_y, ray.ls_z, at);
+  hn::StoreU(distance, DF(), ray.ls_distance + at);
 }
 
 template <class Lanes>
 HWY_INLINE void StoreOrigin(const PathColumns& ray, uint32_t at, const Lanes& x) {
   const DF df;
-  hn::StoreU(x.p.x, df, ray.p_x + at);
-  hn::StoreU(x.p.y, df, ray.p_y + at);
-  hn::StoreU(x.p.z, df, ray.p_z + at);
-  hn::StoreU(x.ng.x, df, ray.ng_x + at);
-  hn::StoreU(x.ng.y, df, ray.ng_y + at);
-  hn::StoreU(x.ng.z, df, ray.ng_z + at);
+  StoreAt(x.p, ray.p_x, ray.p_y, ray.p_z, at);
+  StoreAt(x.ng, ray.ng_x, ray.ng_y, ray.ng_z, at);
   hn::StoreU(x.p_error, df, ray.p_error + at);
   if (ray.prim != nullptr) {
     hn::StoreU(hn::BitCast(df, Gather(x.path().prim, x.records)), df,
@@ -154,9 +146,7 @@ HWY_INLINE void StorePair(Wave& wave, uint32_t at, const Lanes& x, const SecondV
   const MF found = hn::And(hn::And(valid, c.connects), proposes);
   const V3 f = IfThenElseZero(found, Mul(value.f_cos, c.geometry));
   const MF own = hn::RebindMask(df, hn::Eq(x.records.index, y.record));
-  hn::StoreU(f.x, df, pairs.f_r + at);
-  hn::StoreU(f.y, df, pairs.f_g + at);
-  hn::StoreU(f.z, df, pairs.f_b + at);
+  StoreAt(f, pairs.f_r, pairs.f_g, pairs.f_b, at);
   hn::StoreU(hn::IfThenElseZero(found, pdf), df, pairs.pdf_area + at);
   hn::StoreU(hn::IfThenElseZero(own, Splat(1.0f)), df, pairs.visible + at);
   const MF traced = hn::AndNot(own, found);

@@ -1,21 +1,19 @@
 // reuse=block: keeps the first vertex of a path, and the second one.
 //
-// The first is where the path meets a material that kReceiving names, behind mirrors and
-// clear glass if need be: a property of the vertex, not of what is sampled there. The
-// second is what it meets next, if it left the first by a density. So first and second
-// vertices part the space of paths, whatever the samples are.
+// The first is the first vertex with a material of kReceivingKinds, possibly behind
+// mirrors and clear glass: a property of the vertex, not of what is sampled there. The
+// second is the next vertex, if the path left the first by a density. So first and second
+// vertices partition the space of paths, whatever the samples are.
 //
-// A second vertex whose material kEvenSides names sends the same light to all directions
-// on a side, so that others may look at it as well: what the path gathers from there on
-// is kept apart from what it had, by a path of its own with a throughput that begins
-// with 1. What others see of a glossy one depends on where its light comes from: of those
-// the material is kept as well, and the parts of what is gathered by themselves
-// (kernels/reuse/glossy.cc).
+// A second vertex with a material of kEvenSidedKinds sends the same light to all
+// directions on a side, so that other first vertices can use it: light gathered after it
+// is kept apart from light before it, by a path with a throughput that begins with 1.
+// Light of a glossy one depends on the incident direction: its material is kept as well,
+// and the parts of its light separately (kernels/reuse/glossy.cc).
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/reuse/block-inl.h"
-#include "src/scene/compiled/materials.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -41,7 +39,7 @@ HWY_INLINE VI RecordsOf(const Wave& wave, const Slots& slots) {
   return RecordOf(wave.work, Gather(wave.path.output, slots));
 }
 
-// A metal's lobe may be too narrow to be of use to others.
+// A metal's lobe may be too narrow for other paths.
 HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
   const MaterialTable& materials = *wave.materials;
@@ -83,11 +81,11 @@ HWY_INLINE void KeepSecond(const Wave& wave, const Slots& slots, VI record) {
   Scatter3(before, second.before_r, second.before_g, second.before_b, record);
 }
 
-// Roulette takes a suffix, which serves others too, for this many times as bright as it
-// is to its own path, up to the brightness that it has by itself. Of dining-room,
-// cornell-box and veach-ajar (128 x 128, 32 spp, blocks of 64) 4 gives 1.27, 4.9 and 3.0
-// times the efficiency of paths alone; 1 gives 1.33, 4.3 and 3.0, no
-// limit 1.17, 4.9, 3.0.
+// Roulette assumes that a suffix, which serves other paths too, is this many times as
+// bright as for its own path, at most its own brightness. Efficiency relative to paths
+// alone (128 x 128, 32 spp, blocks of 64) in dining-room, cornell-box and
+// veach-ajar: 1.27, 4.9 and 3.0 for 4; 1.33, 4.3 and 3.0 for 1; 1.17, 4.9 and 3.0 without
+// a limit.
 constexpr float kSuffixWorth = 4;
 
 HWY_INLINE void BeginSuffix(const PathColumns& p, const StoreSlots& slots) {
@@ -98,14 +96,14 @@ HWY_INLINE void BeginSuffix(const PathColumns& p, const StoreSlots& slots) {
   Scatter(worth, p.eta_scale, slots);
 }
 
-// Curves turn towards the ray that meets them, but for ribbons: the point that one path
-// meets, and its normal, are not those that another would meet.
+// Curves, except ribbons, turn towards the ray that meets them: another path would find
+// another point and normal.
 HWY_INLINE MF IsSameToAll(const Wave& wave, const Slots& slots) {
   const VI curves = hn::Set(DI(), static_cast<int32_t>(wave.ranges->curves));
   return hn::RebindMask(DF(), hn::Lt(Gather(wave.path.prim, slots), curves));
 }
 
-// Paths at a second vertex that they have found by a density.
+// Returns the paths at a second vertex that they have found by a density.
 HWY_INLINE MF FindsSecond(const Wave& wave, const Slots& slots) {
   MF found = hn::Gt(Gather(wave.path.bsdf_pdf, slots), hn::Zero(DF()));
   if (wave.run->features.Has(Feature::kCurves)) {
@@ -143,7 +141,7 @@ HWY_INLINE void RecordGlossy(Wave& wave, const Queue& vertices) {
   });
 }
 
-// At the vertex after a glossy second one: what it has gathered from lights.
+// Records, at the vertex after a glossy second one, its light from lights.
 HWY_INLINE void RecordNear(Wave& wave, const Queue& vertices) {
   const PathColumns& p = wave.path;
   const GlossyColumns& glossy = wave.block->glossy;
@@ -173,8 +171,8 @@ HWY_INLINE void RecordSeconds(Wave& wave) {
   });
 }
 
-// All that the evaluation of a material reads, as it is before the path scatters. The
-// last batch may store a path twice, from before its state is changed as from after.
+// Records the columns that the evaluation of a material reads, before the path scatters.
+// The last batch may store a path twice: before its state changes and after.
 HWY_INLINE void RecordFirsts(Wave& wave) {
   const Queue& mine =
       FilterQueue(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots) HWY_ATTR {
@@ -188,7 +186,7 @@ HWY_INLINE void RecordFirsts(Wave& wave) {
   });
 }
 
-// Seconds first: a vertex is not both.
+// Second vertices come first, because a vertex is not both.
 void SecondVertices(Wave& wave) {
   RecordSeconds(wave);
   RecordFirsts(wave);

@@ -1,24 +1,23 @@
 // roulette=adjoint: keeps the expected contribution nu of every path near that of its
 // pixel, by roulette below a window around it and by splitting above.
-//   nu          |beta / I(pixel)| Psi(cell), with Psi the brightness that a unit of
-//               throughput is expected to gather from this vertex on (a coarse cache over
-//               space and orientation), I the brightness of the pixel, both from a pilot
-//               pass (src/render/train/train_path_values.cc), and || the root mean square
+//   nu          |beta / I(pixel)| Psi(cell). Psi is the expected brightness per unit of
+//               throughput from this vertex on (a coarse cache over space and
+//               orientation), and I the brightness of the pixel, both from a training
+//               pass (src/render/train/train_path_values.cc). || is the root mean square
 //               over channels
 //   estimator   r = nu / (1/3) below the window [1/3, 5/3], nu / (5/3) above, else 1, so
-//               that what remains is at its nearer edge; window-inl.h. (Moving it to the
-//               middle plays harder and was measured to have up to twice the variance)
+//               that the result is at its nearer edge; window-inl.h. (The middle of the
+//               window had up to twice the variance)
 //   unbiased    for any Psi and I: they only steer r; the training's samples are not used
-//   variance    paths into the dark end early, paths into the light are split; pays where
-//               Psi varies much along paths (light behind a door), loses its training
-//               pass and the noise of Psi where all paths are alike
+//   variance    dark paths end early, bright paths are split; more efficient if Psi
+//               varies much along paths (light behind a door). The training pass and the
+//               noise of Psi are lost if all paths are alike
 //   no data     cells that no training path met: roulette on the throughput
 //   cost        two gathers of tables and a hash per vertex; the training pass
 //   source      Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting
 //               in Light Transport Simulation"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -37,9 +36,9 @@ struct AdjointWindow {
 };
 
 Stage AdjointRouletteStage() {
-  return WindowStage<AdjointWindow>("roulette_adjoint",
-                                    "roulette and splitting on the expected contribution",
-                                    Feature::kAdjointRoulette);
+  return WindowStage<AdjointWindow>(
+      "roulette_adjoint", "plays roulette and splitting on the expected contribution",
+      Feature::kAdjointRoulette);
 }
 
 LANELIGHT_END_KERNELS

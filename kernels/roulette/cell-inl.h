@@ -1,5 +1,5 @@
-// Cells of the cache of path values (src/scene/prepare/tables.h), and what its pilot
-// passes have in common.
+// Cells of the cache of path values (src/scene/prepare/tables.h), and routines that its
+// training passes share.
 #ifndef LANELIGHT_ROULETTE_CELL_INL_H_
 #define LANELIGHT_ROULETTE_CELL_INL_H_
 
@@ -9,21 +9,22 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Brightness, with the weights of the channels that suit the image.
+/// Returns the brightness, by the weights of the channels of the image.
 LANELIGHT_INLINE VF Brightness(const PathValues& values, V3 c) {
   return hn::MulAdd(
       c.x, Splat(values.channel[0]),
       hn::MulAdd(c.y, Splat(values.channel[1]), hn::Mul(c.z, Splat(values.channel[2]))));
 }
 
-// Cell along one axis; what lies outside the box (infinite planes) counts to its border.
+// Returns the cell along one axis; points outside the box (infinite planes) belong to its
+// border.
 LANELIGHT_INLINE VI CellAlong(const CellGrid& grid, int axis, VF p) {
   const VF last = Splat(static_cast<float>(grid.size[axis] - 1));
   const VF at = hn::Mul(hn::Sub(p, Splat(grid.low[axis])), Splat(grid.per_unit[axis]));
   return hn::ConvertTo(DI(), hn::Min(hn::Max(at, hn::Zero(DF())), last));
 }
 
-/// Cell of the surface points of these paths, by the side that they see.
+/// Returns the cells of the surface points of these paths, by the side that they see.
 LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
                            const Slots& slots) {
   const DI di;
@@ -48,8 +49,8 @@ LANELIGHT_INLINE VI CellOf(const CellGrid& grid, const PathColumns& path,
   return hn::Add(hn::Mul(index, constant(6)), face);
 }
 
-/// Adds what roulette on the throughput would add to the second moment of paths that have
-/// gathered g at this throughput (training_records.cc has the formula).
+/// Adds the increase that roulette on the throughput causes in the second moment of paths
+/// that have gathered g at this throughput (training_records.cc has the formula).
 LANELIGHT_INLINE void AddRisk(const PathColumns& p, const Slots& slots, VF throughput,
                               VF g) {
   const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);

@@ -1,9 +1,9 @@
 // roulette=constant:q: every path ends with the same probability q.
 //   estimator   f / (1 - q) for survivors, 0 for the others (the paper's equation 8)
 //   unbiased    q < 1
-//   variance    blind to what the path carries: in a closed room of albedo a there are
+//   variance    independent of the throughput: in a closed room of albedo a there are
 //               1/q events in the mean, geometrically distributed, and the variance of
-//               the sum is finite only while a^2 < 1 - q
+//               the sum is finite only for a^2 < 1 - q
 //   from        the first scattering event on (constant:Q:FIRST)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990; Maughan, equation 8

@@ -1,18 +1,18 @@
-// roulette=efficiency: the factors that maximise 1 / (variance x cost) of the image, as a
-// fixed point of the variance and cost that they bring about themselves.
-//   split       s = |beta / I| sqrt(V / C) sqrt(C_I / V_I): V variance of what a unit of
-//               throughput gathers from here on, C its cost in rays (a coarse cache over
+// roulette=efficiency: the factors that maximise 1 / (variance x cost) of the image, a
+// fixed point of the variance and cost that result from them.
+//   split       s = |beta / I| sqrt(V / C) sqrt(C_I / V_I): V variance per unit of
+//               throughput from here on, C its cost in rays (a coarse cache over
 //               space and orientation); I brightness of the pixel, || the root mean
 //               square over channels; V_I relative variance and C_I cost of a camera
 //               path, the same for all pixels
-//   roulette    t: the same with the second moment for the variance (what is lost with
-//               the path is its mean as well)
+//   roulette    t: the same with the second moment for the variance (a path that ends
+//               loses its mean as well)
 //   estimator   r = s if s > 1, t if t < 1, else 1; window-inl.h. (s <= t, so at most one
 //               of them holds)
 //   unbiased    for any values: they only steer r; the training's samples are not used
-//   variance    splits where the variance comes from and is cheap to reduce, ends paths
-//               whose share of it does not pay for their rays. C_I / V_I is iterated in
-//               short training passes (src/render/train/train_path_values.cc)
+//   variance    splits paths whose variance is large and cheap to reduce, ends paths
+//               whose variance is small for their rays. C_I / V_I is iterated in short
+//               training passes (src/render/train/train_path_values.cc)
 //   fallback    the last passes compare with no roulette and with roulette on the
 //               throughput; the best of the three renders the image
 //   cost        three gathers of tables and a hash per vertex; the training passes
@@ -20,7 +20,6 @@
 //               Aware Russian Roulette and Splitting"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/window-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -42,7 +41,7 @@ struct EfficiencyWindow {
 
 Stage EfficiencyRouletteStage() {
   return WindowStage<EfficiencyWindow>("roulette_efficiency",
-                                       "roulette and splitting for efficiency",
+                                       "plays roulette and splitting for efficiency",
                                        Feature::kEfficiencyRoulette);
 }
 

@@ -2,14 +2,13 @@
 // its throughput)), the factor eta^2 of refractions undone.
 //   estimator   survive-inl.h
 //   unbiased    s >= floor or above 0
-//   variance    spends less than `throughput` on saturated paths, which the eye hardly
-//               sees; the floor of 0.05 bounds the weight of dark blue survivors
+//   variance    spends less than `throughput` on saturated paths, which are hardly
+//               visible; the floor of 0.05 bounds the weight of dark blue survivors
 //   from        the second scattering event on (luminance:FLOOR:FIRST)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

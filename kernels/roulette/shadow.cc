@@ -1,11 +1,11 @@
 // shadow-roulette=contribution: a shadow ray is traced with probability
-// s = min(1, max(floor, what it carries / what its pixel asks for)).
+// s = min(1, max(floor, carried light / threshold of its pixel)).
 //   estimator   sh V / s with probability s, else 0: E = sh V
-//   density     of tracing: s, a function of what the ray carries and of its pixel, which
-//               a training pass has seen (src/scene/prepare/tables.h)
+//   density     of tracing: s, a function of the carried light and of the pixel's
+//               threshold, from a training pass (src/scene/prepare/tables.h)
 //   unbiased    s >= floor > 0; s is known before the ray is traced
-//   variance    grows by E[sh^2 V (1/s - 1)] per ray. What a survivor carries is at most
-//               what its pixel asks for, so no fireflies
+//   variance    grows by E[sh^2 V (1/s - 1)] per ray. Survivors below the threshold
+//               carry at most the threshold, so there are no fireflies
 //   cost        a gather of three and a compaction per ray
 //   source      Arvo and Kirk 1990; Veach 1997, section 10.4 (efficiency-optimised);
 //               Shirley, Wang and Zimmerman 1996 (fewer rays to what is dim)
@@ -28,7 +28,7 @@ HWY_INLINE VF ShadowSurvival(const ShadowWorth& worth, VI pixel, V3 carried) {
 void ShadowRoulette(Wave& wave) {
   const PathColumns& p = wave.path;
   const ShadowWorth& worth = wave.run->tables->shadow_worth;
-  if (worth.inverse.empty()) return;  // nothing is known: the training pass itself
+  if (worth.inverse.empty()) return;  // the training pass itself
   Queue& queue = wave.queue(QueueId::kShadow);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {

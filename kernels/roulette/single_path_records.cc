@@ -1,27 +1,22 @@
-// A training pass with splitting, which records what the same paths would bring with
-// roulette on the throughput. Every copy of a path is distributed like a path that is
-// alone, and carries w, the product of 1/r of the decisions so far; a path that a
-// decision has ended is worth nothing, and those that survive it count for it. So, for
-// any f of a path,
+// A training pass with splitting, which also estimates the second moment of the same
+// paths with roulette on the throughput. Every split path is distributed like a single
+// path and carries w, the product of 1/r of the decisions so far; a path that a decision
+// has ended counts as 0. So, for any f of a path,
 //   E[sum over the copies of w f(copy)] = E[f(path)] without any roulette
-// and with f the second moment by roulette on the throughput (training_records.cc has the
-// formula),
+// and with f the second moment by roulette on the throughput (training_records.cc),
 //   f = L^2 + sum over its decisions of W (1/s - 1) (L - g)^2
-// of throughput, L and g as they were without w, the pass tells that moment with no path
-// of the other strategy traced. Where splitting pays, its copies have met the bright
-// samples that decide, many times more often and with weights as much smaller, and the
-// two moments are compared on the same ones.
+// of throughput, L and g without w, the pass estimates that moment without tracing paths
+// of the other strategy. Split paths meet rare bright samples more often, with smaller
+// weights, and both moments are compared on the same samples.
 //
-// Moments are about the brightness of the pixel that the training has found: about zero,
-// what the sums of w scatter around 1 would drown a variance far below the mean's square.
+// Moments are about the pixel's brightness from training: about zero, the variance of the
+// sums of w would exceed a variance far below the mean's square.
 //
-// L in terms of what is gathered: between two decisions l grows by w times what the path
-// alone would gather. A copy begins with no l of its own, but with L.
+// L from gathered light: between two decisions l grows by w times the light of the path
+// alone. A split path begins with l = 0, but with L.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -46,8 +41,8 @@ LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered)
                  hn::Div(since, Gather(p.copy_weight, slots)));
 }
 
-// Of the pixel, by PathValues::inverse_pixel, in terms of what paths gather: about what
-// moments are taken (MomentsAbout in src/render/train/path_records.h).
+// Returns the brightness of the pixel about which moments are taken, from
+// PathValues::inverse_pixel (MomentsAbout in src/render/train/path_records.h).
 LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
@@ -74,7 +69,7 @@ void SinglePathAfter(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
     const VF before = Gather(p.decided_at, slots), zero = hn::Zero(DF());
-    // A path that carries nothing brings nothing, whatever its weight.
+    // A path without throughput gathers nothing, whatever its weight.
     const VF factor = hn::IfThenElse(hn::Gt(before, zero),
                                      hn::Div(Sent(wave, slots), before), Splat(1.0f));
     Scatter(hn::Mul(Gather(p.copy_weight, slots), factor), p.copy_weight, slots);
@@ -122,7 +117,7 @@ constexpr FieldSet kTransport =
 
 Stage SinglePathBeforeStage() {
   return {.name = "single_path_before",
-          .meaning = "what a training path would be alone, before it may split",
+          .meaning = "records single-path light before a decision",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -132,7 +127,7 @@ Stage SinglePathBeforeStage() {
 }
 Stage SinglePathAfterStage() {
   return {.name = "single_path_after",
-          .meaning = "the weight of a training path that has been decided on",
+          .meaning = "records the weight of a path after a decision",
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
@@ -141,21 +136,18 @@ Stage SinglePathAfterStage() {
           .resolve = Always<SinglePathAfter>};
 }
 Stage SinglePathDecisionStage() {
-  return {
-      .name = "single_path_decision",
-      .meaning =
-          "what roulette would add to the second moment of a training path that splits",
-      .input = QueueId::kScattered,
-      .role = StageRole::kRecord,
-      .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
-      .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
-      .writes = fields::kRisk,
-      .resolve = Always<SinglePathDecision>};
+  return {.name = "single_path_decision",
+          .meaning = "records the second moment by roulette for split training paths",
+          .input = QueueId::kScattered,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},
+          .reads = kTransport | FieldSet{Field::depth, Field::eta_scale},
+          .writes = fields::kRisk,
+          .resolve = Always<SinglePathDecision>};
 }
 Stage SinglePathEndStage() {
   return {.name = "single_path_end",
-          .meaning =
-              "writes what a finished training path would have brought without splitting",
+          .meaning = "writes the single-path estimate of a finished training path",
           .input = QueueId::kDone,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsSinglePaths, Feature::kSplitting},

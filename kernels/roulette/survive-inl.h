@@ -4,8 +4,8 @@
 //   estimator   survivor / s, zero otherwise: E = s (x / s) = x (the paper's equation 8,
 //               with s = 1 - q)
 //   unbiased    s > 0 wherever the path can still carry light
-//   variance    grows by E[x^2] (1/s - 1) per decision; pays when it saves more time
-//               than that
+//   variance    grows by E[x^2] (1/s - 1) per decision; more efficient if the saved time
+//               outweighs that
 #ifndef LANELIGHT_ROULETTE_SURVIVE_INL_H_
 #define LANELIGHT_ROULETTE_SURVIVE_INL_H_
 
@@ -46,8 +46,8 @@ LANELIGHT_INLINE void PlayRoulette(Wave& wave) {
   queue.size = survivors.size;
 }
 
-/// The factor eta^2 of refractions undone: radiance is spread by leaving a denser medium
-/// and gathered again, which says nothing of the path's worth.
+/// Undoes the factor eta^2 of refractions: radiance spreads when it leaves a denser
+/// medium and gathers again, which is independent of the path's contribution.
 LANELIGHT_INLINE VF WithoutRefraction(const PathColumns& p, const Slots& slots, VF s) {
   return p.eta_scale != nullptr ? hn::Mul(s, Gather(p.eta_scale, slots)) : s;
 }

@@ -2,16 +2,15 @@
 // the largest component of its throughput)), the factor eta^2 of refractions undone.
 //   estimator   survive-inl.h
 //   unbiased    s > 0: a scattered path has a positive component
-//   variance    bounded weights: a survivor's throughput is never above 1 after division;
-//               never above 1 / scale where it was below, so that long paths are more
-//               even the larger the scale, and more of them
+//   variance    bounded weights: a survivor's throughput is at most 1 after division, and
+//               at most 1 / scale if it was below: a larger scale makes paths more even,
+//               and more of them long
 //   from        the second scattering event on, as in pbrt-v4
 //               (throughput:FLOOR:FIRST:SCALE)
 //   cost        one division and a compaction
 //   source      Arvo and Kirk 1990, "Particle Transport and Image Synthesis"
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/survive-inl.h"
 
 LANELIGHT_BEGIN_KERNELS

@@ -1,11 +1,12 @@
-// A training pass: records what paths find from their first vertices on. For vertex i:
-//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness that is
-//               gathered from there on per unit of throughput; expectation: the adjoint
-//               Psi there. Y weighs the channels as PathValues::channel says
-//   cost        events from there on: depth at the end - i
-// And for paths that have not played roulette, what roulette on the throughput would add
-// to the second moment: a decision of survival s multiplies the square of what comes
-// after it (T) by 1/s, so with W the product of 1/s of the decisions before
+// A training pass: records the light that paths gather after their first vertices. For
+// vertex i:
+//   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness gathered
+//               after i per unit of throughput; its expectation is the adjoint Psi there.
+//               Y weighs the channels by PathValues::channel
+//   cost        events after i: depth at the end - i
+// And for paths without roulette, the increase of the second moment by roulette on the
+// throughput: a decision of survival s multiplies the square of the later light (T) by
+// 1/s, so with W the product of 1/s of the decisions before
 //   E[x^2] = L^2 + sum over decisions of W (1/s - 1) T^2,  T = Y(l at the end) - g,
 // g gathered before. Survivors have W times the throughput of these paths. The sums of a
 // = W (1/s - 1), of a g and of a g^2 are kept (W is one plus the first of them). So the
@@ -16,9 +17,7 @@
 // the samples, so that the sums depend on no order of execution.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/roulette/cell-inl.h"
-#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -43,7 +42,6 @@ void RecordDecision(Wave& wave) {
 }
 
 void RecordVertex(Wave& wave) {
-  const DI di;
   const PathColumns& p = wave.path;
   const VertexColumns v(p);
   const PathValues& values = wave.run->tables->path_values;
@@ -53,7 +51,7 @@ void RecordVertex(Wave& wave) {
     const VF at = Brightness(values, Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
     const VF got = Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots));
     for (int k = 0; k < kRecordedVertices; ++k) {
-      const auto here = hn::Eq(depth, hn::Set(di, k));
+      const auto here = hn::Eq(depth, hn::Set(DI(), k));
       const MF mine = hn::RebindMask(DF(), here);
       Scatter(hn::IfThenElse(here, cell, Gather(v.cell[k], slots)), v.cell[k], slots);
       Scatter(hn::IfThenElse(mine, at, Gather(v.at[k], slots)), v.at[k], slots);
@@ -101,7 +99,7 @@ Stage RecordVertexStage() {
 }
 Stage RecordDecisionStage() {
   return {.name = "record_decision",
-          .meaning = "what roulette would add to the second moment of a training path",
+          .meaning = "records the second moment by roulette",
           .input = QueueId::kScattered,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths, Feature::kScatters},

@@ -1,10 +1,10 @@
 // Roulette and splitting at a surface, before the numbers of the bounce are drawn and
-// before it is shaded: every copy has the same hit, takes its own light sample and goes
-// its own way. A policy is a struct with
+// before it is shaded: all split paths share the hit, and each takes its own light sample
+// and direction. A policy is a struct with
 //   static VF Factor(const Wave&, const Slots& slots, V3 beta)
-// giving the expected number of copies r >= 0.
-//   estimator   k = floor(r + u) copies of weight 1/r: E = sum of k (x_i / r) = x, since
-//               E[k] = r and the copies are distributed alike
+// giving the expected number of split paths r >= 0.
+//   estimator   k = floor(r + u) paths of weight 1/r: E = sum of k (x_i / r) = x, since
+//               E[k] = r and the paths are identically distributed
 //   unbiased    r > 0: it is kept in [kLeast, budget], and at the camera's own hit in
 //               [1, budget], so that what a pixel shows first is never lost
 //   variance    roulette adds E[x^2] (1/r - 1); splitting divides the variance of what
@@ -22,14 +22,12 @@
 #include "kernels/roulette/cell-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "src/base/core/check.h"
-#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 /// The smallest r.
 inline constexpr float kLeast = 0.05f;
 
-/// Uniform number of the decision.
 LANELIGHT_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
   const VU depth = AsUnsigned(Gather(p.depth, slots));
@@ -48,7 +46,7 @@ LANELIGHT_INLINE VF WeightInImage(const Wave& wave, const Slots& slots, V3 beta)
   return hn::Sqrt(Dot(relative, relative));
 }
 
-/// Expected copies where the cache knows nothing: throughput roulette from the second
+/// Returns the expected copies in cells without data: throughput roulette from the second
 /// event on.
 LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V3 beta) {
   VF s = MaxComponent(beta);
@@ -57,8 +55,8 @@ LANELIGHT_INLINE VF ThroughputFactor(const PathColumns& p, const Slots& slots, V
   return hn::IfThenElse(hn::RebindMask(DF(), late), hn::Min(s, Splat(1.0f)), Splat(1.0f));
 }
 
-/// The new slots take over their parents' columns; what a path gathers they begin anew:
-/// the sample is the sum of its copies.
+/// Copies the parents' columns to the new slots. Gathered light begins with 0: the sample
+/// is the sum of its copies.
 LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parents,
                                 const uint32_t* slots, uint32_t n) {
   for (uint32_t c = 0; c < lists.copied.count; ++c) {
@@ -112,7 +110,6 @@ LANELIGHT_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copie
 
 template <class Policy>
 LANELIGHT_INLINE void PlayWindow(Wave& wave) {
-  const DI di;
   const PathColumns& p = wave.path;
   Queue& queue = wave.queue(QueueId::kVertex);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
@@ -120,7 +117,7 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   bool splits = false;
   ForEachBatch(wave, queue, [&](const Slots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
-    const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
+    const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
     const VF least = hn::IfThenElse(first, Splat(1.0f), Splat(kLeast));
     const VF most = hn::ConvertTo(DF(), Gather(p.budget, slots));
     const VF wanted = Policy::Factor(wave, slots, beta);
@@ -132,7 +129,7 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
     const MF survives = hn::Gt(k, hn::Zero(DF()));
     Scatter3(Mul(beta, hn::Div(Splat(1.0f), r)), p.beta_r, p.beta_g, p.beta_b, slots);
     splits |= !hn::AllFalse(DF(), hn::Gt(k, Splat(1.0f)));
-    Push(copies, hn::ConvertTo(di, k), hn::And(valid, survives));
+    Push(copies, hn::ConvertTo(DI(), k), hn::And(valid, survives));
     Push(survivors, slots, hn::And(valid, survives));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(survives, valid));
   });

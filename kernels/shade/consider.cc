@@ -1,18 +1,90 @@
-// light-candidates=resampled: what each candidate is worth, and whether it is kept
+// light-candidates=resampled: weighs each candidate and decides whether it is kept
 // (kernels/lights/candidates.cc has the estimator).
 //
-// Worth is the luminance of what the shading stage would send along the shadow ray:
-// throughput, material, cosine, radiance over density, and the weight against scattered
-// rays, with the density of the material alone. Cheaper bounds such as radiance times
-// cosine pick what glossy surfaces do not reflect, or what the weight then takes away.
-// Coats over metal, whose value is a random walk, make do with such a bound.
+// The weight of a candidate (`worth`) is the luminance that the shading stage would carry
+// along the shadow ray: throughput, material, cosine, radiance over density, and the MIS
+// weight with the density of the material alone. Cheaper bounds such as radiance times
+// cosine select light that glossy surfaces do not reflect. Coats over metal, whose value
+// is a random walk, use such a bound.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/kinds-inl.h"
-#include "kernels/lights/reservoir-inl.h"
 #include "kernels/shade/shade-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+// A candidate replaces the kept one with probability worth / (sum of the worths so far),
+// so that finally each has been kept with probability worth / sum. One number serves all
+// choices: the remainder after a choice is stretched back to [0, 1).
+struct Reservoir {
+  VF sum, u;
+
+  // Returns whether the candidate is taken. `worth` is finite and at least 0; 0 is never
+  // taken, the first above 0 always is.
+  HWY_INLINE MF Take(VF worth) {
+    sum = hn::Add(sum, worth);
+    const MF some = hn::Gt(worth, hn::Zero(DF()));
+    const VF share = hn::IfThenElseZero(some, hn::Div(worth, sum));
+    const MF take = hn::Lt(u, share);
+    const VF one = Splat(1.0f);
+    const VF part = hn::IfThenElse(take, share, hn::Sub(one, share));
+    const VF left = hn::Div(hn::IfThenElse(take, u, hn::Sub(u, share)), part);
+    u = hn::Min(left, Splat(0x1.fffffep-1f));
+    return take;
+  }
+};
+
+// Worths are clamped here, so that no sum of them overflows.
+inline constexpr float kMostWorth = 1e36f;
+
+HWY_INLINE VF Luminance(V3 c) {
+  return hn::MulAdd(c.x, Splat(0.212671f),
+                    hn::MulAdd(c.y, Splat(0.715160f), hn::Mul(c.z, Splat(0.072169f))));
+}
+
+// Stores in the lanes of `take`; the others keep their values.
+HWY_INLINE void Replace(MF take, VF value, float* column, const StoreSlots& slots) {
+  Scatter(hn::IfThenElse(take, value, Gather(column, slots)), column, slots);
+}
+
+// Makes the light sample in ls_* the kept one in the lanes of `take`.
+HWY_INLINE void KeepSample(const PathColumns& p, MF take, VF worth,
+                           const StoreSlots& slots) {
+  const auto copy = [&](const float* from, float* to)
+                        HWY_ATTR { Replace(take, Gather(from, slots), to, slots); };
+  copy(p.ls_x, p.kept_x), copy(p.ls_y, p.kept_y), copy(p.ls_z, p.kept_z);
+  copy(p.ls_r, p.kept_r), copy(p.ls_g, p.kept_g), copy(p.ls_b, p.kept_b);
+  copy(p.ls_distance, p.kept_distance);
+  copy(p.ls_pdf, p.kept_pdf);
+  if (p.ls_light != nullptr) {
+    copy(reinterpret_cast<const float*>(p.ls_light),
+         reinterpret_cast<float*>(p.kept_light));
+  }
+  Replace(take, worth, p.kept_worth, slots);
+}
+
+// Advances numbers in [0, 1) on the grid of 24 bits by `step` of that grid modulo 1:
+// exact, so that uniform numbers stay uniform.
+HWY_INLINE void Advance(float* column, float step, const StoreSlots& slots) {
+  const VF moved = hn::Sub(Gather(column, slots), Splat(1.0f - step));
+  const MF below = hn::Lt(moved, hn::Zero(DF()));
+  Scatter(hn::IfThenElse(below, hn::Add(moved, Splat(1.0f)), moved), column, slots);
+}
+
+// Returns the nearest number on that grid.
+constexpr float OnGrid(double step) {
+  return static_cast<float>(static_cast<std::int32_t>(step * 0x1p24 + 0.5)) * 0x1p-24f;
+}
+
+// Advances the numbers of a light sample to those of the next of `count` candidates: the
+// choice of light by 1 / count, which spreads candidates evenly over the lights, points
+// by powers of the generalised golden ratio (Roberts 2018).
+HWY_INLINE void AdvanceCandidate(const PathColumns& p, std::uint32_t count,
+                                 const StoreSlots& slots) {
+  if (p.u_select != nullptr) Advance(p.u_select, OnGrid(1.0 / count), slots);
+  Advance(p.u_light_0, OnGrid(0.7548776662466927), slots);
+  Advance(p.u_light_1, OnGrid(0.5698402909980532), slots);
+}
 
 // Without scattered rays that find lights, light samples count in full.
 HWY_INLINE MisParameters CandidateMis(const Wave& wave) {
@@ -24,7 +96,7 @@ HWY_INLINE V3 Reflected(const SurfaceReader<Bsdf>& reader, const MisParameters& 
                         V3 wo, V3 wi, const Slots& slots) {
   if constexpr (Bsdf::kStochastic) {
     static_assert(!Bsdf::kTransmits);
-    // Not below a twentieth: at grazing angles a coat reflects more than its cosine says.
+    // At least 0.05: at grazing angles a coat reflects more than its cosine.
     const VF bound = hn::Max(hn::Abs(wi.z), Splat(0.05f));
     return Grey(hn::IfThenElseZero(SameSide(wo, wi), bound));
   } else {
@@ -84,7 +156,7 @@ Stage ConsiderStage() {
   const FieldSet numbers = {Field::u_select, Field::u_light_0, Field::u_light_1,
                             Field::u_candidate, Field::worth_sum};
   return {.name = "light_consider",
-          .meaning = "keeps the candidate, or the one before",
+          .meaning = "keeps the new candidate or the previous one",
           .input = QueueId::kLit,
           .role = StageRole::kLight,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},

@@ -1,7 +1,6 @@
-// Option "forcediffuse": every surface scatters evenly, with what a direction sampled
-// from its material carries. The mean of that is the reflectance, to both sides, for
-// light that goes to where the surface is seen from (pbrt-v4,
-// SurfaceInteraction::GetBSDF).
+// Option "forcediffuse": every surface scatters evenly, with the weight of a direction
+// sampled from its material. The mean of that weight is the reflectance, to both sides,
+// for light towards the viewer (pbrt-v4, SurfaceInteraction::GetBSDF).
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/kinds-inl.h"
@@ -10,20 +9,6 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// Draws from a stream of its own: the numbers of the bounce still choose the direction.
-HWY_NOINLINE void DrawPoints(const Wave& wave, const Slots& slots, VF out[4]) {
-  const PathColumns& p = wave.path;
-  const DU du;
-  const auto word = [&](const uint32_t* column)
-                        HWY_ATTR { return hn::BitCast(du, Gather(column, slots)); };
-  LaneRandom random = {word(p.pixel), word(p.sample), word(p.depth),
-                       hn::Set(du, wave.run->seed ^ 0x51ed270bu)};
-  if (p.branch != nullptr) {
-    random.seed = hn::Xor(random.seed, hn::ShiftLeft<24>(word(p.branch)));
-  }
-  random.Next4(out);
-}
-
 template <class Bsdf>
 HWY_NOINLINE V3 SampledReflectance(const SurfaceReader<Bsdf>& reader,
                                    const Slots& slots) {
@@ -31,8 +16,9 @@ HWY_NOINLINE V3 SampledReflectance(const SurfaceReader<Bsdf>& reader,
   const ShadingFrame frame =
       reader.ReadFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
   const V3 wo = frame.ToLocal(-Gather3(p.d_x, p.d_y, p.d_z, slots));
+  // Numbers of a stream of their own: those of the bounce still choose the direction.
   VF u[4];
-  DrawPoints(reader.wave, slots, u);
+  LaneRandom(p, slots, reader.wave.run->seed ^ 0x51ed270bu).Next4(u);
   const auto material = Bsdf::Load(reader.Inputs(slots));
   const V3 weight = Bsdf::Sample(material, wo, {u[0], u[1], u[2]}).weight;
   const MF sampled = hn::And(CarriesLight(weight), hn::Ne(wo.z, hn::Zero(DF())));
@@ -61,8 +47,8 @@ HWY_INLINE void ForceKind(Wave& wave) {
   }
 }
 
-// A path whose material has been replaced may be met again by the kind that it has now;
-// that gives back its colour.
+// A path whose material has been replaced may be filtered again by its new kind, which
+// returns the same colour.
 void ForceDiffuse(Wave& wave){
 #define X(name, traits, meaning) ForceKind<name##Bsdf, ShadeKind::k##name>(wave);
     LANELIGHT_SHADE_KINDS(X)
@@ -74,7 +60,7 @@ Stage ForceDiffuseStage() {
   const FieldSet color = {Field::color0_r, Field::color0_g, Field::color0_b};
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth};
   return {.name = "force_diffuse",
-          .meaning = "reflectances of all materials, which scatter evenly",
+          .meaning = "replaces materials by even scattering with their reflectance",
           .input = QueueId::kSurface,
           .role = StageRole::kShade,
           .needs = {Feature::kForcedDiffuse, Feature::kScatters},

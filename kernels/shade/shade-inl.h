@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "kernels/directions/lighting-inl.h"
+#include "kernels/directions/heuristic-inl.h"
 #include "kernels/directions/material-inl.h"
 #include "kernels/directions/uniform-inl.h"
 #include "kernels/queue/batch-inl.h"
@@ -13,8 +13,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Shading frame around n with the first axis along the surface tangent; where the
-/// tangent is missing or along n, any frame.
+/// Returns the shading frame around n with the first axis along the surface tangent; any
+/// frame if the tangent is missing or along n.
 HWY_INLINE ShadingFrame FrameFromTangent(V3 n, V3 tangent) {
   const ShadingFrame any = FrameFromNormal(n);
   const V3 flat = MulAdd(n, hn::Neg(Dot(n, tangent)), tangent);
@@ -30,66 +30,22 @@ HWY_INLINE MF IsPositiveFinite(VF v) {
   return hn::And(hn::Gt(v, hn::Zero(DF())),
                  hn::Lt(v, Splat(std::numeric_limits<float>::infinity())));
 }
-/// True if no component is NaN, infinite or negative and one is positive.
+/// Returns whether no component is NaN, infinite or negative and one is positive.
 HWY_INLINE MF CarriesLight(V3 c) {
   return hn::And(IsPositiveFinite(hn::Add(c.x, hn::Add(c.y, c.z))),
                  hn::Ge(hn::Min(c.x, hn::Min(c.y, c.z)), hn::Zero(DF())));
 }
 
-/// True if the vector has length 1, but for roundings.
+/// Returns whether the vector has length 1, up to rounding.
 HWY_INLINE MF IsUnit(V3 d) {
   return hn::Lt(hn::Abs(hn::Sub(Dot(d, d), Splat(1.0f))), Splat(1e-4f));
 }
 
-/// Surfaces as their material sees them. Where normals, tangents and parameters come from
-/// is loop-invariant and read through pointers that are the same for every path.
+/// Reads shading frames and material parameters of surfaces.
 template <class Bsdf>
 struct SurfaceReader {
   Wave& wave;
-  MaterialSource source;
-
-  HWY_INLINE explicit SurfaceReader(Wave& w)
-      : wave(w), source(TableSource(*w.materials)) {
-    const PathColumns& path = w.path;
-    source.color_by_path = path.color0_r != nullptr;
-    source.alpha_by_path = path.alpha_x != nullptr;
-    if (source.color_by_path) {
-      source.color0_r = path.color0_r;
-      source.color0_g = path.color0_g;
-      source.color0_b = path.color0_b;
-    }
-    if (source.alpha_by_path) {
-      source.alpha_x = path.alpha_x;
-      source.alpha_y = path.alpha_y;
-    }
-    source.eta = path.eta;
-    source.wavelength = path.wavelength;
-    UseTexturedLayers();
-    if constexpr (Bsdf::kFibre) source.uv_v = path.uv_v;
-  }
-
-  HWY_INLINE void UseTexturedLayers() {
-    const PathColumns& path = wave.path;
-    source.color1_by_path = path.color1_r != nullptr;
-    source.coat_by_path = path.coat_thickness != nullptr;
-    if (source.color1_by_path) {
-      source.color1_r = path.color1_r;
-      source.color1_g = path.color1_g;
-      source.color1_b = path.color1_b;
-    }
-    if (source.coat_by_path) {
-      source.alpha2_x = path.alpha2_0;
-      source.alpha2_y = path.alpha2_1;
-      source.coat_thickness = path.coat_thickness;
-    }
-    source.medium_by_path = path.coat_g != nullptr;
-    if (source.medium_by_path) {
-      source.coat_albedo_r = path.coat_albedo_r;
-      source.coat_albedo_g = path.coat_albedo_g;
-      source.coat_albedo_b = path.coat_albedo_b;
-      source.coat_g = path.coat_g;
-    }
-  }
+  HWY_INLINE explicit SurfaceReader(Wave& w) : wave(w) {}
 
   HWY_INLINE ShadingFrame ReadFrame(V3 ng, const Slots& slots) const {
     const PathColumns& path = wave.path;
@@ -105,17 +61,9 @@ struct SurfaceReader {
 
   HWY_INLINE MaterialInputs Inputs(const Slots& slots) const {
     const PathColumns& path = wave.path;
-    MaterialInputs in{source, slots, Gather(path.material, slots), {}};
+    MaterialInputs in{*wave.materials, path, slots, Gather(path.material, slots), {}};
     if constexpr (Bsdf::kStochastic) {
-      const DU du;
-      in.random = {hn::BitCast(du, Gather(path.pixel, slots)),
-                   hn::BitCast(du, Gather(path.sample, slots)),
-                   hn::BitCast(du, Gather(path.depth, slots)),
-                   hn::Set(du, wave.run->seed ^ LaneRandom::kStream)};
-      if (path.branch != nullptr) {
-        const VU branch = hn::BitCast(du, Gather(path.branch, slots));
-        in.random.seed = hn::Xor(in.random.seed, hn::ShiftLeft<24>(branch));
-      }
+      in.random = LaneRandom(path, slots, wave.run->seed ^ LaneRandom::kStream);
     }
     return in;
   }
@@ -128,16 +76,18 @@ struct ShadedPoint {
   V3 wo, ng, beta;
 };
 
-/// Besides the material, a shading stage has two policies of the strategy: a proposal of
-/// directions (kernels/directions/), and a lighting, which weighs light samples.
-template <class Bsdf, class Proposal, class Lighting>
+/// Besides the material, a shading stage has a proposal of directions
+/// (kernels/directions/). kMis: light samples and scattered rays are weighted against
+/// each other, and rays carry their density. Otherwise light samples count in full, and
+/// scattered rays find no light that is sampled.
+template <class Bsdf, class Proposal, bool kMis>
 struct Shader : SurfaceReader<Bsdf> {
   using Material = typename Bsdf::Params;
   using SurfaceReader<Bsdf>::wave;
 
   HWY_INLINE explicit Shader(Wave& w) : SurfaceReader<Bsdf>(w) {}
 
-  /// Next-event estimation: what the sampled light would add if nothing is in between.
+  /// Computes what the sampled light adds if nothing is in between.
   HWY_INLINE void SampleLight(const Material& material, const ShadedPoint& at,
                               const StoreSlots& slots, MF valid) {
     const PathColumns& path = wave.path;
@@ -145,16 +95,16 @@ struct Shader : SurfaceReader<Bsdf> {
     const V3 wi = at.frame.ToLocal(Gather3(path.ls_x, path.ls_y, path.ls_z, slots));
     const BsdfValue value = Bsdf::Eval(material, at.wo, wi);
     V3 carried = Mul(Mul(at.beta, value.f_cos), light);
-    if constexpr (Lighting::kWeighs) {
+    if constexpr (kMis) {
       const VF pdf = Proposal::template Pdf<Bsdf>(at.wo, wi, value.pdf);
       carried =
-          Mul(carried, Lighting::Weight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
+          Mul(carried, LightSampleWeight(wave.run->mis, Gather(path.ls_pdf, slots), pdf));
     }
     Scatter3(carried, path.sh_r, path.sh_g, path.sh_b, slots);
     Push(wave.queue(QueueId::kShadow), slots, hn::And(valid, CarriesLight(carried)));
   }
 
-  /// Scatters the path: new ray, throughput and density; returns the paths that go on.
+  /// Scatters the path: new ray, throughput and density. Returns the paths that continue.
   HWY_INLINE MF Bounce(const Material& material, const ShadedPoint& at,
                        const StoreSlots& slots) {
     const PathColumns& path = wave.path;
@@ -167,14 +117,14 @@ struct Shader : SurfaceReader<Bsdf> {
     const V3 o = OffsetOrigin(p, at.ng, Gather(path.p_error, slots), d);
     // A tangential wo has no defined side; pbrt absorbs it as well.
     MF alive = hn::And(CarriesLight(sample.weight), hn::Ne(at.wo.z, hn::Zero(DF())));
-    if constexpr (Lighting::kWeighs) {
+    if constexpr (kMis) {
       alive =
           hn::And(alive, hn::Lt(sample.pdf, Splat(std::numeric_limits<float>::max())));
     }
-    if (Lighting::kWeighs || path.bsdf_pdf != nullptr) {  // or another stage reads it
+    if (kMis || path.bsdf_pdf != nullptr) {  // or another stage reads it
       Scatter(sample.pdf, path.bsdf_pdf, slots);
     }
-    if constexpr (Lighting::kWeighs && !Bsdf::kSpecular) {
+    if constexpr (kMis && !Bsdf::kSpecular) {
       if (path.start_n_x != nullptr) {  // hits are weighed against what it makes likely
         const V3 facing = Mul(at.frame.n, hn::CopySign(Splat(1.0f), at.wo.z));
         Scatter3(facing, path.start_n_x, path.start_n_y, path.start_n_z, slots);
@@ -214,18 +164,18 @@ struct Shader : SurfaceReader<Bsdf> {
   }
 };
 
-template <class Bsdf, ShadeKind kKind, class Proposal, class Lighting>
+template <class Bsdf, ShadeKind kKind, class Proposal, bool kMis>
 void ShadeKernel(Wave& wave) {
-  Shader<Bsdf, Proposal, Lighting> shader(wave);
+  Shader<Bsdf, Proposal, kMis> shader(wave);
   const uint32_t shadow_rays = wave.queue(QueueId::kShadow).size;
   ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR { shader(slots, valid); });
   wave.rays_shadow += wave.queue(QueueId::kShadow).size - shadow_rays;
 }
 
-/// The kernel of this target for the features of a scene. Only the pairs of policies that
-/// a plan can need are instantiated: uniform directions take light samples of what no ray
-/// can hit, and nothing to weigh them against.
+/// Returns the kernel for the features of a scene. Only combinations that a plan can need
+/// are instantiated: with uniform directions, light samples are of lights that no ray can
+/// hit, so that there is no weight.
 template <class Bsdf, ShadeKind kKind>
 StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kSpecularOnly) == Bsdf::kSpecular);
@@ -234,14 +184,14 @@ StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kEvenSides) == Bsdf::kEvenSides);
   static_assert(HasTrait(kKind, kFibre) == Bsdf::kFibre);
   if (features.Has(Feature::kMis)) {
-    return ShadeKernel<Bsdf, kKind, MaterialProposal, MisLighting>;
+    return ShadeKernel<Bsdf, kKind, MaterialProposal, true>;
   }
   if constexpr (!Bsdf::kSpecular) {
     if (features.Has(Feature::kUniformDirections)) {
-      return ShadeKernel<Bsdf, kKind, UniformProposal, UnweightedLighting>;
+      return ShadeKernel<Bsdf, kKind, UniformProposal, false>;
     }
   }
-  return ShadeKernel<Bsdf, kKind, MaterialProposal, UnweightedLighting>;
+  return ShadeKernel<Bsdf, kKind, MaterialProposal, false>;
 }
 
 /// The shading stage of a kind, present if the scene has it.
@@ -249,7 +199,7 @@ template <class Bsdf, ShadeKind kKind>
 Stage ShadeStage(const char* name, const char* meaning) {
   using namespace fields;
   const FieldSet points = {Field::u_lobe, Field::u_bsdf_0, Field::u_bsdf_1};
-  // Who the path is: its random walks inside a coat have numbers of their own.
+  // Random walks inside a coat draw numbers by the identity of the path.
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth,
                              Field::material};
   const FieldSet direction = {Field::d_x, Field::d_y, Field::d_z};

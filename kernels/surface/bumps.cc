@@ -13,7 +13,7 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/instance-inl.h"
-#include "kernels/surface/relief-inl.h"
+#include "kernels/surface/mapped_normals-inl.h"
 #include "kernels/texture/levels-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -59,7 +59,7 @@ HWY_INLINE BumpAxes LoadAxes(const Wave& wave, const StoreSlots& slots) {
   return {n, IfThenElse(square, flat, tg), IfThenElse(square, across, tv)};
 }
 
-// Half of what the two steps cover; large coordinates need steps that floats resolve.
+// Half of the footprint, at least what floats resolve at large coordinates.
 HWY_INLINE VF Step(VF d0, VF d1, VF at) {
   const VF half = hn::Mul(Splat(0.5f), hn::Add(hn::Abs(d0), hn::Abs(d1)));
   const VF step = hn::IfThenElse(hn::Gt(half, hn::Zero(DF())), half, Splat(0.0005f));
@@ -104,8 +104,7 @@ void Bumps(Wave& wave) {
                  const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
                  const BumpAxes axes = LoadAxes<kInstances>(wave, slots);
                  const Slopes slope = LoadSlopes(wave, slots, texture);
-                 // Their lengths do not matter, and products of small ones would
-                 // underflow.
+                 // Normalized because products of small lengths would underflow.
                  const V3 along_u = MulAdd(axes.n, slope.u, axes.u);
                  const V3 along_v = MulAdd(axes.n, slope.v, axes.v);
                  const V3 n = Normalize(Cross(Normalize(along_u), Normalize(along_v)));
@@ -114,14 +113,54 @@ void Bumps(Wave& wave) {
 }
 
 Stage BumpsStage() {
-  return {.name = "bumps",
-          .meaning = "shading normals of displacement textures",
+  return {
+      .name = "bumps",
+      .meaning = "computes shading normals of displacement textures",
+      .input = QueueId::kSurface,
+      .role = StageRole::kTexture,
+      .needs = {Feature::kBumps, Feature::kScatters},
+      .reads = kMappedNormalReads | fields::kSpread | FieldSet{Field::prim, Field::inst},
+      .writes = kMappedNormalWrites,
+      .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
+}
+
+// Normal maps as in pbrt-v4 (bilinear, repeated, no levels): texel c holds the shading
+// normal 2 c - 1 in the frame of dp/du across the normal, n x dp/du, and the normal.
+
+// dp/du across n, unit; any direction across it where there is none.
+HWY_INLINE V3 UnitTangent(V3 n, V3 tangent) {
+  const V3 flat = MulAdd(n, hn::Neg(Dot(n, tangent)), tangent);
+  const VF length2 = Dot(flat, flat);
+  const MF usable = hn::Gt(length2, hn::Mul(Splat(1e-10f), Dot(tangent, tangent)));
+  return IfThenElse(usable, Mul(flat, Rsqrt(length2)), FrameFromNormal(n).s);
+}
+
+void NormalMaps(Wave& wave) {
+  const AlignedVector<int32_t>& textures = wave.materials->normal_map_texture;
+  const PathColumns& path = wave.path;
+  ForEachBatch(
+      wave, WithTexture(wave, textures), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI texture = Lookup(textures, Gather(path.material, slots));
+        const V3 ng = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
+        const V3 ns = Gather3(path.ns_x, path.ns_y, path.ns_z, slots);
+        const V3 x = UnitTangent(ns, Gather3(path.tg_x, path.tg_y, path.tg_z, slots));
+        const UvPoint at = {Gather(path.uv_u, slots), Gather(path.uv_v, slots)};
+        const V3 color = EvalTextures(*wave.textures, texture, at, Splat3(0, 0, 0));
+        const V3 local = Normalize(Mul(color, Splat(2.0f)) - Splat3(1, 1, 1));
+        const V3 n = ShadingFrame{x, Cross(ns, x), ns}.FromLocal(local);
+        StoreNormal(wave, slots, Sided(n, ng, ns), ng, x);
+      });
+}
+
+Stage NormalMapsStage() {
+  return {.name = "normal_maps",
+          .meaning = "computes shading normals of normal maps",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
-          .needs = {Feature::kBumps, Feature::kScatters},
-          .reads = kReliefReads | fields::kSpread | FieldSet{Field::prim, Field::inst},
-          .writes = kReliefWrites,
-          .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
+          .needs = {Feature::kNormalMaps, Feature::kScatters},
+          .reads = kMappedNormalReads,
+          .writes = kMappedNormalWrites,
+          .resolve = Always<NormalMaps>};
 }
 
 LANELIGHT_END_KERNELS

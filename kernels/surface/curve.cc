@@ -1,15 +1,14 @@
 // The surface at hits on curves.
 //
-// Flat curves face the ray, those of type cylinder have normals turned across the width,
-// from one side to the other, like those of a tube; points stay on the ray, at the depth
-// of the middle line (as pbrt-v4). v goes across, so that dp/du x dp/dv is the normal.
-// Differs from pbrt-v4: there normals of flat curves point away from the ray, and those
-// of cylinders are the ones of a tube's far side.
+// Flat curves face the ray. Curves of type cylinder have normals that turn across the
+// width, like those of a tube. Points stay on the ray, at the depth of the middle line
+// (as in pbrt-v4). v goes across, so that dp/du x dp/dv is the normal. Unlike here,
+// normals of flat curves point away from the ray in pbrt-v4, and those of cylinders are
+// the ones of a tube's far side.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/store-inl.h"
 #include "src/scene/geometry/geometry.h"
 #include "src/vocabulary/path/scene_kinds.h"
@@ -59,7 +58,7 @@ HWY_INLINE OnCurve PointOnCurve(const CurveLanes& curve) {
           {hn::Mul(chord.x, three), hn::Mul(chord.y, three), hn::Mul(chord.z, three)}};
 }
 
-// From the middle line to the point of the ray.
+// The point of the ray, and its offset from the middle line.
 struct CurvePlaces {
   V3 p, aside, tangent;
 };
@@ -138,18 +137,17 @@ HWY_INLINE CurveFaces FaceCurves(const Geometry& geometry, VI index,
   const V3 own = RibbonNormals(geometry, index, curve, -d);
   const V3 face = AcrossCurve(own, along);
   const V3 side = Cross(face, along);
-  // As wide as it looks.
+  // The width across the sight.
   const VF turned = hn::IfThenElse(curve.ribbon, hn::Abs(Dot(own, d)), Splat(1.0f));
   const VF wider = hn::Sub(curve.width[1], curve.width[0]);
   const VF width = hn::Mul(turned, hn::MulAdd(wider, curve.u, curve.width[0]));
-  // What of the way aside is across the curve and the ray, as a share of that.
+  // The offset across the curve and the ray, as a share of the width.
   const V3 seen = Cross(AcrossCurve(-d, along), along);
   const VF offset = Dot(at.aside, seen);
   const VF apart = hn::CopySign(offset, hn::Mul(offset, Dot(seen, side)));
   const VF half = Splat(0.5f);
   const VF aside =
       hn::Clamp(hn::Div(apart, hn::Max(width, Splat(1e-37f))), hn::Neg(half), half);
-  // Half a turn from side to side.
   const VF turn = hn::IfThenElseZero(curve.cylinder, hn::Mul(Splat(0.5f), aside));
   const SinCosPair a = SinCos2Pi(turn);
   return {MulAdd(face, a.cos, Mul(side, a.sin)),

@@ -4,7 +4,6 @@
 // u and v (as in pbrt-v4, SurfaceInteraction::ComputeDifferentials).
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/queue/batch-inl.h"
 #include "kernels/surface/pixel_steps-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -53,7 +52,7 @@ void Footprints(Wave& wave) {
 
 Stage FootprintsStage() {
   return {.name = "footprints",
-          .meaning = "footprint of a pixel in surface coordinates",
+          .meaning = "computes the pixel footprint in surface coordinates",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kTextureFootprints, Feature::kScatters},

@@ -6,7 +6,6 @@
 #include "kernels/simd/motion-inl.h"
 #include "kernels/simd/records-inl.h"
 #include "kernels/surface/point-inl.h"
-#include "src/base/core/motion_record.h"
 #include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -30,9 +29,8 @@ struct InstanceMaps {
 /// `inst` is -1 for the world.
 LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& records,
                                          VI inst) {
-  const DI di;
-  const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(di)));
-  const RecordWords record(records.data(), hn::Max(inst, hn::Zero(di)));
+  const MF world = hn::RebindMask(DF(), hn::Lt(inst, hn::Zero(DI())));
+  const RecordWords record(records.data(), hn::Max(inst, hn::Zero(DI())));
   const auto map = [&](std::size_t byte_offset) HWY_ATTR {
     const auto word = [&](std::size_t row, std::size_t column) HWY_ATTR {
       const VF value = record.F(byte_offset + (4 * row + column) * sizeof(float));
@@ -49,8 +47,8 @@ LANELIGHT_INLINE InstanceMaps GatherMaps(const AlignedVector<InstanceRecord>& re
           map(offsetof(InstanceRecord, scene_from_object))};
 }
 
-/// Lanes whose instances move, and their maps and what those were made of at the times of
-/// their paths.
+/// Lanes whose instances move, their maps at the times of the paths, and the parts of
+/// which the maps are composed.
 struct MovingLanes {
   MF moves;
   InstanceMaps maps;
@@ -59,9 +57,8 @@ struct MovingLanes {
 
 LANELIGHT_INLINE MovingLanes GatherMotions(const AlignedVector<MotionRecord>& motions,
                                            VI inst, VF time) {
-  const DI di;
-  const auto count = hn::Set(di, static_cast<int32_t>(motions.size()));
-  const auto moves = hn::AndNot(hn::Lt(inst, hn::Zero(di)), hn::Lt(inst, count));
+  const auto count = hn::Set(DI(), static_cast<int32_t>(motions.size()));
+  const auto moves = hn::AndNot(hn::Lt(inst, hn::Zero(DI())), hn::Lt(inst, count));
   const RecordWords words(motions.data(), hn::IfThenElseZero(moves, inst));
   const MovedSpace space = SpaceAt(words, time);
   return {hn::RebindMask(DF(), moves),
@@ -84,19 +81,18 @@ LANELIGHT_INLINE VF LengthAlong(const Map34& map, V3 n, V3 v) {
   return Dot(Abs(n), linear.Vector(v));
 }
 
-/// Along n (scene space), how far a ray origin may move when it is mapped to the object:
-/// mapping rounds 4u (|M| |p| + |m|) per coordinate, and since both maps were rounded to
-/// float, M S is the identity only within 2u |M| (|S| |p_object| + |s|); u = 2^-24. Twice
-/// their sum is 12u times the larger bound.
+/// Returns how far along n (scene space) a ray origin may move when it is mapped to the
+/// object: mapping rounds 4u (|M| |p| + |m|) per coordinate, and since both maps were
+/// rounded to float, M S is the identity only within 2u |M| (|S| |p_object| + |s|); u =
+/// 2^-24. Twice their sum is 12u times the larger bound.
 LANELIGHT_INLINE VF MappingError(const InstanceMaps& maps, V3 p_object, V3 n) {
   const V3 reach = maps.scene_from_object.Bound(Abs(p_object));
   const V3 in_object = maps.object_from_scene.Bound(reach);
   return hn::Mul(Splat(12 * 0x1p-24f), LengthAlong(maps.scene_from_object, n, in_object));
 }
 
-/// The same where instances move. Their maps are made in float: turning and inverting
-/// add 20u to the bound of each, which is that of the parts they are made of, since these
-/// cancel in sums.
+/// Does the same for moving instances. Their maps are composed in float: turning and
+/// inverting add 20u to the bound of each part, since the parts cancel in sums.
 LANELIGHT_INLINE VF MovingError(const MovingLanes& moving, V3 p_object, V3 n) {
   const auto& [object_from_scene, scene_from_object] = moving.maps;
   const Map34 forward = {

@@ -12,13 +12,13 @@ LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE V3 SplatVec(Vec3f v) { return Splat3(v.x, v.y, v.z); }
 
-// The line of sight, unit, and what lies one pixel beside the hit, at its distance.
+// The line of sight, unit, and the steps to one pixel beside the hit, at its distance.
 struct PixelSteps {
   V3 sight, x, y;
 };
 
-// `axis`, which is across the camera's forward direction, turned with it to the line of
-// sight, or with the backward direction if that is nearer.
+// Turns `axis`, which is across the camera's forward direction, with that direction, or
+// with the backward one if it is nearer, to the line of sight.
 HWY_INLINE V3 Turned(V3 axis, V3 forward, V3 sight) {
   const VF cosine = Dot(forward, sight);
   const V3 sum = Mul(forward, hn::CopySign(Splat(1.0f), cosine)) + sight;

@@ -1,4 +1,4 @@
-// What the surface kernels of spheres, disks and planes have in common.
+// Shared by the surface kernels of spheres, disks, planes and curves.
 #ifndef LANELIGHT_SURFACE_STORE_INL_H_
 #define LANELIGHT_SURFACE_STORE_INL_H_
 
@@ -19,7 +19,14 @@ struct SurfaceLanes {
   VI material;
 };
 
-/// Point o + t d of a vector of hits.
+/// Returns the records of hits on primitives of one shape, whose ids begin at `first`.
+template <class Record>
+LANELIGHT_INLINE RecordWords<Record> HitRecords(const AlignedVector<Record>& records,
+                                                VI prim, uint32_t first) {
+  const VI begin = hn::Set(DI(), static_cast<int32_t>(first));
+  return RecordWords(records.data(), hn::Sub(prim, begin));
+}
+
 template <bool kUpper>
 LANELIGHT_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
   const V3 o = Gather3(path.o_x, path.o_y, path.o_z, slots);
@@ -28,16 +35,17 @@ LANELIGHT_INLINE D3 RayPoint(const PathColumns& path, const Slots& slots) {
                 HalfOf<kUpper>(o));
 }
 
-/// Foot of the perpendicular from `p` to the plane through `point` with normal n.
+/// Returns the foot of the perpendicular from `p` to the plane through `point` with
+/// normal n.
 template <bool kUpper>
 LANELIGHT_INLINE D3 ProjectToPlane(D3 p, V3 point, V3 n) {
   const D3 nd = HalfOf<kUpper>(n), rel = Minus(p, HalfOf<kUpper>(point));
   return MulAdd(nd, hn::Neg(hn::Div(Dot(nd, rel), Dot(nd, nd))), p);
 }
 
-/// Writes what every hit has; these shapes have no shading normal of their own. Which
-/// columns there are is the same for all hits: a test per vector, and not a variant of
-/// the kernel for each set of them, which would take long to compile.
+/// Writes the columns of every hit; these shapes have no shading normal of their own.
+/// Optional columns are tested per vector, because a variant of the kernel for each set
+/// of columns would take long to compile.
 LANELIGHT_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& slots,
                                    const SurfaceLanes& s) {
   Scatter3(s.p, path.p_x, path.p_y, path.p_z, slots);
@@ -47,7 +55,8 @@ LANELIGHT_INLINE void StoreSurface(const PathColumns& path, const StoreSlots& sl
   Scatter(s.material, path.material, slots);
 }
 
-/// Angle of (x, y) in [0, 2 pi], as a fraction of the circle; absolute error below 1e-6.
+/// Returns the angle of (x, y) in [0, 2 pi], as a fraction of the circle; absolute error
+/// below 1e-6.
 LANELIGHT_INLINE VF TurnFraction(VF y, VF x) {
   const DF df;
   const VF ay = hn::Abs(y), ax = hn::Abs(x);
@@ -61,7 +70,8 @@ LANELIGHT_INLINE VF TurnFraction(VF y, VF x) {
   return hn::IfThenElse(hn::Lt(y, hn::Zero(df)), hn::Sub(Splat(1.0f), half), half);
 }
 
-/// `tangent`, or any direction across n where it vanishes (at the centre, at a pole).
+/// Returns `tangent`, or any direction across n if it vanishes (at the centre, at a
+/// pole).
 LANELIGHT_INLINE V3 TangentOr(V3 tangent, V3 n) {
   const VF length2 = Dot(tangent, tangent);
   return IfThenElse(hn::Gt(length2, hn::Zero(DF())), tangent, FrameFromNormal(n).s);
@@ -77,8 +87,8 @@ LANELIGHT_INLINE void StoreBitangent(const PathColumns& path, const StoreSlots& 
            path.tv_z, slots);
 }
 
-/// dp/dv of a sphere, v = 0 at the pole -z_axis, 1 at z_axis, at the unit vector `out`
-/// from its centre: along the meridian, half a turn long. Not finite at the poles.
+/// Returns dp/dv of a sphere, v = 0 at the pole -z_axis, 1 at z_axis, at the unit vector
+/// `out` from its centre: along the meridian, half a turn long. Not finite at the poles.
 LANELIGHT_INLINE V3 SphereBitangent(V3 out, V3 z_axis, VF radius) {
   const V3 up = MulAdd(out, hn::Neg(Dot(out, z_axis)), z_axis);
   return Mul(
@@ -91,7 +101,8 @@ struct SpherePoint {
   VF radius, circumference;
 };
 
-/// Coordinates and tangents of a sphere. v = 1 - theta / pi, theta from the pole z.
+/// Writes coordinates and tangents of a sphere. v = 1 - theta / pi, theta from the pole
+/// z.
 template <class Record>
 LANELIGHT_INLINE void StoreSphereCoordinates(const PathColumns& path,
                                              const StoreSlots& slots,
@@ -121,7 +132,7 @@ LANELIGHT_INLINE void StoreSphereCoordinates(const PathColumns& path,
   }
 }
 
-/// Does the hits on primitives of one shape, those from one range to the next.
+/// Processes the hits on primitives of one shape, from one range to the next.
 template <auto kBatch, std::uint32_t PrimitiveRanges::* kFirst,
           std::uint32_t PrimitiveRanges::* kNext>
 void SurfaceOfShape(Wave& wave) {

@@ -2,10 +2,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/simd/records-inl.h"
 #include "kernels/surface/instance-inl.h"
-#include "kernels/surface/point-inl.h"
-#include "src/scene/geometry/geometry.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -89,30 +86,33 @@ HWY_INLINE MF IsUsable(V3 v) {
   return hn::And(hn::Gt(length2, hn::Zero(DF())), hn::Lt(length2, Splat(1e30f)));
 }
 
-// dp/du in the space of the triangle: solves e_i = du_i dp/du + dv_i dp/dv. Where the
-// coordinates are degenerate, any direction across the face normal.
-HWY_INLINE V3 Tangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
-  const VF du1 = hn::Sub(uv.u[1], uv.u[0]), dv1 = hn::Sub(uv.v[1], uv.v[0]);
-  const VF du2 = hn::Sub(uv.u[2], uv.u[0]), dv2 = hn::Sub(uv.v[2], uv.v[0]);
-  const VF det = DifferenceOfProducts(du1, dv2, dv1, du2);
-  const V3 scaled = {DifferenceOfProducts(dv2, e1.x, dv1, e2.x),
-                     DifferenceOfProducts(dv2, e1.y, dv1, e2.y),
-                     DifferenceOfProducts(dv2, e1.z, dv1, e2.z)};
-  const V3 tangent = Mul(scaled, hn::Div(Splat(1.0f), det));
-  return IfThenElse(IsUsable(tangent), tangent, FrameFromNormal(face).s);
-}
+// Solves e_i = du_i dp/du + dv_i dp/dv in the space of the triangle. If the coordinates
+// are degenerate, returns any directions across the face normal.
+struct UvDerivatives {
+  VF du1, dv1, du2, dv2, det;
 
-// dp/dv likewise.
-HWY_INLINE V3 Bitangent(const UvLanes& uv, V3 e1, V3 e2, V3 face) {
-  const VF du1 = hn::Sub(uv.u[1], uv.u[0]), dv1 = hn::Sub(uv.v[1], uv.v[0]);
-  const VF du2 = hn::Sub(uv.u[2], uv.u[0]), dv2 = hn::Sub(uv.v[2], uv.v[0]);
-  const VF det = DifferenceOfProducts(du1, dv2, dv1, du2);
-  const V3 scaled = {DifferenceOfProducts(du1, e2.x, du2, e1.x),
-                     DifferenceOfProducts(du1, e2.y, du2, e1.y),
-                     DifferenceOfProducts(du1, e2.z, du2, e1.z)};
-  const V3 bitangent = Mul(scaled, hn::Div(Splat(1.0f), det));
-  return IfThenElse(IsUsable(bitangent), bitangent, FrameFromNormal(face).t);
-}
+  HWY_INLINE explicit UvDerivatives(const UvLanes& uv)
+      : du1(hn::Sub(uv.u[1], uv.u[0])),
+        dv1(hn::Sub(uv.v[1], uv.v[0])),
+        du2(hn::Sub(uv.u[2], uv.u[0])),
+        dv2(hn::Sub(uv.v[2], uv.v[0])),
+        det(DifferenceOfProducts(du1, dv2, dv1, du2)) {}
+  HWY_INLINE V3 Tangent(V3 e1, V3 e2, V3 face) const {
+    return Combined(dv2, e1, dv1, e2, FrameFromNormal(face).s);
+  }
+  HWY_INLINE V3 Bitangent(V3 e1, V3 e2, V3 face) const {
+    return Combined(du1, e2, du2, e1, FrameFromNormal(face).t);
+  }
+
+ private:
+  HWY_INLINE V3 Combined(VF a, V3 v, VF b, V3 w, V3 otherwise) const {
+    const V3 scaled = {DifferenceOfProducts(a, v.x, b, w.x),
+                       DifferenceOfProducts(a, v.y, b, w.y),
+                       DifferenceOfProducts(a, v.z, b, w.z)};
+    const V3 solved = Mul(scaled, hn::Div(Splat(1.0f), det));
+    return IfThenElse(IsUsable(solved), solved, otherwise);
+  }
+};
 
 // v mirrored on the plane across `normal`.
 HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
@@ -126,8 +126,7 @@ HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
 // Another").
 HWY_NOINLINE void TurnTangents(const Geometry& geometry, const TriangleLanes& tri,
                                V3 face, V3& tangent, V3& bitangent) {
-  const DI di;
-  const VI flag = hn::Set(di, static_cast<int32_t>(kTurnedTangents));
+  const VI flag = hn::Set(DI(), static_cast<int32_t>(kTurnedTangents));
   const MF turned = hn::RebindMask(DF(), hn::Eq(hn::And(tri.flags, flag), flag));
   if (hn::AllFalse(DF(), turned) || geometry.normals.empty()) return;
   const V3 ns = Normalize(VertexNormal(geometry, tri, face));
@@ -159,14 +158,14 @@ struct UvFaceLanes {
   const FaceLanes& face;
 };
 
-// Where the point of a hit lies in the scene, and what maps its triangle there.
+// The point of a hit in the scene, and the maps of its triangle.
 struct PlaceLanes {
   V3 p, ng;
   VF error;
   InstanceMaps maps;
 };
 
-// What GatherMaps has found where the shutter opens, at the times of the paths instead.
+// Replaces places at the opening of the shutter by those at the times of the paths.
 HWY_NOINLINE void MovePlaces(const Wave& wave, const StoreSlots& slots,
                              const TriangleLanes& tri, V3 face, PlaceLanes& at) {
   const MovingLanes moving =
@@ -237,8 +236,11 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
                               const PlaceLanes& at) {
   const PathColumns& path = wave.path;
   const auto& [uv, face] = flat;
-  V3 tangent = Tangent(uv, face.e1, face.e2, face.normal), bitangent = tangent;
-  if (path.tv_x != nullptr) bitangent = Bitangent(uv, face.e1, face.e2, face.normal);
+  const UvDerivatives solved(uv);
+  V3 tangent = solved.Tangent(face.e1, face.e2, face.normal), bitangent = tangent;
+  if (path.tv_x != nullptr) {
+    bitangent = solved.Bitangent(face.e1, face.e2, face.normal);
+  }
   if (wave.geometry->turned_tangents) {
     TurnTangents(*wave.geometry, tri, face.normal, tangent, bitangent);
   }
@@ -250,9 +252,8 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }
 
-// Some column beyond the point of a hit and its normal. Which ones is the same for all
-// hits: a test per vector, and not a variant of the kernel for each set of columns, which
-// would take long to compile.
+// Returns whether there is a column beyond point and normal. Each optional column is
+// tested per vector (store-inl.h).
 HWY_INLINE bool WantsDetails(const PathColumns& path) {
   return path.ns_x != nullptr || path.uv_u != nullptr || path.tg_x != nullptr;
 }

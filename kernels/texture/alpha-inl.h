@@ -1,5 +1,5 @@
-// Opacity by textures that depend on where a point is. A call, so that the patterns of
-// such textures are not a part of every intersection kernel.
+// Opacity by textures that depend on the position. A call, so that intersection kernels
+// do not contain the patterns of such textures.
 #ifndef LANELIGHT_TEXTURE_ALPHA_INL_H_
 #define LANELIGHT_TEXTURE_ALPHA_INL_H_
 
@@ -13,7 +13,8 @@ struct PointOfAlpha {
   float p[3], n[3];
 };
 
-/// Value of float texture `texture` >= 0 there, at surface coordinates (u, v).
+/// Returns the value of float texture `texture` >= 0 there, at surface coordinates (u,
+/// v).
 float AlphaAtPlace(const TextureTable& table, int32_t texture, float u, float v,
                    const PointOfAlpha& at);
 

@@ -1,4 +1,4 @@
-// Colours that a material makes of a texture's: below a coat, and of a metal.
+// Conversions of texture colours: the colour below a coat, and the extinction of a metal.
 #ifndef LANELIGHT_TEXTURE_COATED_BASE_INL_H_
 #define LANELIGHT_TEXTURE_COATED_BASE_INL_H_
 
@@ -17,7 +17,7 @@ LANELIGHT_INLINE V3 MetalExtinction(V3 r) {
   return {k(r.x), k(r.y), k(r.z)};
 }
 
-/// The colour as it acts below a coat, by the table at `fit`
+/// Returns the colour that acts below a coat, by the table at `fit`
 /// (src/scene/compile/coat.h). Components are clamped to [0, 1].
 inline HWY_NOINLINE V3 CoatedBaseColor(const float* fit, V3 color) {
   const VF zero = hn::Zero(DF()), one = Splat(1.0f);

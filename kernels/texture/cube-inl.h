@@ -6,12 +6,11 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Adds what a table of kNodes^3 vectors, x fastest, has at coordinates in
-/// [0, kNodes - 1] to `sum`: linear between the four corners of the tetrahedron that lies
-/// there around the diagonal of its cell.
+/// Adds to `sum` the value of a table of kNodes^3 vectors, x fastest, at coordinates in
+/// [0, kNodes - 1]. Interpolates linearly between the four corners of the tetrahedron
+/// around the diagonal of the cell.
 template <int kNodes>
 LANELIGHT_INLINE V3 AddOfCube(const float* table, V3 at, V3 sum) {
-  const DF df;
   const DI di;
   const VF one = Splat(1.0f);
   const VI last = hn::Set(di, kNodes - 2);
@@ -21,7 +20,7 @@ LANELIGHT_INLINE V3 AddOfCube(const float* table, V3 at, V3 sum) {
   const VF axis[3] = {at.x, at.y, at.z};
   for (int i = 0; i < 3; ++i) {
     const VI cell = hn::Min(hn::ConvertTo(di, axis[i]), last);
-    part[i] = hn::Sub(axis[i], hn::ConvertTo(df, cell));
+    part[i] = hn::Sub(axis[i], hn::ConvertTo(DF(), cell));
     base = hn::Add(base, hn::Mul(cell, hn::Set(di, stride[i])));
   }
   // From corner to corner along the axis of the largest part first, the smallest last.

@@ -3,7 +3,6 @@
 #define LANELIGHT_TEXTURE_MAPPING_INL_H_
 
 #include "kernels/simd/math-inl.h"
-#include "kernels/simd/vec3-inl.h"
 #include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -13,7 +12,7 @@ struct UvPoint {
   static constexpr bool kHasPlace = false, kHasFootprint = false;
   VF u, v;
 
-  /// The lanes of `mine`; the others look at one place.
+  /// Keeps the lanes of `mine`; the others get one common point.
   LANELIGHT_INLINE UvPoint Only(MF mine) const {
     return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v)};
   }
@@ -79,7 +78,7 @@ struct MapSteps {
   VF s_x, t_x, s_y, t_y;
 };
 
-/// Of a point with a footprint, by the node's mapping.
+/// Returns the steps at a point with a footprint, by the node's mapping.
 template <class Point>
 LANELIGHT_INLINE MapSteps StepsOf(const TextureNode& node, const Point& at) {
   if (node.mapping == MappingKind::kUv) {

@@ -17,14 +17,13 @@ struct NoiseAxis {
   VF t, weight;
 
   LANELIGHT_INLINE explicit NoiseAxis(VF x) {
-    const DI di;
     const VF low = hn::Floor(x);
     t = hn::Sub(x, low);
     // Modulo 256 in floats, exact however large x is; then fractions are 0 and so is the
     // noise.
     const VF turns = hn::Floor(hn::Mul(low, Splat(1.0f / 256)));
     const VF wrapped = hn::NegMulAdd(turns, Splat(256.0f), low);
-    cell = hn::And(hn::ConvertTo(di, wrapped), hn::Set(di, 255));
+    cell = hn::And(hn::ConvertTo(DI(), wrapped), hn::Set(DI(), 255));
     const VF shape =
         hn::MulAdd(t, hn::MulAdd(t, Splat(6.0f), Splat(-15.0f)), Splat(10.0f));
     weight = hn::Mul(hn::Mul(t, hn::Mul(t, t)), shape);
@@ -60,8 +59,7 @@ LANELIGHT_INLINE VF LatticeGradient(VI hash, VF x, VF y, VF z) {
 /// arithmetic for |p| < 1e3: below 1e-5, besides that of p. Any input gives a finite
 /// value, or NaN.
 inline HWY_NOINLINE VF Noise(V3 p) {
-  const DI di;
-  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  const VI zero = hn::Zero(DI()), one = hn::Set(DI(), 1);
   const VF unit = Splat(1.0f);
   const NoiseAxis x(p.x), y(p.y), z(p.z);
   const auto lerp = [](VF t, VF a, VF b)
@@ -96,8 +94,8 @@ LANELIGHT_INLINE VF FBm(V3 p, int32_t octaves, float roughness) {
   return sum;
 }
 
-/// The same sum of |Noise| (Perlin 1985), and 0.2 roughness^octaves: pbrt-v4 counts what
-/// the octave after the last one would bring by its mean.
+/// Returns the same sum of |Noise| (Perlin 1985), plus 0.2 roughness^octaves: pbrt-v4
+/// adds the mean of the octave after the last one.
 LANELIGHT_INLINE VF Turbulence(V3 p, int32_t octaves, float roughness) {
   VF sum = hn::Zero(DF());
   float frequency = 1, amplitude = 1;

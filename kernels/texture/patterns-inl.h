@@ -3,7 +3,6 @@
 #define LANELIGHT_TEXTURE_PATTERNS_INL_H_
 
 #include "kernels/texture/mapping-inl.h"
-#include "kernels/texture/marble_colors.h"
 #include "kernels/texture/noise-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -23,8 +22,8 @@ LANELIGHT_INLINE MF EvenCell(V3 q) {
   return hn::Eq(hn::IfThenZeroElse(odd, Splat(1.0f)), OddCell(q.z));
 }
 
-/// Mean of a square wave over a triangle filter that reaches `reach` to either side of x.
-/// The wave is 1 where floor(x) is even, else -1.
+/// Returns the mean of a square wave over a triangle filter that reaches `reach` to
+/// either side of x. The wave is 1 where floor(x) is even, else -1.
 LANELIGHT_INLINE VF FilteredWave(VF x, VF reach) {
   const VF half = Splat(0.5f), one = Splat(1.0f), two = Splat(2.0f);
   const VF sign = hn::NegMulAdd(two, OddCell(x), one);
@@ -49,8 +48,9 @@ LANELIGHT_INLINE VF FilteredWave(VF x, VF reach) {
   return hn::IfThenElse(wide, hn::Div(difference, hn::Mul(reach, reach)), narrow);
 }
 
-/// How much of the second colour a checkerboard has about (s, t) over a footprint, with
-/// pbrt-v4's filter: a triangle that reaches 1.5 times the longer step to either side.
+/// Returns the share of a checkerboard's second colour over a footprint about (s, t),
+/// with pbrt-v4's filter: a triangle that reaches 1.5 times the longer step to either
+/// side.
 LANELIGHT_INLINE VF SecondOfChecks(const TexturePair& st, const MapSteps& d) {
   const auto reach = [](VF x, VF y) HWY_ATTR {
     return hn::Mul(Splat(1.5f), hn::Max(hn::Abs(x), hn::Abs(y)));
@@ -60,8 +60,8 @@ LANELIGHT_INLINE VF SecondOfChecks(const TexturePair& st, const MapSteps& d) {
   return hn::NegMulAdd(Splat(0.5f), product, Splat(0.5f));
 }
 
-/// Lanes inside of a dot: in half of the unit cells around integers there is one of
-/// radius 0.35, shifted as far as the cell has room, all by the noise of the cell.
+/// Returns the lanes inside of a dot. Half of the unit cells around integers have a dot
+/// of radius 0.35, shifted within the cell, both by the noise of the cell.
 inline HWY_NOINLINE MF InsideDot(VF s, VF t) {
   const VF half = Splat(0.5f), room = Splat(0.15f);
   const VF cell_s = hn::Floor(hn::Add(s, half)), cell_t = hn::Floor(hn::Add(t, half));
@@ -80,10 +80,17 @@ LANELIGHT_INLINE VF Windy(V3 q) {
   return hn::Mul(hn::Abs(wind), FBm(q, 6, 0.5f));
 }
 
-/// Colour of marble, by de Casteljau's scheme; q is scaled.
+/// Control points of the colours of pbrt's marble: each four successive ones are a cubic
+/// Bezier curve.
+inline constexpr int kMarbleSegments = 6;
+inline constexpr float kMarbleColors[kMarbleSegments + 3][3] = {
+    {0.58f, 0.58f, 0.6f}, {0.58f, 0.58f, 0.6f}, {0.58f, 0.58f, 0.6f},
+    {0.5f, 0.5f, 0.5f},   {0.6f, 0.59f, 0.58f}, {0.58f, 0.58f, 0.6f},
+    {0.58f, 0.58f, 0.6f}, {0.2f, 0.2f, 0.33f},  {0.58f, 0.58f, 0.6f}};
+
+/// Returns the colour of marble, by de Casteljau's scheme; q is scaled.
 inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float variation) {
   const DI di;
-  const DF df;
   const VF phase = hn::MulAdd(Splat(variation), FBm(q, octaves, roughness), q.y);
   const VF turns = hn::Mul(phase, Splat(0.159154943f));
   const VF sine = SinCos2Pi(hn::Sub(turns, hn::Floor(turns))).sin;
@@ -91,7 +98,7 @@ inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float vari
   const VF x = hn::Mul(hn::MulAdd(half, sine, half), Splat(float{kMarbleSegments}));
   const VI last = hn::Set(di, kMarbleSegments - 1);
   const VI first = hn::Max(hn::Min(hn::ConvertTo(di, x), last), hn::Zero(di));
-  const VF t = hn::Sub(x, hn::ConvertTo(df, first)), rest = hn::Sub(Splat(1.0f), t);
+  const VF t = hn::Sub(x, hn::ConvertTo(DF(), first)), rest = hn::Sub(Splat(1.0f), t);
   V3 point[4];
   for (int i = 0; i < 4; ++i) {
     point[i] = Gather3(kMarbleColors[i], first);
@@ -102,7 +109,8 @@ inline HWY_NOINLINE V3 Marble(V3 q, int32_t octaves, float roughness, float vari
   return Mul(point[0], Splat(1.5f));
 }
 
-/// The patterns of a place. Grey for those that pbrt has as float textures only.
+/// Evaluates the patterns of a place; those that pbrt has as float textures only are
+/// grey.
 LANELIGHT_INLINE V3 EvalPattern(const TextureNode& node, V3 p) {
   const V3 q = PlaceOf(node, p);
   if (node.kind == TextureKind::kMarble) {

@@ -6,7 +6,6 @@
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/materials.h"
-#include "src/scene/compiled/spectra.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -52,14 +51,13 @@ LANELIGHT_INLINE V3 HeadOn(V3 k, VF index) {
   return {r(square.x), r(square.y), r(square.z)};
 }
 
-// What textures say, at the wavelengths of the paths. `kind`: PathColor.
+// Returns values of textures at the wavelengths of the paths. `kind`: PathColor.
 LANELIGHT_INLINE V3 Upsampled(const SceneParts& scene, VI kind, VI material, V3 color,
                               const Wavelengths& at) {
-  const DI di;
   const DF df;
   const SpectrumTable& table = *scene.spectra;
   const auto is = [&](PathColor k) HWY_ATTR {
-    return hn::RebindMask(df, hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k))));
+    return hn::RebindMask(df, hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k))));
   };
   const MF metal = is(PathColor::kMetalExtinction), unbounded = is(PathColor::kUnbounded);
   const MF scaled = is(PathColor::kScaledReflectance);
@@ -84,7 +82,6 @@ LANELIGHT_INLINE V3 Upsampled(const SceneParts& scene, VI kind, VI material, V3 
 
 // Textures, and constants beside them.
 void TextureSpectra(Wave& wave) {
-  const DI di;
   const SceneParts& scene = wave;
   ForEachBatch(
       wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
@@ -92,9 +89,9 @@ void TextureSpectra(Wave& wave) {
         const VI material = Gather(wave.path.material, slots);
         ForEachColor(wave, [&](const ColorColumns& c) HWY_ATTR {
           const VI row = Lookup(*c.spectrum, material);
-          const auto constant = hn::Gt(row, hn::Set(di, -1));
+          const auto constant = hn::Gt(row, hn::Set(DI(), -1));
           V3 color = AtRows(*scene.spectra, hn::IfThenElseZero(constant, row), at);
-          if (!hn::AllTrue(di, constant)) {
+          if (!hn::AllTrue(DI(), constant)) {
             const V3 textured =
                 Upsampled(scene, row, material, Gather3(c.r, c.g, c.b, slots), at);
             color = IfThenElse(hn::RebindMask(DF(), constant), color, textured);
@@ -104,26 +101,24 @@ void TextureSpectra(Wave& wave) {
       });
 }
 
-// Glass whose index depends on the wavelength leaves a path one of its three, all alike
-// likely, with the weight of all.
+// Glass whose index depends on the wavelength leaves a path one of its three, chosen
+// uniformly, with the weight of all.
 void Disperse(Wave& wave) {
   const PathColumns& p = wave.path;
-  const DI di;
-  const DF df;
   const MaterialTable& m = *wave.materials;
   ForEachBatch(
       wave, wave.queue(QueueId::kSurface), [&](const StoreSlots& slots, MF) HWY_ATTR {
         const VI material = Gather(p.material, slots);
         const VI row = Lookup(m.eta_spectrum, material);
-        const auto some = hn::Gt(row, hn::Set(di, -1));
-        const MF disperses = hn::RebindMask(df, some);
+        const auto some = hn::Gt(row, hn::Set(DI(), -1));
+        const MF disperses = hn::RebindMask(DF(), some);
         const Wavelengths at(p, slots);
         const VF index = IndexAt(*wave.spectra, hn::IfThenElseZero(some, row), at);
         Scatter(hn::IfThenElse(disperses, index, Lookup(m.eta, material)), p.eta, slots);
         const MF leaves = hn::AndNot(at.alone, disperses);
         const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
         const auto left = [&](VF b, int32_t hero) HWY_ATTR {
-          const auto is = hn::RebindMask(df, hn::Eq(at.hero, hn::Set(di, hero)));
+          const auto is = hn::RebindMask(DF(), hn::Eq(at.hero, hn::Set(DI(), hero)));
           return hn::IfThenElseZero(is, hn::Mul(b, Splat(3.0f)));
         };
         const V3 one = {left(beta.x, 2), left(beta.y, 1), left(beta.z, 0)};
@@ -141,7 +136,7 @@ constexpr FieldSet kSpectralColors = {
 
 Stage SpectraStage() {
   return {.name = "spectra",
-          .meaning = "colours of surfaces at the wavelengths of paths",
+          .meaning = "converts colours of surfaces to wavelengths of paths",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kPlainSpectra, Feature::kScatters},
@@ -152,7 +147,7 @@ Stage SpectraStage() {
 
 Stage TextureSpectraStage() {
   return {.name = "texture_spectra",
-          .meaning = "textured colours of surfaces at the wavelengths of paths",
+          .meaning = "converts textured colours to wavelengths of paths",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kSpectral, Feature::kTextures, Feature::kScatters},
@@ -163,7 +158,7 @@ Stage TextureSpectraStage() {
 
 Stage DisperseStage() {
   return {.name = "disperse",
-          .meaning = "indices of glass, which leave a path one wavelength",
+          .meaning = "computes dispersed indices of glass; leaves one wavelength",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kDispersion, Feature::kScatters},

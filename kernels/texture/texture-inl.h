@@ -7,7 +7,6 @@
 
 #include "kernels/texture/coated_base-inl.h"
 #include "kernels/texture/patterns-inl.h"
-#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -20,15 +19,13 @@ struct TexelPair {
 LANELIGHT_INLINE VF Fraction(VF x) { return hn::Sub(x, hn::Floor(x)); }
 
 LANELIGHT_INLINE VI ClampIndex(VI i, VI size) {
-  const DI di;
-  return hn::Min(hn::Max(i, hn::Zero(di)), hn::Sub(size, hn::Set(di, 1)));
+  return hn::Min(hn::Max(i, hn::Zero(DI())), hn::Sub(size, hn::Set(DI(), 1)));
 }
 
 /// The texels around coordinate s of an axis with n texels, whose centres are at
 /// (i + 0.5) / n; `flip` counts from the other end (1 - s). Nearest lookups have
 /// weight 0 and use i0.
 LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& node) {
-  const DI di;
   const VF one = Splat(1.0f);
   VF x;
   if (node.wrap == WrapMode::kRepeat) {
@@ -37,15 +34,16 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& 
     x = hn::Mul(flip ? hn::Sub(one, f) : f, n);  // [0, n]
   } else {
     if (flip) s = hn::Sub(one, s);
-    // Far outside all is the same; this keeps the conversion to integers in range.
+    // Keeps the conversion to integers in range; texels repeat far outside.
     const VF far = node.wrap == WrapMode::kOctahedralSphere ? n : Splat(2.0f);
     x = hn::Min(hn::Max(hn::Mul(s, n), hn::Neg(far)), hn::Add(n, far));
   }
   if (node.bilinear) x = hn::Sub(x, Splat(0.5f));
   const VF low = hn::Floor(x);
   // NaN has no integer; the weight keeps it, so that the result shows it.
-  const VI i0 = hn::ConvertTo(di, hn::IfThenElseZero(hn::Eq(low, low), low));
-  return {i0, hn::Add(i0, hn::Set(di, 1)), node.bilinear ? hn::Sub(x, low) : Splat(0.0f)};
+  const VI i0 = hn::ConvertTo(DI(), hn::IfThenElseZero(hn::Eq(low, low), low));
+  return {i0, hn::Add(i0, hn::Set(DI(), 1)),
+          node.bilinear ? hn::Sub(x, low) : Splat(0.0f)};
 }
 
 /// Texel index of column i, row j of w x h after wrapping; clears `inside` where the wrap
@@ -53,9 +51,7 @@ LANELIGHT_INLINE TexelPair FindTexels(VF s, bool flip, VF n, const TextureNode& 
 /// square: it continues there with its own texels, turned about the middle of the edge.
 /// As in pbrt-v4, texel -1 is texel 1, while n is n - 1.
 LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& inside) {
-  const DI di;
-  const DF df;
-  const VI zero = hn::Zero(di), one = hn::Set(di, 1);
+  const VI zero = hn::Zero(DI()), one = hn::Set(DI(), 1);
   if (wrap == WrapMode::kRepeat) {
     // i is in [-1, w]
     i = hn::IfThenElse(hn::Lt(i, zero), hn::Add(i, w), i);
@@ -65,7 +61,7 @@ LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& insi
   } else if (wrap == WrapMode::kBlack) {
     const auto in_columns = hn::AndNot(hn::Lt(i, zero), hn::Lt(i, w));
     const auto in_rows = hn::AndNot(hn::Lt(j, zero), hn::Lt(j, h));
-    inside = hn::And(inside, hn::RebindMask(df, hn::And(in_columns, in_rows)));
+    inside = hn::And(inside, hn::RebindMask(DF(), hn::And(in_columns, in_rows)));
   } else if (wrap == WrapMode::kOctahedralSphere) {
     const VI last_i = hn::Sub(w, one), last_j = hn::Sub(h, one);
     const auto fold = [&](VI& along, VI last, VI& across, VI last_across) HWY_ATTR {
@@ -86,13 +82,12 @@ LANELIGHT_INLINE VI WrappedIndex(VI w, VI h, WrapMode wrap, VI i, VI j, MF& insi
 /// Decoded colour of texels.
 LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& image,
                                VI index) {
-  const DI di;
   if (image.rgba8.empty()) {
     return Gather3(image.rgb.data(), index);
   }
   const float* decode = table.decode.data() + image.decode;
   const VI word = Gather(image.rgba8.data(), index);
-  const VI byte = hn::Set(di, 255);
+  const VI byte = hn::Set(DI(), 255);
   return {Gather(decode, hn::And(word, byte)),
           Gather(decode, hn::And(hn::ShiftRight<8>(word), byte)),
           Gather(decode, hn::And(hn::ShiftRight<16>(word), byte))};
@@ -100,11 +95,9 @@ LANELIGHT_INLINE V3 LoadTexels(const TextureTable& table, const TextureImage& im
 
 LANELIGHT_INLINE V3 Texel(const TextureTable& table, const TextureNode& node, VI i,
                           VI j) {
-  const DF df;
-  const DI di;
   const TextureImage& image = table.images[node.image];
-  const VI w = hn::Set(di, image.width), h = hn::Set(di, image.height);
-  MF inside = hn::FirstN(df, hn::Lanes(df));
+  const VI w = hn::Set(DI(), image.width), h = hn::Set(DI(), image.height);
+  MF inside = hn::FirstN(DF(), hn::Lanes(DF()));
   const V3 color = LoadTexels(table, image, WrappedIndex(w, h, node.wrap, i, j, inside));
   return node.wrap == WrapMode::kBlack ? IfThenElseZero(inside, color) : color;
 }
@@ -114,7 +107,7 @@ LANELIGHT_INLINE V3 Lerp(V3 a, V3 b, VF t) {
   return Mul(a, hn::Sub(Splat(1.0f), t)) + Mul(b, t);
 }
 
-/// Applies scale, inversion and other steps of a node to a texel.
+/// Applies scale and inversion of a node to a texel, and clamps it at 0.
 LANELIGHT_INLINE V3 FinishTexel(const TextureNode& node, V3 color) {
   color = Mul(color, Splat(node.scale));
   if (node.invert) color = Splat3(1, 1, 1) - color;
@@ -152,8 +145,8 @@ LANELIGHT_INLINE V3 BetweenCorners(const V3 corner[4], VF s, VF t) {
 }
 
 /// Value of one texture at a point in every lane, filtered where that has a footprint
-/// (levels-inl.h). Errors against real arithmetic come
-/// from rounding s = u * su + du to float: up to |s| * 6e-8 of a repeat, times the slope.
+/// (levels-inl.h). Errors against real arithmetic come from rounding s = u * su + du to
+/// float: up to |s| * 6e-8 of a repeat, times the slope.
 template <class Point>
 inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
                                    const Point& at) {
@@ -243,23 +236,18 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
 template <class Point>
 LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, const Point& at,
                                  V3 constant) {
-  const DF df;
   const DI di;
   auto pending = hn::Gt(ids, hn::Set(di, -1));
   while (!hn::AllFalse(di, pending)) {
     const int32_t id = hn::ExtractLane(ids, hn::FindFirstTrue(di, pending));
     const auto same = hn::Eq(ids, hn::Set(di, id));
-    const MF mine = hn::RebindMask(df, same);
-    // The other lanes look at one texel: theirs would be fetched for nothing.
+    const MF mine = hn::RebindMask(DF(), same);
+    // The other lanes read one texel, because theirs would not be used.
     const V3 value = EvalTexture(table, id, at.Only(mine));
     constant = IfThenElse(mine, value, constant);
     pending = hn::AndNot(same, pending);
   }
   return constant;
-}
-LANELIGHT_INLINE V3 EvalTextures(const TextureTable& table, VI ids, VF u, VF v,
-                                 V3 constant) {
-  return EvalTextures(table, ids, UvPoint{u, v}, constant);
 }
 
 /// Value of the lanes' float textures, where their id is not negative, else `constant`.

@@ -6,14 +6,13 @@
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/levels-inl.h"
-#include "src/base/core/check.h"
 #include "src/scene/compiled/materials.h"
 #include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-// Hits are taken texture by texture, so many at a time: a vector of neighbours may need
-// several textures, each in a few of its lanes.
+// Hits grouped by texture: a vector of neighbours may need several textures, each in a
+// few of its lanes.
 class TexturedHits {
  public:
   static constexpr uint32_t kMost = 2048;
@@ -25,10 +24,9 @@ class TexturedHits {
   }
   LANELIGHT_INLINE bool empty() const { return size_ == 0; }
 
-  /// Takes out those of the first one's texture.
+  /// Moves the hits with the texture of the first one to `taken`; returns that texture.
   LANELIGHT_INLINE int32_t Take(Queue& taken) {
     const DI di;
-    const DF df;
     const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
     const int32_t first = ids_[0];
     uint32_t left = 0;
@@ -36,8 +34,8 @@ class TexturedHits {
     for (uint32_t i = 0; i < size_; i += lanes) {
       // Appended slots lie before the end of this vector, so they have been read already.
       const VI slots = hn::LoadU(di, slots_ + i), ids = hn::LoadU(di, ids_ + i);
-      const MF valid = hn::FirstN(df, size_ - i);
-      const MF same = hn::RebindMask(df, hn::Eq(ids, hn::Set(di, first)));
+      const MF valid = hn::FirstN(DF(), size_ - i);
+      const MF same = hn::RebindMask(DF(), hn::Eq(ids, hn::Set(di, first)));
       const MF others = hn::AndNot(same, valid);
       Push(taken, slots, hn::And(same, valid));
       Append(slots, others, slots_, left);
@@ -51,8 +49,7 @@ class TexturedHits {
  private:
   // Returns the number appended.
   LANELIGHT_INLINE static uint32_t Append(VI values, MF mask, int32_t* to, uint32_t end) {
-    const DI di;
-    hn::StoreU(hn::Compress(values, hn::RebindMask(di, mask)), di, to + end);
+    hn::StoreU(hn::Compress(values, hn::RebindMask(DI(), mask)), DI(), to + end);
     return static_cast<uint32_t>(hn::CountTrue(DF(), mask));
   }
 
@@ -65,7 +62,7 @@ LANELIGHT_INLINE Slots SlotsAt(const Queue& queue, uint32_t i) {
   return Slots(hn::BitCast(DI(), hn::LoadU(DU(), queue.items + i)));
 }
 
-// `places`: what is looked up depends on them.
+// `places`: the texture depends on the position.
 template <class Point>
 LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
                                  bool places) {
@@ -89,15 +86,15 @@ LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
   }
 }
 
-// A parameter of materials has `textures`, by material, the constant of a material, and
-// a column or three, to which Store() writes what a constant or a texture says.
+// A parameter of materials has `textures` by material, the constant of a material, and
+// one column or three, to which Store() writes constants and StoreTextured() texture
+// values.
 template <class Point, class Parameter>
 HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
-  const DI di;
   const PathColumns& path = wave.path;
   const TextureTable& table = *wave.textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
-  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
+  const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DI()));
   HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
   Queue taken = {room, 0};
   for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMost) {
@@ -108,7 +105,7 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
       const VI material = Gather(path.material, slots);
       parameter.Store(slots, material, parameter.Constant(material));
       const VI ids = Lookup(parameter.textures, material);
-      const MF textured = hn::RebindMask(DF(), hn::Gt(ids, hn::Set(di, -1)));
+      const MF textured = hn::RebindMask(DF(), hn::Gt(ids, hn::Set(DI(), -1)));
       if (hn::AllFalse(DF(), textured)) continue;
       hits.Add(slots, ids, hn::And(textured, hn::FirstN(DF(), end - i)));
     }
@@ -127,22 +124,20 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
 
 // Returns the upper bound of a colour parameter: 1 for reflectances, none for indices.
 LANELIGHT_INLINE VF ColorLimit(const MaterialTable& materials, VI material) {
-  const DI di;
-  const DF df;
   const VI kind = Lookup(materials.kind, material);
   const auto is = [&](ShadeKind k) HWY_ATTR {
-    return hn::Eq(kind, hn::Set(di, static_cast<int32_t>(k)));
+    return hn::Eq(kind, hn::Set(DI(), static_cast<int32_t>(k)));
   };
   const auto index_of_refraction = hn::Or(
       hn::Or(is(ShadeKind::kConductorSmooth), is(ShadeKind::kConductorRough)),
       hn::Or(is(ShadeKind::kCoatedConductor), is(ShadeKind::kCoatedConductorMedium)));
-  return hn::IfThenElse(hn::RebindMask(df, index_of_refraction), Splat(3e38f),
+  return hn::IfThenElse(hn::RebindMask(DF(), index_of_refraction), Splat(3e38f),
                         Splat(1.0f));
 }
 
 struct ColorParameter {
   const MaterialTable& materials;
-  bool reflects;  // whatever the material
+  bool reflects;  // a reflectance, for all materials
   const AlignedVector<int32_t>& textures;
   const AlignedVector<float>*constant_r, *constant_g, *constant_b;
   float *r, *g, *b;
@@ -163,8 +158,8 @@ struct ColorParameter {
   }
 };
 
-// GGX alpha: the constant, or from the texture as the material asks. pbrt's floor of
-// 1e-4.
+// GGX alpha: the constant, or from the texture, remapped as the material asks and at
+// least 1e-4, as in pbrt.
 struct AlphaParameter {
   const MaterialTable& materials;
   const AlignedVector<int32_t>& textures;
@@ -239,7 +234,7 @@ void Textures(Wave& wave) {
 
 Stage TextureStage() {
   return {.name = "texture",
-          .meaning = "textured material parameters of surface hits",
+          .meaning = "evaluates textured material parameters",
           .input = QueueId::kSurface,
           .role = StageRole::kTexture,
           .needs = {Feature::kTextures},

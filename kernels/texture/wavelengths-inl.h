@@ -11,31 +11,30 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// What the number of a path chooses, u in [0, 1): 3 u is one of its three wavelengths, 0
-/// the short one, and a place in the triples.
+/// The choice of a path's number u in [0, 1): 3 u is one of its three wavelengths, 0
+/// being the short one, and a place in the triples.
 struct Wavelengths {
   VF place;   // [0, kTriples): bin and place within it
   VI triple;  // = the bin of the short wavelength
-  VI hero;    // 0, 1, 2: the wavelength that glass leaves
-  MF alone;   // glass has left it
+  VI hero;    // 0, 1, 2: the wavelength that remains after dispersion
+  MF alone;   // the path has been dispersed
 
   LANELIGHT_INLINE Wavelengths(const PathColumns& p, const Slots& slots)
       : Wavelengths(Gather(p.wavelength, slots)) {}
   LANELIGHT_INLINE explicit Wavelengths(VF number) {
     const DI di;
-    const DF df;
     alone =
-        hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(di, number))));
+        hn::MaskFromVec(hn::BitCast(DF(), hn::BroadcastSignBit(hn::BitCast(di, number))));
     const VF thirds = hn::Mul(hn::Abs(number), Splat(3.0f));
     hero = hn::Min(hn::ConvertTo(di, thirds), hn::Set(di, 2));
-    const VF part = hn::Sub(thirds, hn::ConvertTo(df, hero));
+    const VF part = hn::Sub(thirds, hn::ConvertTo(DF(), hero));
     place = hn::Mul(part, Splat(float{kTriples}));
     triple = hn::Min(hn::ConvertTo(di, place), hn::Set(di, kTriples - 1));
   }
 };
 
-/// Eight vectors hold an entry for each triple: permutations take a quarter of the time
-/// of a gather then.
+/// True if eight vectors hold an entry for each triple: permutations then take a quarter
+/// of the time of a gather.
 inline constexpr bool kTriplesInVectors =
     !HWY_HAVE_SCALABLE && hn::MaxLanes(DF()) * 8 == kTriples;
 
@@ -44,11 +43,10 @@ LANELIGHT_INLINE VF OfTriple(const float* array, VI triple) {
   if constexpr (!kTriplesInVectors) {
     return Gather(array, triple);
   } else {
-    const DI di;
     const DF df;
-    const auto lane = hn::IndicesFromVec(df, hn::And(triple, hn::Set(di, 15)));
+    const auto lane = hn::IndicesFromVec(df, hn::And(triple, hn::Set(DI(), 15)));
     const auto has = [&](int bit)
-                         HWY_ATTR { return hn::TestBit(triple, hn::Set(di, bit)); };
+                         HWY_ATTR { return hn::TestBit(triple, hn::Set(DI(), bit)); };
     const MF odd = hn::RebindMask(df, has(16)), second = hn::RebindMask(df, has(32)),
              last = hn::RebindMask(df, has(64));
     const auto of = [&](int begin) HWY_ATTR {
@@ -69,7 +67,7 @@ LANELIGHT_INLINE V3 ByBin(const float* array, VI triple) {
   return {OfTriple(array + 2 * kTriples, triple), OfTriple(array + kTriples, triple),
           OfTriple(array, triple)};
 }
-/// The same of arrays that begin at `begin`, often all in one place.
+/// Does the same for arrays that begin at `begin`, often all in one place.
 LANELIGHT_INLINE V3 ByBin(const float* arrays, VI begin, VI triple) {
   if constexpr (kTriplesInVectors) {
     const int32_t first = hn::GetLane(begin);
@@ -90,9 +88,8 @@ LANELIGHT_INLINE V3 AtRows(const SpectrumTable& table, VI row, const Wavelengths
 
 /// Index of refraction at the hero's wavelength.
 LANELIGHT_INLINE VF IndexAt(const SpectrumTable& table, VI row, const Wavelengths& w) {
-  const DI di;
-  const VI begin = hn::Mul(row, hn::Set(di, kWavelengthEdges));
-  const VI bin = hn::Add(w.triple, hn::Mul(w.hero, hn::Set(di, kTriples)));
+  const VI begin = hn::Mul(row, hn::Set(DI(), kWavelengthEdges));
+  const VI bin = hn::Add(w.triple, hn::Mul(w.hero, hn::Set(DI(), kTriples)));
   const VI at = hn::Add(begin, bin);
   const VF low = Gather(table.indices.data(), at);
   const VF high = Gather(table.indices.data() + 1, at);

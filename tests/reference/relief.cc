@@ -82,7 +82,7 @@ bool OnlyMirrorsOrRefracts(MaterialKind kind) {
          kind == MaterialKind::kDielectric || kind == MaterialKind::kThinDielectric;
 }
 
-// See kernels/surface/relief-inl.h.
+// See kernels/surface/mapped_normals-inl.h.
 Vec3d KeepInView(Vec3d n, Vec3d ng, Vec3d wo, bool mirrors) {
   if (Dot(ng, wo) < 0) wo = -wo;
   const double least = 1.0 / 64, steepest = std::acos(least);

@@ -1,7 +1,7 @@
 // The density of clouds on every target against the scalar twin.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/media/cloud-inl.h"
+#include "kernels/media/voxels-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -1,8 +1,5 @@
-// Shadow rays where some surfaces only bound a medium: from surface to surface until one
-// is met that stops light, or the light. Each leg uses the stages that find the nearest
-// surface of a path's ray, on columns of the shadow ray in the place of the path's.
-//   orientation  of interfaces is that of their shading normal, hence both are found
-//   cost         a traversal for each interface in between
+// Transmittance of media along shadow rays. If all surfaces are opaque, a shadow ray lies
+// in the medium that it starts in.
 #include "kernels/simd/each_target-inl.h"
 
 #include <span>
@@ -13,7 +10,45 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// The columns as the intersection and surface stages are to see them.
+template <bool kChanges>
+void ShadowMediaOf(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const VI medium = ShadowStartMedium<kChanges>(wave, slots);
+                 const V3 o = Gather3(p.p_x, p.p_y, p.p_z, slots);
+                 DimShadow(wave, slots, {medium, o, Gather(p.ls_distance, slots), 0});
+               });
+}
+
+StageFn ResolveShadowMedia(const FeatureSet& features) {
+  return features.Has(Feature::kMediumChanges) ? ShadowMediaOf<true>
+                                               : ShadowMediaOf<false>;
+}
+
+Stage ShadowMediaStage() {
+  const FieldSet light = {Field::ls_x, Field::ls_y, Field::ls_z, Field::ls_distance};
+  return {.name = "media_dim",
+          .meaning = "applies the transmittance of media to shadow rays",
+          .input = QueueId::kShadow,
+          .role = StageRole::kMedia,
+          .needs = {Feature::kMedia, Feature::kOpaqueShadows, Feature::kLights,
+                    Feature::kScatters},
+          .reads = light | fields::kShadow | fields::kNormal | fields::kPoint |
+                   FieldSet{Field::pixel, Field::sample, Field::depth, Field::branch,
+                            Field::crossings} |
+                   FieldSet{Field::medium, Field::prim, Field::wavelength},
+          .writes = fields::kShadow,
+          .resolve = ResolveShadowMedia};
+}
+
+// If some surfaces only bound a medium, a shadow ray goes from surface to surface until
+// it meets one that stops light, or the light. Each leg runs the stages that find the
+// nearest surface of a path's ray, on columns of the shadow ray.
+//   orientation  the shading normal orients interfaces, hence both normals are found
+//   cost         a traversal for each interface in between
+
+// Returns the columns with the shadow ray as the ray of intersection and surface stages.
 HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
   const PathColumns& p = wave.path;
   PathColumns ray = p;
@@ -24,7 +59,7 @@ HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
   ray.p_error = p.sh_p_error;
   ray.ng_x = p.sh_n_x, ray.ng_y = p.sh_n_y, ray.ng_z = p.sh_n_z;
   ray.ns_x = p.sh_ns_x, ray.ns_y = p.sh_ns_y, ray.ns_z = p.sh_ns_z;
-  // Nothing else of the surface is asked for, and its tangents are the path's.
+  // The other columns of the surface belong to the path.
   ray.tg_x = ray.tv_x = ray.uv_u = nullptr;
   if (wave.geometry->normals.empty()) ray.ns_x = nullptr;
   return ray;

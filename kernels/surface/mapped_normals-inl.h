@@ -1,21 +1,20 @@
-// Shading normals that a texture gives, made valid.
+// Makes shading normals of bump and normal maps valid.
 //
-// A normal of its own makes two kinds of directions impossible that a real surface would
-// never show: facets that look away from the viewer, and reflections that go into the
-// surface. pbrt-v4 follows both: paths enter what is solid and are lost, which is black.
-// Here
-// - a normal that faces away from the viewer is turned toward him, in the plane of the
-//   two, until it is seen at a grazing angle (cosine kLeastCosine): of a real bump such a
-//   facet is hidden by its neighbours;
-// - of materials that only mirror or refract (metals, glass), a normal is turned so far
-//   that the mirrored viewer is above the surface. This is what the Iray renderer does
-//   for all materials (Keller, Waechter, Raab, Seibert, van Antwerpen, Korndoerfer and
-//   Kettner 2017, "The Iray Light Transport Simulation and Rendering System").
-// Elsewhere normals and images are those of pbrt-v4. Light that a diffuse bump scatters
-// below the horizon of the surface goes on there, as in pbrt-v4; at a tilt of theta that
-// is (1 - cos theta) / 2 of it.
-#ifndef LANELIGHT_SURFACE_RELIEF_INL_H_
-#define LANELIGHT_SURFACE_RELIEF_INL_H_
+// A shading normal can cause two kinds of directions that a real surface never shows:
+// facets that face away from the viewer, and reflections into the surface. pbrt-v4
+// follows both: paths enter the solid and are lost, which is black. Here
+// - a normal that faces away from the viewer is turned, in the plane of the two, to a
+//   grazing angle (cosine kLeastCosine): neighbours would hide such a facet of a real
+//   bump;
+// - for materials that only mirror or refract (metals, glass), a normal is turned so
+//   that the mirrored viewer is above the surface. The Iray renderer does so for all
+//   materials (Keller et al. 2017, "The Iray Light Transport Simulation and Rendering
+//   System").
+// Other normals are those of pbrt-v4. Light that a diffuse bump scatters below the
+// horizon of the surface continues there, as in pbrt-v4: (1 - cos theta) / 2 at a tilt of
+// theta.
+#ifndef LANELIGHT_SURFACE_MAPPED_NORMALS_INL_H_
+#define LANELIGHT_SURFACE_MAPPED_NORMALS_INL_H_
 
 #include "kernels/queue/batch-inl.h"
 #include "kernels/simd/vec3-inl.h"
@@ -24,10 +23,10 @@
 LANELIGHT_BEGIN_KERNELS
 
 /// The columns that stages read and write to change the shading normal.
-inline constexpr FieldSet kReliefReads =
+inline constexpr FieldSet kMappedNormalReads =
     fields::kNormal | fields::kTangents | fields::kUv |
     FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::material};
-inline constexpr FieldSet kReliefWrites =
+inline constexpr FieldSet kMappedNormalWrites =
     fields::kTangent | FieldSet{Field::ns_x, Field::ns_y, Field::ns_z};
 
 /// Least cosine of the viewer to a normal, and of the mirrored viewer to the surface.
@@ -63,8 +62,8 @@ HWY_INLINE V3 Sided(V3 n, V3 ng, V3 before) {
   return Mul(n, hn::CopySign(Splat(1.0f), Dot(n, ng)));
 }
 
-/// `n`, a unit normal on the side of `ng`, turned as said above; `wo` leads to the viewer
-/// and may be on either side.
+/// Turns `n`, a unit normal on the side of `ng`, as the top of this file says. `wo`
+/// points to the viewer and may be on either side.
 HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
   const VF least = Splat(kLeastCosine);
   wo = Mul(wo, hn::CopySign(Splat(1.0f), Dot(ng, wo)));
@@ -74,7 +73,7 @@ HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
   const V3 grazed =
       MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))), Mul(wo, least));
   n = IfThenElse(hn::Lt(cosine, least), grazed, n);
-  // The mirrored viewer, lifted to the least height or that of the viewer himself.
+  // The mirrored viewer, lifted to the least height or to that of the viewer.
   const V3 mirrored = MulAdd(n, hn::Mul(Splat(2.0f), Dot(n, wo)), -wo);
   const VF height = Dot(mirrored, ng), wanted = hn::Min(least, Dot(wo, ng));
   const V3 lifted = Normalize(MulAdd(ng, hn::Sub(wanted, height), mirrored));
@@ -82,7 +81,7 @@ HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
   return IfThenElse(low, Normalize(lifted + wo), n);
 }
 
-/// Writes the normal, with what FrameFromTangent (kernels/shade) makes its frame of.
+/// Writes the normal and the tangent from which FrameFromTangent makes the frame.
 HWY_INLINE void StoreNormal(const Wave& wave, const StoreSlots& slots, V3 n, V3 ng,
                             V3 tangent) {
   const PathColumns& path = wave.path;

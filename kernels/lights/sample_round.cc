@@ -1,9 +1,10 @@
-// Light samples on emitting spheres: uniform over the cone of directions that the sphere
-// fills; from inside, and where its far side is seen through holes, uniform over its
-// area.
+// Light samples on emitting spheres and disks. Spheres: uniform over the cone of
+// directions that the sphere fills; from inside, and where its far side is seen through
+// holes, uniform over its area.
 //   density     outside pdf_sa = pmf / (2 pi (1 - cos_max)); inside pdf_area = pmf / area
 //   source      Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct
 //               Lighting Calculations"; 1 - cos_max in a form exact for tiny spheres
+// Disks and rings: uniform over the area, pdf_area = pmf / area.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/geometry-inl.h"
@@ -59,8 +60,7 @@ struct SphereEmitters {
   }
 
   HWY_INLINE SphereEmitters Choose(VI light) const {
-    const DF df;
-    const auto at = hn::IndicesFromVec(df, light);
+    const auto at = hn::IndicesFromVec(DF(), light);
     const auto pick = [&](VF v) HWY_ATTR { return hn::TableLookupLanes(v, at); };
     const auto pick3 = [&](V3 v) HWY_ATTR { return V3{pick(v.x), pick(v.y), pick(v.z)}; };
     SphereEmitters chosen = *this;
@@ -71,7 +71,7 @@ struct SphereEmitters {
     chosen.pmf = pick(pmf);
     chosen.area = pick(area);
     chosen.cone_from = pick(cone_from);
-    chosen.two_sided = hn::BitCast(DI(), pick(hn::BitCast(df, two_sided)));
+    chosen.two_sided = hn::BitCast(DI(), pick(hn::BitCast(DF(), two_sided)));
     return chosen;
   }
 };
@@ -155,6 +155,34 @@ Stage SampleSphereLightStage() {
   return SampleLightStage(
       "light_sphere", "samples emitting spheres", Feature::kSphereLights,
       ByFeature<Feature::kManyLights, SampleSphereLight<true>, SampleSphereLight<false>>);
+}
+
+template <bool kMany>
+void SampleDiskLight(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachLit<kMany>(
+      wave, LightShape::kDisk, [&](const StoreSlots& slots, VI index) HWY_ATTR {
+        const Lights light(wave, index);
+        const LightDisk disk(wave, light.Primitive());
+        // r^2 is uniform between the squares of the radii.
+        const VF inner2 = hn::Mul(disk.inner_radius, disk.inner_radius);
+        const VF span = hn::NegMulAdd(disk.inner_radius, disk.inner_radius,
+                                      hn::Mul(disk.radius, disk.radius));
+        const VF r = hn::Sqrt(hn::MulAdd(Gather(p.u_light_0, slots), span, inner2));
+        const auto [sine, cosine] = SinCos2Pi(Gather(p.u_light_1, slots));
+        const V3 v_axis = Cross(disk.n, disk.u_axis);
+        const V3 q = MulAdd(disk.u_axis, hn::Mul(r, cosine),
+                            MulAdd(v_axis, hn::Mul(r, sine), disk.center));
+        StoreSurfaceSample(p, slots,
+                           {q, disk.n, hn::Div(Pmf(wave, slots, index), light.Area())},
+                           {light.Radiance(), light.TwoSided()});
+      });
+}
+
+Stage SampleDiskLightStage() {
+  return SampleLightStage(
+      "light_disk", "samples emitting disks", Feature::kDiskLights,
+      ByFeature<Feature::kManyLights, SampleDiskLight<true>, SampleDiskLight<false>>);
 }
 
 LANELIGHT_END_KERNELS
