@@ -14,6 +14,7 @@
 #include "src/cli/render_outputs.h"
 #include "src/measure/report/page.h"
 #include "src/measure/throughput/bench_scenes.h"
+#include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_table.h"
 #include "src/render/job/saving.h"
 

@@ -1,16 +1,14 @@
-#include "src/measure/compare/comparison_page.h"
+#include "src/measure/compare/comparison.h"
 
 #include <nlohmann/json.hpp>
 
-#include "src/measure/compare/error_maps.h"
 #include "src/measure/compare/linear_image.h"
 #include "src/measure/report/page.h"
-#include "src/measure/report/shrink.h"
 
 namespace lanelight {
 namespace {
 
-// Pictures of a page, by names that do not hang on those of files, of which two may be
+// Images of a page. Their names do not depend on names of files, of which two may be
 // equal.
 class PagePictures {
  public:

@@ -1,4 +1,4 @@
-#include "src/measure/compare/comparison_sheet.h"
+#include "src/measure/compare/comparison.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "src/base/image/pixel_rect.h"
-#include "src/measure/compare/error_maps.h"
+#include "src/measure/compare/linear_image.h"
 
 namespace lanelight {
 namespace {
 
-constexpr int kColumns = 4, kGap = 4;  // pictures in a row; pixels between two
+constexpr int kColumns = 4, kGap = 4;  // pictures in a row; pixels between them
 constexpr Vec3d kGapColor = {1, 1, 1}, kInvalid = {0.2, 0.2, 0.2};
 // Linear colours.
 constexpr Vec3d kDarker = {0.02, 0.1, 0.55}, kBrighter = {0.55, 0.03, 0.03},
@@ -39,7 +39,7 @@ void Put(Image& image, int x, int y, Vec3d color) {
   for (int c = 0; c < 3; ++c) image.At(x, y, c) = static_cast<float>(color[c]);
 }
 
-// Calls color(i) for all pixels of a picture that lies there.
+// Fills `place` with color(i).
 template <class Color>
 void Draw(Image& image, const PixelRect& place, const Color& color) {
   std::size_t i = 0;

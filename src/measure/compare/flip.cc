@@ -6,21 +6,20 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/measure/compare/convolve.h"
-#include "src/measure/compare/flip_color.h"
+#include "src/measure/compare/flip_filters.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::size_t kPixelsOfTask = 4096;
 
-// The paper's constants, by its names: the exponents of colour and feature differences;
-// where the larger part of colour differences ends, and to what it is spread.
+// The paper's constants, by its names: exponents of colour and feature differences, and
+// the knee (kPc, kPt) of the curve for colour differences.
 constexpr double kQc = 0.7, kQf = 0.5, kPc = 0.4, kPt = 0.95;
-// Width of the eye's detectors of edges and points, in degrees.
+// Width of the detectors of edges and points, in degrees.
 constexpr double kFeatureWidth = 0.082;
 
-// A term of the eye's contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
+// A term of the contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
 // degrees.
 struct Sensitivity {
   double a, b;
@@ -34,7 +33,7 @@ Kernel Scaled(std::vector<double> weights, double factor) {
   return out;
 }
 
-// exp(-x^2 / scale) at whole pixels.
+// Returns exp(-x^2 / scale) at integer x.
 std::vector<double> Bell(int radius, double scale) {
   std::vector<double> out;
   for (int x = -radius; x <= radius; ++x) out.push_back(std::exp(-double(x) * x / scale));
@@ -45,7 +44,7 @@ double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// The filters of an image for one distance of the eye.
+// The filters of an image for one viewing distance.
 class EyeFilters {
  public:
   explicit EyeFilters(double pixels_per_degree)
@@ -76,8 +75,7 @@ class EyeFilters {
     return out;
   }
 
-  // Lengths of the gradients that the detector of edges (derivative 1) or points (2)
-  // sees.
+  // Returns lengths of gradients of the edge (derivative 1) or point (2) detector.
   Plane Features(const Plane& in, int w, int h, int derivative) const {
     std::vector<double> bell = Bell(feature_radius_, 2 * deviation_ * deviation_);
     const Kernel smooth = Scaled(bell, 1 / Sum(bell)), slope = Slope(bell, derivative);
@@ -100,7 +98,7 @@ class EyeFilters {
     return ConvolveColumns(ConvolveRows(in, w, h, kernel), w, h, kernel);
   }
 
-  // A derivative of the bell; weights above and below zero have sums of 1 and -1.
+  // Returns a derivative of the bell; positive weights sum to 1, negative ones to -1.
   Kernel Slope(std::vector<double> weights, int derivative) const {
     double above = 0, below = 0;
     for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
@@ -108,7 +106,7 @@ class EyeFilters {
       weights[i] *= derivative == 1 ? -x : x * x / (deviation_ * deviation_) - 1;
       (weights[i] > 0 ? above : below) += std::abs(weights[i]);
     }
-    // A detector narrower than a pixel sees nothing.
+    // A detector narrower than a pixel detects nothing.
     if (above == 0 || below == 0) return Kernel(weights.size(), 0.0f);
     for (double& w : weights) w /= w > 0 ? above : below;
     return Scaled(weights, 1);
@@ -120,7 +118,7 @@ class EyeFilters {
   const int feature_radius_;
 };
 
-// What one image brings to the comparison.
+// The filtered colours and features of one image.
 struct Seen {
   std::array<Plane, 3> lab;
   Plane edges, points;
@@ -161,7 +159,7 @@ Seen Look(const LinearImage& image, const EyeFilters& eye, const OpponentColors&
   return out;
 }
 
-// Of a difference of colours, 0 to 1: most of the range is for those that occur.
+// Maps a colour difference to 0 ... 1; frequent differences take most of the range.
 double ColorError(double distance, double largest) {
   const double error = std::pow(distance, kQc), knee = kPc * largest;
   if (error < knee) return kPt / knee * error;

@@ -12,7 +12,7 @@
 #include "src/base/core/error.h"
 #include "src/base/image/image.h"
 #include "src/base/stat/interval.h"
-#include "src/measure/compare/z_scores.h"
+#include "src/measure/compare/tile_test.h"
 
 namespace lanelight {
 namespace {
@@ -55,12 +55,11 @@ std::vector<Channel> CommonChannels(const Image& test, const Image& reference,
 class TileGrid {
  public:
   TileGrid(int width, int height, int tile)
-      : tile_(tile),
-        columns_((width + tile - 1) / tile),
-        tiles_(static_cast<std::size_t>(columns_) * ((height + tile - 1) / tile)) {}
+      : layout_{tile, (width + tile - 1) / tile, (height + tile - 1) / tile},
+        tiles_(layout_.size()) {}
 
   void Add(int x, int y, double a, double b) {
-    Tile& tile = tiles_[static_cast<std::size_t>(y / tile_) * columns_ + x / tile_];
+    Tile& tile = tiles_[layout_.At(x, y)];
     tile.test += a, tile.reference += b, ++tile.count;
   }
   void AppendErrors(double epsilon, std::vector<double>* errors) const {
@@ -75,11 +74,11 @@ class TileGrid {
   struct Tile {
     double test = 0, reference = 0, count = 0;
   };
-  int tile_, columns_;
+  TileLayout layout_;
   std::vector<Tile> tiles_;
 };
 
-// Mean without the largest `share` of the values.
+// Returns the mean without the largest fraction `share` of the values.
 double TrimmedMean(std::vector<double> values, double share) {
   const std::size_t keep =
       values.size() -
@@ -95,7 +94,7 @@ double Ratio(double test, double reference) {
   return test == 0 && reference == 0 ? 1 : test / reference;
 }
 
-// Sums over all channels and pixels, on the way to a CompareResult.
+// Sums over all channels and pixels.
 class Comparison {
  public:
   Comparison(const Image& test, const Image& reference, const CompareOptions& options)
@@ -186,9 +185,7 @@ class Comparison {
     result_.psnr = result_.mse == 0 ? std::numeric_limits<double>::infinity()
                                     : 10 * std::log10(peak_ * peak_ / result_.mse);
     result_.tile_relmse_max =
-        tile_errors_.empty()
-            ? kNan
-            : *std::max_element(tile_errors_.begin(), tile_errors_.end());
+        tile_errors_.empty() ? kNan : *std::ranges::max_element(tile_errors_);
     result_.tile_relmse_median = stat::Median(std::move(tile_errors_));
     if (has_variance_) result_.z = z_.Finish();
     return result_;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostTiles = 1024;  // about
 constexpr int kLeastSide = 8;
 
-// At least so many of a tile's samples must be expected.
+// Required number of samples of a tile.
 constexpr double kLeastObservations = 25;
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "src/measure/compare/z_scores.h"
+#include "src/measure/compare/metrics.h"
 
 #include <algorithm>
 #include <cmath>

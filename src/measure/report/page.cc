@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "src/base/core/check.h"
 #include "src/base/core/json_text.h"
@@ -18,8 +18,8 @@ namespace {
 
 constexpr float kMaxHalf = 65504.0f;
 
-// JSON has `<` in texts only, where the escape means the same. Without any `<`, nothing
-// in the block can end it or begin a comment.
+// Escapes `<`, which JSON has in texts only, so that no text can end the script element
+// or begin a comment.
 std::string JsonForScript(const nlohmann::json& json) {
   const std::string text = DumpJson(json);
   std::string out;
@@ -39,23 +39,18 @@ std::string DataBlock(const nlohmann::json& data) {
          "</script>\n";
 }
 
-// The name as JSON, so that the page reads it as it reads the names in the study; then
-// safe between double quotes.
+// Returns the name as JSON, which the page parses, escaped for double quotes.
 std::string Attribute(const std::string& name) {
   std::string out;
   for (const char c : JsonForScript(name)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -95,11 +90,15 @@ void AppendImage(const ReportImage& image, std::string& page) {
   page += "</script>\n";
 }
 
-std::string WithImages(std::string page, const nlohmann::json& data,
-                       const std::vector<ReportImage>& images, const std::string& tail) {
+std::size_t CountValues(const std::vector<ReportImage>& images) {
   std::size_t values = 0;
   for (const ReportImage& image : images) values += image.values.size();
-  page.reserve(page.size() + values * 8 / 3 + (1 << 20));
+  return values;
+}
+
+std::string WithImages(std::string page, const nlohmann::json& data,
+                       const std::vector<ReportImage>& images, const std::string& tail) {
+  page.reserve(page.size() + CountValues(images) * 8 / 3 + (1 << 20));
   page += DataBlock(data);
   for (const ReportImage& image : images) AppendImage(image, page);
   return page + tail;
@@ -108,7 +107,7 @@ std::string WithImages(std::string page, const nlohmann::json& data,
 }  // namespace
 
 std::uint16_t ToHalfBits(float value) {
-  // A NaN's payload may not fit: one quiet NaN for all.
+  // The payload of a NaN may not fit.
   if (std::isnan(value)) return 0x7e00;
   return half(std::clamp(value, -kMaxHalf, kMaxHalf)).bits();
 }
@@ -142,5 +141,43 @@ std::string StressReportPage(const nlohmann::json& stress) {
 }
 
 std::string LivePage() { return LivePageHead() + LivePageTail(); }
+
+namespace {
+
+ReportImage Shrunk(const ReportImage& image, int side) {
+  ReportImage out;
+  out.name = image.name;
+  out.width = (image.width + side - 1) / side;
+  out.height = (image.height + side - 1) / side;
+  out.channels = image.channels;
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const int x1 = std::min(image.width, (x + 1) * side);
+      const int y1 = std::min(image.height, (y + 1) * side);
+      for (int c = 0; c < image.channels; ++c) {
+        double sum = 0;
+        for (int yy = y * side; yy < y1; ++yy) {
+          for (int xx = x * side; xx < x1; ++xx) {
+            sum +=
+                image.values[(std::size_t(yy) * image.width + xx) * image.channels + c];
+          }
+        }
+        const double count = double(x1 - x * side) * double(y1 - y * side);
+        out.values.push_back(static_cast<float>(sum / count));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+int ShrinkImages(std::vector<ReportImage>& images, std::size_t most) {
+  const double excess = double(CountValues(images)) / double(most);
+  const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(excess))));
+  if (side == 1) return side;
+  for (ReportImage& image : images) image = Shrunk(image, side);
+  return side;
+}
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// The fixed parts of the report's pages, around their data, and the script of plots.
+// The fixed parts of the pages, before and after their data, and the script of plots.
 // Their definitions are made from src/measure/report/page/ and python/ by embed_page.py
 // when the library is built.
 #pragma once

@@ -7,7 +7,7 @@
 #include "src/base/core/error.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "src/measure/compare/noisy_channels.h"
+#include "src/measure/compare/agreement.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 

@@ -8,7 +8,7 @@
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
 #include "src/base/image/atomic_file.h"
-#include "src/measure/report/shrink.h"
+#include "src/measure/report/page.h"
 #include "src/measure/study/study_images.h"
 
 namespace lanelight {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/report/shrink.h"
+#include "src/measure/report/page.h"
 #include "src/measure/study/analysis.h"
 
 namespace lanelight {

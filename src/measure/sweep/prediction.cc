@@ -7,7 +7,6 @@
 #include <set>
 
 #include "src/measure/sweep/cell_render.h"
-#include "src/measure/sweep/probe_render.h"
 #include "src/measure/sweep/sweep_folder.h"
 
 namespace lanelight {
@@ -17,7 +16,7 @@ constexpr double kProbeSeconds = 0.2;  // of each
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kReportBytes = 12e3;
 
-// A scene as it is compiled, and a strategy on it.
+// A compiled scene with a strategy.
 struct Combination {
   std::string scene, strategy;
   const SweepCell* cell;  // the first of it
@@ -78,8 +77,8 @@ void Predictor::FindCombinations(SweepPrediction& out) {
   out.combinations = combinations_.size();
 }
 
-// Every step-th of them, so that all scenes and strategies have their turn; in grid
-// order, so that no scene is compiled twice.
+// Renders evenly spaced combinations, to cover all scenes and strategies, in grid order,
+// to compile each scene once.
 void Predictor::RenderProbes(std::size_t most, SweepPrediction& out) {
   const std::size_t count = std::min(most, combinations_.size());
   for (std::size_t i = 0; i < count && !stop_; ++i) {
@@ -95,8 +94,8 @@ void Predictor::RenderProbes(std::size_t most, SweepPrediction& out) {
   }
 }
 
-// Mean logarithm of the seconds of a sample over the strategies of a scene; over all
-// scenes if none of this one's was rendered. NaN without any.
+// Returns the mean logarithm of seconds per sample over probes of the scene, or over all
+// probes if the scene has none. NaN without probes.
 double Predictor::MeanLog(const std::string& scene) const {
   double sum = 0, all = 0;
   int count = 0;
@@ -123,7 +122,7 @@ double Predictor::SampleSeconds(const std::string& scene,
   return std::exp(MeanLog(scene) + (count > 0 ? ratio / count : 0));
 }
 
-// Of the same scene and strategy; else of the scene; else any; null without probes.
+// Returns a probe of the scene and strategy; else of the scene; else any; null without.
 const ProbeRender* Predictor::Nearest(const std::string& scene,
                                       const std::string& strategy) const {
   const auto own = pilots_.find({scene, strategy});
@@ -134,7 +133,7 @@ const ProbeRender* Predictor::Nearest(const std::string& scene,
   return pilots_.empty() ? nullptr : &pilots_.begin()->second;
 }
 
-// Samples per pixel that the cell will have, at `pixel_seconds` a sample of every pixel.
+// Returns the samples per pixel of a cell; `pixel_seconds`: for one sample of all pixels.
 double SamplesOf(const RenderSettings& settings, const ProbeRender& probe,
                  double pixel_seconds) {
   double spp = double(settings.spp.value_or(probe.spp));

@@ -17,7 +17,7 @@
 namespace lanelight {
 namespace {
 
-// What this process knows of a cell.
+// State of a cell as far as this process knows.
 enum class Known { kMissing, kDone, kFailed, kElsewhere, kNoTarget };
 
 class Runner {
@@ -34,7 +34,8 @@ class Runner {
   void Run(SweepOutcome& outcome);
 
  private:
-  using Group = std::vector<std::size_t>;  // places in part_: cells of one compiled scene
+  using Group =
+      std::vector<std::size_t>;  // indices into part_: cells of one compiled scene
 
   void FindPart();
   void FirstOfAll();
@@ -56,11 +57,11 @@ class Runner {
   SweepFolder& folder_;
   const LockFile claims_;  // of cells and scenes, by their names
   CellRenderer renderer_;
-  std::vector<const SweepCell*> part_;  // that this process may render
+  std::vector<const SweepCell*> part_;  // cells of this process
   std::vector<Known> known_;            // of each
-  std::vector<bool> failed_before_;     // this process began; tried again
+  std::vector<bool> failed_before_;     // failed before this process started; retried
   std::vector<Group> groups_;
-  std::set<std::string> said_;  // messages of failures
+  std::set<std::string> said_;  // reported failures
   std::size_t rendered_ = 0;
   bool interrupted_ = false;
 };
@@ -68,8 +69,8 @@ class Runner {
 void Runner::Run(SweepOutcome& outcome) {
   if (!claims_.locking() && options_.part.count == 1) {
     throw InputError(fmt::format(
-        "the file system of '{}' has no locks, by which processes agree on who renders "
-        "what; give each process a part of its own with --part I/N",
+        "the file system of '{}' does not support locks, which several processes need; "
+        "give each process its own part with --part I/N",
         claims_.path()));
   }
   FindPart();
@@ -100,8 +101,8 @@ void Runner::FindPart() {
   }
 }
 
-// Scenes that nobody has begun: as long as there are some, no scene is compiled by two
-// processes.
+// Renders scenes that no process has claimed, so that no scene is compiled twice as long
+// as there are some.
 void Runner::FirstOfAll() {
   for (const Group& group : groups_) {
     if (std::all_of(group.begin(), group.end(),
@@ -117,8 +118,8 @@ void Runner::FirstOfAll() {
   }
 }
 
-// Cells of scenes that others have begun: from their ends, each helper from a place of
-// its own, so that two of them seldom want the same cell.
+// Renders cells of scenes claimed by other processes, from their ends, starting at a
+// place that depends on the process, to avoid conflicts.
 void Runner::Help() {
   std::vector<std::size_t> rest;
   for (const Group& group : groups_) {
@@ -172,7 +173,7 @@ bool Runner::StillMissing(std::size_t i) {
 
 void Runner::RenderCell(std::size_t i) {
   const SweepCell& cell = *part_[i];
-  // Not a failure of the cell: nothing of what follows could be kept.
+  // Throws: without a writable directory, no further result can be kept.
   folder_.CheckWritable();
   folder_.MakeCell(cell);
   Report(cell, {});
@@ -211,7 +212,7 @@ void Runner::Fail(std::size_t i, const std::string& message) {
   const SweepCell& cell = *part_[i];
   known_[i] = Known::kFailed;
   folder_.Fail(cell, message);
-  // All cells of a broken scene say the same.
+  // All cells of a broken scene have the same message.
   if (!said_.insert(message).second || !hooks_.on_problem) return;
   hooks_.on_problem(cell.name + ": " + message);
 }
@@ -230,8 +231,7 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   folder.Make();
   SweepOutcome outcome;
   if (!options.table_only) Runner(sweep, options, hooks, folder).Run(outcome);
-  // One after the other: the last process to get here sees all that is done, and what it
-  // writes stays.
+  // Processes write results one after the other, so that the last one includes all cells.
   const LockFile claims(folder.File("claims"));
   const auto claim = claims.Wait("the table", [](double) { return true; });
   WriteResults(sweep, folder, outcome);

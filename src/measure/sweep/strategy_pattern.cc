@@ -1,4 +1,4 @@
-#include "src/measure/sweep/strategy_pattern.h"
+#include "src/measure/sweep/sweep_file.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace lanelight {
 namespace {
 
 struct OpenPart {
-  std::string before;  // fixed text since the last one
+  std::string before;  // fixed text since the previous open part
   std::string name;
   std::vector<std::string> values;
 };
@@ -36,11 +36,11 @@ class PatternReader {
   PatternReader(const std::string& text, const SourceLocation& where)
       : text_(text), where_(where) {}
 
-  // What is behind the last open part is left in `rest`.
+  // Returns the open parts; `rest` is the text after the last one.
   std::vector<OpenPart> Read(std::string& rest) {
     for (std::size_t at = 0; at < text_.size(); ++at) {
       if (text_[at] == ',') item_ = at + 1;
-      if (text_[at] == '}') Fail("this '}' closes nothing");
+      if (text_[at] == '}') Fail("'}' without '{'");
       if (text_[at] == '{') at = List(at);
       if (text_[at] == '*') Star(at);
     }
@@ -53,10 +53,10 @@ class PatternReader {
     throw InputError(where_, fmt::format("strategy {}: {}", Quoted(text_), message));
   }
 
-  // Returns where the list ends.
+  // Reads a list in braces and returns its end.
   std::size_t List(std::size_t at) {
     const std::size_t close = text_.find('}', at);
-    if (close == std::string::npos) Fail("'{' begins a list that no '}' ends");
+    if (close == std::string::npos) Fail("'{' without '}'");
     std::vector<std::string> values;
     for (std::size_t from = at + 1; from <= close;) {
       const std::size_t end = std::min(text_.find(',', from), close);
@@ -110,10 +110,10 @@ std::vector<PatternStrategy> ExpandStrategy(const std::string& text,
         longer.back().text += part.before + value;
         longer.back().place.parameters[part.name] = value;
       }
-      if (longer.size() <= kMostPatternStrategies) continue;
+      if (longer.size() <= kMaxPatternStrategies) continue;
       throw InputError(where,
                        fmt::format("strategy {} stands for more than {} strategies",
-                                   Quoted(text), kMostPatternStrategies));
+                                   Quoted(text), kMaxPatternStrategies));
     }
     all = std::move(longer);
   }

@@ -1,14 +1,73 @@
 #include "src/measure/sweep/toml_values.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "src/base/core/check.h"
 #include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
-#include "src/measure/sweep/toml_nesting.h"
 
 namespace lanelight {
 namespace {
+
+// Largest nesting of brackets and dots in keys; a sweep file needs two or three.
+constexpr int kMaxTomlDepth = 32;
+
+struct TomlPlace {
+  int line = 1, column = 1;  // in bytes
+};
+
+// Returns the end of the string that begins at text[at]. An open string ends with its
+// line, where the parser reports it.
+std::size_t EndOfString(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string_view three = quote == '"' ? "\"\"\"" : "'''";
+  const bool many_lines = text.substr(at, 3) == three;
+  for (at += many_lines ? 3 : 1; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (!many_lines && (text[at] == quote || text[at] == '\n')) {
+      return at + 1;
+    } else if (many_lines && text.substr(at, 3) == three) {
+      // Up to two more quotes may belong to the string.
+      return std::min(text.find_first_not_of(quote, at), text.size());
+    }
+  }
+  return text.size();
+}
+
+TomlPlace PlaceOf(std::string_view text, std::size_t at) {
+  const std::string_view before = text.substr(0, at);
+  return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+          static_cast<int>(at - before.rfind('\n'))};  // npos is -1
+}
+
+// Returns where more than kMaxTomlDepth brackets are open, or a key has more dots.
+// Reading and destroying tables recurses once per level and could overflow the stack;
+// toml++ itself limits brackets only.
+std::optional<TomlPlace> TooDeepToml(std::string_view text) {
+  int open = 0, dots = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      at = EndOfString(text, at);
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    if (c == '.') ++dots;
+    if (c == '\n' || c == '=' || c == ',') dots = 0;
+    if (c == '[' || c == '{') ++open;
+    if (c == ']' || c == '}') --open;
+    if (dots > kMaxTomlDepth || open > kMaxTomlDepth) return PlaceOf(text, at);
+    ++at;
+  }
+  return std::nullopt;
+}
 
 std::string Kind(const toml::node& node) {
   switch (node.type()) {
@@ -35,9 +94,9 @@ TomlFile::TomlFile(const std::string& path, const std::string& text)
     : name_(std::make_shared<const std::string>(path)) {
   if (const auto deep = TooDeepToml(text)) {
     throw InputError({name_, deep->line, deep->column},
-                     fmt::format("tables, arrays or keys lie more than {} deep in each "
-                                 "other; a sweep file has them two deep",
-                                 kDeepestToml));
+                     fmt::format("tables, arrays or keys are nested more than {} deep; a "
+                                 "sweep file needs two levels",
+                                 kMaxTomlDepth));
   }
   try {
     root_ = toml::parse(text, path);
@@ -78,7 +137,7 @@ std::vector<const toml::table*> TomlFile::Tables(const std::string& key,
 
 std::string TomlFile::Value(const std::string& key, ValueForm form,
                             const toml::node& node) const {
-  // Counts and times have texts too, where they have units.
+  // Counts and times with units are texts.
   const bool number = form == ValueForm::kInteger || form == ValueForm::kNumber;
   if (number && node.is_string() && !ParseNumber<double>(Text(key, node))) {
     return Text(key, node);

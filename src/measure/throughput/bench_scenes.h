@@ -1,5 +1,5 @@
-// The scenes of `lanelight bench` where none is given: texts that are part of the
-// program, so that everybody measures the same (from scenes/, by embed_scenes.py).
+// The default scenes of `lanelight bench`. Their texts are part of the program
+// (embed_scenes.py), so that all users measure the same scenes.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,19 @@ struct SceneDescription;  // src/scene/description/description.h
 
 struct BenchScene {
   const char* name;
-  std::uint64_t spp;     // of a render: fixed, so that any two measurements have the same
-  const char* stresses;  // what of the renderer it keeps busy
+  std::uint64_t spp;     // of a render; fixed, so that measurements can be compared
+  const char* stresses;  // the parts of the renderer that take most of the time
   const char* text;
 };
 
-/// In the order in which they are measured.
+/// Returns the scenes in the order in which they are measured.
 const std::vector<BenchScene>& BenchScenes();
 
-/// Samples per pixel of a render of that scene, if nothing else is asked for; kFileSpp
-/// for scene files.
+/// Returns the default samples per pixel of that scene; kFileSpp for scene files.
 std::uint64_t BenchSpp(const std::string& scene);
 inline constexpr std::uint64_t kFileSpp = 16;
 
-/// The description of the scene of that name, or of the file. Throws InputError.
+/// Reads the scene of that name, or the scene file. Throws InputError.
 SceneDescription ReadBenchScene(const std::string& scene);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/throughput/throughput_json.h"
+#include "src/measure/throughput/throughput_comparison.h"
 
 #include <nlohmann/json.hpp>
 
@@ -7,8 +7,6 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/version.h"
 #include "src/base/stat/values.h"
-#include "src/measure/throughput/throughput_comparison.h"
-#include "src/measure/throughput/throughput_warnings.h"
 #include "src/render/job/machine_json.h"
 #include "src/vocabulary/strategy/choices_text.h"
 #include "src/vocabulary/strategy/strategy.h"
@@ -18,17 +16,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The rate over that of as many times one thread; null without a row of one.
+// Returns rate / (threads * rate of one thread); null without a row of one thread.
 Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
                         const ThroughputRow& row) {
   if (row.threads == 1) return IntervalJson(WithoutBounds(1));  // nothing is estimated
-  for (const ThroughputRow& one : rows) {
-    if (one.scene != row.scene || one.target != row.target || one.threads != 1) continue;
-    const Interval ratio = RateRatioOf(row.Rate(), one.Rate());
-    const double n = row.threads;
-    return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
-  }
-  return nullptr;
+  const ThroughputRow* one = OneThreadRow(rows, row);
+  if (one == nullptr) return nullptr;
+  const Interval ratio = RateRatioOf(row.Rate(), one->Rate());
+  const double n = row.threads;
+  return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
 }
 
 Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
@@ -109,12 +105,12 @@ KnownThroughput ReadThroughput(const std::string& path) {
     const Json json = ParseJson(ReadWholeFile(path));
     if (!json.contains("rows") || !json.contains("program")) {
       throw InputError(
-          fmt::format("'{}' is not what `lanelight bench --json` writes", path));
+          fmt::format("'{}' was not written by `lanelight bench --json`", path));
     }
     if (!json.contains("busy")) {
       throw InputError(fmt::format(
-          "'{}' is of an older version, which chose samples per pixel by the clock: "
-          "measure again with `lanelight bench --json`",
+          "'{}' was written by an older version, whose samples per pixel depended on "
+          "time; measure again with `lanelight bench --json`",
           path));
     }
     return ThroughputFromJson(json);

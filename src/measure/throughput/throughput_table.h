@@ -1,29 +1,24 @@
-// Throughputs as tables: for a terminal, in Markdown, and as comma-separated values.
+// Writes throughput as tables: for a terminal, in Markdown, and as CSV.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "src/measure/throughput/throughput_comparison.h"
+#include "src/measure/throughput/throughput.h"
 
 namespace lanelight {
 
-/// Markdown, its lines whole, or columns of text that fit `width`.
+/// Markdown without line breaks in rows, or text of at most `width` columns.
 struct TableStyle {
   bool markdown = false;
   std::size_t width = 80;
 };
 
-/// Two tables, rates and nanoseconds per sample by kind of stage, below the machine.
+/// Returns the machine and two tables: rates, and nanoseconds per sample by kind of
+/// stage.
 std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
                            const TableStyle& style);
-/// One line per row, machine included.
+/// Returns one line per row, each with the machine.
 std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
-/// Ratios by row, and a sentence: which are slower by more than `tolerance`. Fits `width`
-/// columns.
-std::string ComparisonText(const RateComparison& comparison,
-                           const KnownThroughput& before, double tolerance,
-                           std::size_t width);
-
 }  // namespace lanelight

@@ -10,7 +10,6 @@
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
 #include "src/measure/sweep/results.h"
-#include "src/measure/sweep/sweep_page.h"
 #include "src/render/job/machine_json.h"
 #include "tests/base/image/temporary_folder.h"
 

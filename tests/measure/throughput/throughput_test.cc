@@ -11,7 +11,6 @@
 #include "src/measure/throughput/throughput.h"
 #include "src/measure/throughput/throughput_comparison.h"
 #include "src/measure/throughput/throughput_table.h"
-#include "src/measure/throughput/throughput_warnings.h"
 #include "src/scene/parse/parse.h"
 #include "tests/render/run/render_fixture.h"
 #include "tests/support/test_target.h"
@@ -61,7 +60,7 @@ TEST_CASE("rows are measured six times at least, with the samples asked for",
     CHECK(row.threads == int(i) + 1);
     CHECK(row.spp == 2);
     CHECK(row.counts.samples == 2 * 16 * 16);
-    CHECK(row.seconds.size() >= std::size_t(kLeastRepeats));
+    CHECK(row.seconds.size() >= std::size_t(kMinRepeats));
     const Interval rate = row.Rate();
     CHECK(rate.low <= rate.value);
     CHECK(rate.value <= rate.high);
