@@ -54,7 +54,7 @@ std::string AxisOf(const std::string& changes) {
 
 const char* Name(CandidateStatus status) {
   constexpr const char* kNames[] = {"chosen", "kept", "dropped", "skipped", "refused"};
-  return kNames[static_cast<int>(status)];
+  return kNames[int(status)];
 }
 
 AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
@@ -100,7 +100,7 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
     std::string key;
     candidate.reason = Refusal(candidate.strategy, options, scene, key);
     // Equal plans give equal bits; only timing would differ.
-    const auto twin = std::find(keys.begin(), keys.end(), key);
+    const auto twin = std::ranges::find(keys, key);
     if (candidate.reason.empty() && twin != keys.end()) {
       const std::string& changes = out[std::size_t(twin - keys.begin())].changes;
       candidate.reason =

@@ -87,7 +87,7 @@ class AgreementTest {
 
   Agreement Finish() {
     out_.tests = p_.size();
-    out_.untested = std::count_if(p_.begin(), p_.end(), [](double p) { return p != p; });
+    out_.untested = std::ranges::count_if(p_, [](double p) { return p != p; });
     out_.detectable = Detectable();
     if (out_.untested == out_.tests) {
       out_.why = "their means rest on too few bright samples";
@@ -96,7 +96,7 @@ class AgreementTest {
     }
     double least = 1;
     for (double p : p_) least = std::min(least, std::isnan(p) ? 1 : p);
-    out_.p = std::min(1.0, least * static_cast<double>(p_.size()));
+    out_.p = std::min(1.0, least * double(p_.size()));
     for (std::size_t i : stat::HolmRejections(p_, out_.level)) {
       if (where_[i] == out_.layout.size()) {
         out_.image_failed = true;
@@ -104,7 +104,7 @@ class AgreementTest {
         out_.failed.push_back(where_[i]);
       }
     }
-    std::sort(out_.failed.begin(), out_.failed.end());
+    std::ranges::sort(out_.failed);
     out_.failed.erase(std::unique(out_.failed.begin(), out_.failed.end()),
                       out_.failed.end());
     out_.verdict = out_.failed.empty() && !out_.image_failed ? AgreementVerdict::kAgree
@@ -147,8 +147,8 @@ class AgreementTest {
       if (!w.tested) return kNotKnown;
       const MeanEstimate pair[] = {w.test, w.reference};
       const MeanEstimate half_sum = stat::Average({pair[0], pair[1]});
-      const double t = stat::StudentTwoSidedQuantile(
-          out_.level / static_cast<double>(p_.size()), half_sum.dof);
+      const double t =
+          stat::StudentTwoSidedQuantile(out_.level / double(p_.size()), half_sum.dof);
       most = std::max(most,
                       2 * t * std::sqrt(half_sum.variance) / std::abs(w.reference.mean));
     }
@@ -177,7 +177,7 @@ Agreement CannotTell(const Image& test, const std::string& why) {
 
 std::string Name(AgreementVerdict verdict) {
   constexpr const char* kNames[] = {"agree", "differ", "cannot tell"};
-  return kNames[static_cast<int>(verdict)];
+  return kNames[int(verdict)];
 }
 
 Agreement TestAgreement(const Image& test, const Image& reference, bool exact_reference) {

@@ -9,6 +9,12 @@
 #include "src/base/stat/values.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipSummary, mean, first_quartile, median,
+                                   third_quartile, max)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipExposures, start, stop, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorTile, x, y, width, height, relmse, share)
+
 namespace {
 
 constexpr std::size_t kMostWorstTiles = 6;
@@ -65,6 +71,34 @@ std::string VerdictOf(const ImageComparison& c) {
   return text + "; whether noise explains it cannot be told: " + c.agreement.why;
 }
 
+nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
+  if (!flip) return nullptr;
+  nlohmann::json out = {{"pixels_per_degree", flip->pixels_per_degree},
+                        {"ldr", flip->ldr_summary},
+                        {"hdr", nullptr},
+                        {"exposures", nullptr}};
+  if (flip->hdr.empty()) return out;
+  out["hdr"] = flip->hdr_summary;
+  out["exposures"] = flip->exposures;
+  return out;
+}
+
+nlohmann::json AgreementJson(const Agreement& a) {
+  nlohmann::json tiles = TilesJson(a.layout, a.z);
+  tiles["failed"] = a.failed;
+  return {{"verdict", Name(a.verdict)},
+          {"why", a.why},
+          {"doubt", a.doubt},
+          {"text", AgreementText(a)},
+          {"p", NumberJson(a.p)},
+          {"false_alarm", a.level},
+          {"tests", a.tests},
+          {"untested", a.untested},
+          {"image_differs", a.image_failed},
+          {"detectable", NumberJson(a.detectable)},
+          {"tiles", tiles}};
+}
+
 }  // namespace
 
 ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
@@ -72,8 +106,7 @@ ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
   ImageComparison out;
   out.test = test.name;
   out.reference = reference.name;
-  out.metrics = CompareImages(test.image, reference.image,
-                              {.exact_reference = options.exact_reference});
+  out.metrics = CompareImages(test.image, reference.image, options.exact_reference);
   out.agreement = TestAgreement(test.image, reference.image, options.exact_reference);
   const LinearImage a = LinearOf(test.image), b = LinearOf(reference.image);
   out.worst = WorstTiles(a, b, kMostWorstTiles);
@@ -104,43 +137,6 @@ std::string AgreementText(const Agreement& a) {
   }
   return "cannot tell: " + a.why;
 }
-
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipSummary, mean, first_quartile, median,
-                                   third_quartile, max)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipExposures, start, stop, count)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorTile, x, y, width, height, relmse, share)
-
-namespace {
-
-nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
-  if (!flip) return nullptr;
-  nlohmann::json out = {{"pixels_per_degree", flip->pixels_per_degree},
-                        {"ldr", flip->ldr_summary},
-                        {"hdr", nullptr},
-                        {"exposures", nullptr}};
-  if (flip->hdr.empty()) return out;
-  out["hdr"] = flip->hdr_summary;
-  out["exposures"] = flip->exposures;
-  return out;
-}
-
-nlohmann::json AgreementJson(const Agreement& a) {
-  nlohmann::json tiles = TilesJson(a.layout, a.z);
-  tiles["failed"] = a.failed;
-  return {{"verdict", Name(a.verdict)},
-          {"why", a.why},
-          {"doubt", a.doubt},
-          {"text", AgreementText(a)},
-          {"p", NumberJson(a.p)},
-          {"false_alarm", a.level},
-          {"tests", a.tests},
-          {"untested", a.untested},
-          {"image_differs", a.image_failed},
-          {"detectable", NumberJson(a.detectable)},
-          {"tiles", tiles}};
-}
-
-}  // namespace
 
 nlohmann::json ToJson(const ImageComparison& c) {
   nlohmann::json out = ToJson(c.metrics);

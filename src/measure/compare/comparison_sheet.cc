@@ -31,12 +31,12 @@ Vec3d DifferenceColor(double x) {
 Vec3d FlipColor(double x) {
   constexpr int kSteps = std::size(kFlipColors) - 1;
   const double at = std::clamp(x, 0.0, 1.0) * kSteps;
-  const int step = std::min(kSteps - 1, static_cast<int>(at));
+  const int step = std::min(kSteps - 1, int(at));
   return Mix(kFlipColors[step], kFlipColors[step + 1], at - step);
 }
 
 void Put(Image& image, int x, int y, Vec3d color) {
-  for (int c = 0; c < 3; ++c) image.At(x, y, c) = static_cast<float>(color[c]);
+  for (int c = 0; c < 3; ++c) image.At(x, y, c) = float(color[c]);
 }
 
 // Fills `place` with color(i).
@@ -58,7 +58,7 @@ auto Colors(const LinearImage& image) {
 
 ComparisonSheet SheetOf(const std::vector<SheetRow>& rows) {
   const int w = rows.front().test.image.width, h = rows.front().test.image.height;
-  const int count = static_cast<int>(rows.size());
+  const int count = int(rows.size());
   std::vector<Plane> differences;
   ComparisonSheet out;
   for (const SheetRow& row : rows) {

@@ -29,7 +29,7 @@ constexpr Sensitivity kLuminance = {1, 0.0047}, kRedGreen = {1, 0.0053},
 
 Kernel Scaled(std::vector<double> weights, double factor) {
   Kernel out;
-  for (double w : weights) out.push_back(static_cast<float>(w * factor));
+  for (double w : weights) out.push_back(float(w * factor));
   return out;
 }
 
@@ -49,10 +49,9 @@ class EyeFilters {
  public:
   explicit EyeFilters(double pixels_per_degree)
       : ppd_(pixels_per_degree),
-        radius_(static_cast<int>(
-            std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * kPi * kPi)) * ppd_))),
+        radius_(int(std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * kPi * kPi)) * ppd_))),
         deviation_(0.5 * kFeatureWidth * ppd_),
-        feature_radius_(static_cast<int>(std::ceil(3 * deviation_))) {}
+        feature_radius_(int(std::ceil(3 * deviation_))) {}
 
   Plane Luminance(const Plane& in, int w, int h) const {
     return One(in, w, h, kLuminance);
@@ -68,7 +67,7 @@ class EyeFilters {
     }
     Plane out = One(in, w, h, kBlueYellow[0]);
     const Plane second = One(in, w, h, kBlueYellow[1]);
-    const float part = static_cast<float>(share[0] / (share[0] + share[1]));
+    const float part = float(share[0] / (share[0] + share[1]));
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i] = part * out[i] + (1 - part) * second[i];
     }
@@ -101,7 +100,7 @@ class EyeFilters {
   // Returns a derivative of the bell; positive weights sum to 1, negative ones to -1.
   Kernel Slope(std::vector<double> weights, int derivative) const {
     double above = 0, below = 0;
-    for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
+    for (int i = 0; i < int(weights.size()); ++i) {
       const double x = i - feature_radius_;
       weights[i] *= derivative == 1 ? -x : x * x / (deviation_ * deviation_) - 1;
       (weights[i] > 0 ? above : below) += std::abs(weights[i]);
@@ -135,7 +134,7 @@ std::array<Plane, 3> OpponentPlanes(const LinearImage& image,
       const Vec3d opponent =
           colors.FromRgb({Shown(image.planes[0][i]), Shown(image.planes[1][i]),
                           Shown(image.planes[2][i])});
-      for (int c = 0; c < 3; ++c) out[c][i] = static_cast<float>(opponent[c]);
+      for (int c = 0; c < 3; ++c) out[c][i] = float(opponent[c]);
     }
   });
   return out;
@@ -153,7 +152,7 @@ Seen Look(const LinearImage& image, const EyeFilters& eye, const OpponentColors&
     for (std::size_t i = from; i < to; ++i) {
       const Vec3d rgb = colors.ToRgb({out.lab[0][i], out.lab[1][i], out.lab[2][i]});
       const Vec3d lab = colors.HuntLab(Min(Max(rgb, Vec3d{}), Vec3d{1, 1, 1}));
-      for (int c = 0; c < 3; ++c) out.lab[c][i] = static_cast<float>(lab[c]);
+      for (int c = 0; c < 3; ++c) out.lab[c][i] = float(lab[c]);
     }
   });
   return out;
@@ -190,7 +189,7 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
       const double distance = HyAb({a.lab[0][i], a.lab[1][i], a.lab[2][i]},
                                    {b.lab[0][i], b.lab[1][i], b.lab[2][i]});
       const double color = std::min(1.0, ColorError(distance, largest));
-      map[i] = static_cast<float>(std::pow(color, 1 - FeatureError(a, b, i)));
+      map[i] = float(std::pow(color, 1 - FeatureError(a, b, i)));
     }
   });
   return map;
@@ -199,10 +198,10 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
 FlipSummary SummaryOf(const Plane& map) {
   LL_CHECK(!map.empty());
   Plane sorted = map;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
   FlipSummary out;
-  out.mean = sum / static_cast<double>(sorted.size());
+  out.mean = sum / double(sorted.size());
   out.max = sorted.back();
   double* const quartiles[] = {&out.first_quartile, &out.median, &out.third_quartile};
   double up_to = 0;

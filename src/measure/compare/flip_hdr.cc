@@ -36,7 +36,7 @@ LinearImage Toned(const LinearImage& image, double exposure) {
   const double gain = std::exp2(exposure);
   LinearImage out = image;
   for (Plane& plane : out.planes) {
-    for (float& value : plane) value = static_cast<float>(ToneCurve(gain * value));
+    for (float& value : plane) value = float(ToneCurve(gain * value));
   }
   return out;
 }
@@ -52,17 +52,17 @@ FlipExposures ExposuresOf(const LinearImage& reference) {
     if (std::isfinite(y)) luminances.push_back(std::max(y, kLeast));
   }
   if (luminances.empty()) return {0, 1, 2};
-  const auto middle = luminances.begin() + static_cast<long>(luminances.size() / 2);
+  const auto middle = luminances.begin() + long(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
   const double median = *middle;
-  const double brightest = *std::max_element(luminances.begin(), luminances.end());
+  const double brightest = *std::ranges::max_element(luminances);
   if (brightest <= kLeast) return {0, 1, 2};
   FlipExposures out;
   out.start = std::log2(BrightInput() / brightest);
   // Limits the range for images that are mostly black.
   constexpr double kMost = 32;
   out.stop = std::min(std::log2(BrightInput() / median), out.start + kMost);
-  out.count = std::max(2, static_cast<int>(std::ceil(out.stop - out.start)));
+  out.count = std::max(2, int(std::ceil(out.stop - out.start)));
   return out;
 }
 

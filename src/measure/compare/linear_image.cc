@@ -9,23 +9,6 @@
 #include "src/measure/compare/tile_test.h"
 
 namespace lanelight {
-
-LinearImage LinearOf(const Image& image) {
-  const auto channels = ColorChannels(image);
-  if (!channels) throw InputError(NoColorChannels(image));
-  LinearImage out = {image.width, image.height, {}};
-  for (int c = 0; c < 3; ++c) {
-    out.planes[c].reserve(out.pixels());
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        out.planes[c].push_back(
-            static_cast<float>(LinearValue(image, x, y, (*channels)[c])));
-      }
-    }
-  }
-  return out;
-}
-
 namespace {
 
 // Returns the first of 1, 2, 5, 10, ... that is not below x.
@@ -37,7 +20,36 @@ double RoundUp(double x) {
   return 10 * power;
 }
 
+struct ErrorSum {
+  double error = 0;
+  std::size_t count = 0;
+};
+
 }  // namespace
+
+std::vector<float> LinearImage::Interleaved() const {
+  std::vector<float> values;
+  values.reserve(3 * pixels());
+  for (std::size_t i = 0; i < pixels(); ++i) {
+    for (const Plane& plane : planes) values.push_back(plane[i]);
+  }
+  return values;
+}
+
+LinearImage LinearOf(const Image& image) {
+  const auto channels = ColorChannels(image);
+  if (!channels) throw InputError(NoColorChannels(image));
+  LinearImage out = {image.width, image.height, {}};
+  for (int c = 0; c < 3; ++c) {
+    out.planes[c].reserve(out.pixels());
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        out.planes[c].push_back(float(LinearValue(image, x, y, (*channels)[c])));
+      }
+    }
+  }
+  return out;
+}
 
 ErrorMaps ErrorMapsOf(const LinearImage& test, const LinearImage& reference) {
   ErrorMaps out;
@@ -51,10 +63,9 @@ ErrorMaps ErrorMapsOf(const LinearImage& test, const LinearImage& reference) {
       signed_sum += d / 3, base += b / 3;
       relative += d * d / (b * b + kRelativeEpsilon) / 3, absolute += d * d / 3;
     }
-    out.difference[i] =
-        static_cast<float>(signed_sum / std::sqrt(base * base + kRelativeEpsilon));
-    out.relative[i] = static_cast<float>(std::sqrt(relative));
-    out.absolute[i] = static_cast<float>(std::sqrt(absolute));
+    out.difference[i] = float(signed_sum / std::sqrt(base * base + kRelativeEpsilon));
+    out.relative[i] = float(std::sqrt(relative));
+    out.absolute[i] = float(std::sqrt(absolute));
   }
   return out;
 }
@@ -65,21 +76,12 @@ double ScaleOf(const Plane& values) {
     if (std::isfinite(v)) sizes.push_back(std::abs(v));
   }
   if (sizes.empty()) return 1;
-  const auto at = sizes.begin() + static_cast<long>(0.98 * double(sizes.size() - 1));
+  const auto at = sizes.begin() + long(0.98 * double(sizes.size() - 1));
   std::nth_element(sizes.begin(), at, sizes.end());
   if (*at > 0) return RoundUp(*at);
-  const float largest = *std::max_element(sizes.begin(), sizes.end());
+  const float largest = *std::ranges::max_element(sizes);
   return largest > 0 ? RoundUp(largest) : 1;
 }
-
-namespace {
-
-struct ErrorSum {
-  double error = 0;
-  std::size_t count = 0;
-};
-
-}  // namespace
 
 std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& reference,
                                   std::size_t most) {
@@ -87,7 +89,7 @@ std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& re
   std::vector<ErrorSum> sums(layout.size());
   double total = 0;
   for (std::size_t i = 0; i < test.pixels(); ++i) {
-    const int x = static_cast<int>(i % test.width), y = static_cast<int>(i / test.width);
+    const int x = int(i % test.width), y = int(i / test.width);
     for (int c = 0; c < 3; ++c) {
       const double b = reference.planes[c][i], d = test.planes[c][i] - b;
       const double error = d * d / (b * b + kRelativeEpsilon);
@@ -100,14 +102,14 @@ std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& re
   std::vector<ErrorTile> out;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     if (!(sums[i].error > 0)) continue;
-    const int x = static_cast<int>(i) % layout.columns * layout.side;
-    const int y = static_cast<int>(i) / layout.columns * layout.side;
+    const int x = int(i) % layout.columns * layout.side;
+    const int y = int(i) / layout.columns * layout.side;
     out.push_back({x, y, std::min(layout.side, test.width - x),
                    std::min(layout.side, test.height - y),
                    sums[i].error / double(sums[i].count), sums[i].error / total});
   }
-  std::sort(out.begin(), out.end(),
-            [](const ErrorTile& a, const ErrorTile& b) { return a.share > b.share; });
+  std::ranges::sort(
+      out, [](const ErrorTile& a, const ErrorTile& b) { return a.share > b.share; });
   out.resize(std::min(out.size(), most));
   return out;
 }

@@ -17,6 +17,8 @@ struct LinearImage {
   std::array<Plane, 3> planes;
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
+  /// Returns the values of all pixels, each with its three channels.
+  std::vector<float> Interleaved() const;
 };
 
 /// Returns the colour channels of an image, decoded if they are bytes; grey becomes three

@@ -13,17 +13,6 @@
 
 namespace lanelight {
 
-struct CompareOptions {
-  /// Added to the squared reference in relMSE (pbrt's imgtool uses 0.01), and to the
-  /// reference in MAPE.
-  double epsilon = kRelativeEpsilon;
-  /// Fraction of the largest per-sample errors that the trimmed metric leaves out.
-  double trim = 0.001;
-  int tile = 16;  // pixels per side of the tiles of the tile measures
-  /// The reference has no noise: z-scores are those of the variance of `test` alone.
-  bool exact_reference = false;
-};
-
 /// Sides in pixels of box filters for relmse_filtered, which shows whether errors of
 /// neighbouring pixels are correlated.
 inline constexpr int kFilterSides[] = {2, 4, 8};
@@ -53,25 +42,26 @@ struct CompareResult {
   std::uint64_t samples = 0;  // compared: pixels * channels less the invalid ones
   std::uint64_t invalid_test = 0, invalid_reference = 0;  // NaN or infinite samples
   double mse = 0, rmse = 0, mae = 0;
-  double relmse = 0;          // mean of (a-b)^2 / (b^2 + epsilon)
-  double relmse_trimmed = 0;  // the same without the largest `trim` fraction
+  double relmse = 0;          // mean of (a-b)^2 / (b^2 + kRelativeEpsilon)
+  double relmse_trimmed = 0;  // the same without the largest 0.1 %
   /// relMSE of the means of squares with kFilterSides, from the image's corner on. Errors
   /// of independent pixels fall as 1 / side^2.
   std::array<double, kFilters> relmse_filtered = {};
-  double mape = 0;  // mean of |a-b| / (|b| + epsilon); 1 = 100 %
+  double mape = 0;  // mean of |a-b| / (|b| + kRelativeEpsilon); 1 = 100 %
   double psnr = 0;  // dB, peak = largest reference value; infinite if equal
   std::vector<double> mean_test, mean_reference;  // per channel
   std::vector<double> mean_ratio;                 // test / reference; 1 if both are 0
-  double tile_relmse_median = 0;  // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)
+  double tile_relmse_median = 0;  // of the means of tiles of 16 x 16 pixels
   double tile_relmse_max = 0;     // over tiles and channels
   ZScores z;
 };
 
 /// Compares the colour channels of two images (8-bit ones are decoded as sRGB). Variances
 /// are taken from the channels "variance.R", ... of each image that has them. Throws
-/// InputError that states both sizes if they differ, and if the colour channels do.
+/// InputError that states both sizes if they differ, and if the colour channels do. An
+/// exact reference has no noise: z-scores use the variance of `test` only.
 CompareResult CompareImages(const Image& test, const Image& reference,
-                            const CompareOptions& options = {});
+                            bool exact_reference = false);
 
 /// Writes all members by name; numbers that are not finite become null in texts.
 nlohmann::json ToJson(const CompareResult& result);

@@ -25,7 +25,7 @@ struct EstimateSum {
   // independent pixels. `dof`: degrees of freedom of the variance of one pixel.
   MeanEstimate Mean(double as_one, double dof) const {
     if (count == 0) return {};
-    const double n = static_cast<double>(count), each = std::min(as_one, n);
+    const double n = double(count), each = std::min(as_one, n);
     return {
         value / n, each * variance / (n * n),
         quartic > 0 ? dof * std::max(1.0, variance * variance / (quartic * each)) : 1e9};

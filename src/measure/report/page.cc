@@ -11,7 +11,6 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/json_text.h"
-#include "src/measure/report/page_text.h"
 
 namespace lanelight {
 namespace {
@@ -32,11 +31,6 @@ std::string JsonForScript(const nlohmann::json& json) {
     }
   }
   return out;
-}
-
-std::string DataBlock(const nlohmann::json& data) {
-  return "<script type=\"application/json\" id=\"study\">" + JsonForScript(data) +
-         "</script>\n";
 }
 
 // Returns the name as JSON, which the page parses, escaped for double quotes.
@@ -96,54 +90,6 @@ std::size_t CountValues(const std::vector<ReportImage>& images) {
   return values;
 }
 
-std::string WithImages(std::string page, const nlohmann::json& data,
-                       const std::vector<ReportImage>& images, const std::string& tail) {
-  page.reserve(page.size() + CountValues(images) * 8 / 3 + (1 << 20));
-  page += DataBlock(data);
-  for (const ReportImage& image : images) AppendImage(image, page);
-  return page + tail;
-}
-
-}  // namespace
-
-std::uint16_t ToHalfBits(float value) {
-  // The payload of a NaN may not fit.
-  if (std::isnan(value)) return 0x7e00;
-  return half(std::clamp(value, -kMaxHalf, kMaxHalf)).bits();
-}
-
-std::string ReportPage(const nlohmann::json& study,
-                       const std::vector<ReportImage>& images) {
-  return WithImages(PageHead(), study, images, PageTail());
-}
-
-std::string PaperReportPage(const nlohmann::json& study,
-                            const std::vector<ReportImage>& images) {
-  return WithImages(PaperPageHead(), study, images, PaperPageTail());
-}
-
-std::string ComparisonReportPage(const nlohmann::json& comparisons,
-                                 const std::vector<ReportImage>& images) {
-  return WithImages(ComparePageHead(), comparisons, images, ComparePageTail());
-}
-
-std::string SweepReportPage(const nlohmann::json& sweep,
-                            const std::vector<ReportImage>& images) {
-  return WithImages(SweepPageHead(), sweep, images, SweepPageTail());
-}
-
-std::string BenchReportPage(const nlohmann::json& bench) {
-  return BenchPageHead() + DataBlock(bench) + BenchPageTail();
-}
-
-std::string StressReportPage(const nlohmann::json& stress) {
-  return StressPageHead() + DataBlock(stress) + StressPageTail();
-}
-
-std::string LivePage() { return LivePageHead() + LivePageTail(); }
-
-namespace {
-
 ReportImage Shrunk(const ReportImage& image, int side) {
   ReportImage out;
   out.name = image.name;
@@ -163,7 +109,7 @@ ReportImage Shrunk(const ReportImage& image, int side) {
           }
         }
         const double count = double(x1 - x * side) * double(y1 - y * side);
-        out.values.push_back(static_cast<float>(sum / count));
+        out.values.push_back(float(sum / count));
       }
     }
   }
@@ -172,9 +118,31 @@ ReportImage Shrunk(const ReportImage& image, int side) {
 
 }  // namespace
 
+std::uint16_t ToHalfBits(float value) {
+  // The payload of a NaN may not fit.
+  if (std::isnan(value)) return 0x7e00;
+  return half(std::clamp(value, -kMaxHalf, kMaxHalf)).bits();
+}
+
+std::string ReportPage(PageKind kind, const nlohmann::json& data,
+                       const std::vector<ReportImage>& images) {
+  const PageText text = TextOf(kind);
+  std::string page = text.head;
+  page.reserve(page.size() + CountValues(images) * 8 / 3 + (1 << 20));
+  page += "<script type=\"application/json\" id=\"study\">" + JsonForScript(data) +
+          "</script>\n";
+  for (const ReportImage& image : images) AppendImage(image, page);
+  return page + text.tail;
+}
+
+std::string LivePage() {
+  const PageText text = TextOf(PageKind::kLive);
+  return text.head + text.tail;
+}
+
 int ShrinkImages(std::vector<ReportImage>& images, std::size_t most) {
   const double excess = double(CountValues(images)) / double(most);
-  const int side = std::max(1, static_cast<int>(std::ceil(std::sqrt(excess))));
+  const int side = std::max(1, int(std::ceil(std::sqrt(excess))));
   if (side == 1) return side;
   for (ReportImage& image : images) image = Shrunk(image, side);
   return side;

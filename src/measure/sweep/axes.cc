@@ -28,7 +28,7 @@ constexpr AxisInfo kAxes[kNumAxes] = {
     {"seed", "seed", "Seed", "seed"},
 };
 
-const AxisInfo& Info(Axis axis) { return kAxes[static_cast<std::size_t>(axis)]; }
+const AxisInfo& Info(Axis axis) { return kAxes[std::size_t(axis)]; }
 
 // Highway's names of SIMD targets, available or not (AvailableTargets()).
 const std::vector<std::string> kTargets = {

@@ -28,6 +28,43 @@ std::string TreeKeyOf(const AxisValues& values) {
          Get(values, Axis::kBuild).value_or("");
 }
 
+namespace fs = std::filesystem;
+
+// Samples per pixel of the shortest probe.
+constexpr std::uint64_t kProbeSamples = 4;
+
+// Returns tiles of at most 32 x 32 pixels in a grid of 8 x 8 over the image.
+std::vector<PixelRect> SpreadWindows(const PixelRect& image) {
+  constexpr int kSide = 32, kGrid = 8;
+  const int width = std::min(kSide, std::max(1, image.width() / kGrid));
+  const int height = std::min(kSide, std::max(1, image.height() / kGrid));
+  const int columns = std::min(kGrid, image.width() / width);
+  const int rows = std::min(kGrid, image.height() / height);
+  std::vector<PixelRect> windows;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const int x =
+          image.x0 + (image.width() - width) * column / std::max(1, columns - 1);
+      const int y = image.y0 + (image.height() - height) * row / std::max(1, rows - 1);
+      windows.push_back({x, y, x + width, y + height});
+    }
+  }
+  return windows;
+}
+
+// Returns the size of the file of such an image.
+double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
+  const std::string path = FallbackPath("pilot.exr");
+  ExrOptions options;
+  options.half = half;
+  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale()),
+           options);
+  const double bytes = double(fs::file_size(path));
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return bytes;
+}
+
 }  // namespace
 
 std::string CellRenderer::SceneKey(const SweepCell& cell) const {
@@ -40,7 +77,7 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
   const auto& target = Get(cell.values, Axis::kTarget);
   if (!target) return true;
   const std::vector<std::string> available = AvailableTargets();
-  return std::find(available.begin(), available.end(), *target) != available.end();
+  return std::ranges::find(available, *target) != available.end();
 }
 
 // Compiles the scene; sets failure_ and no job if that fails.
@@ -96,54 +133,13 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   return RenderToFiles(job, sweep_.ScenePath(cell), targets, hooks);
 }
 
-namespace {
-
-namespace fs = std::filesystem;
-
-// Samples per pixel of the shortest probe.
-constexpr std::uint64_t kProbeSamples = 4;
-
-// Returns tiles of at most 32 x 32 pixels in a grid of 8 x 8 over the image.
-std::vector<PixelRect> SpreadWindows(const PixelRect& image) {
-  constexpr int kSide = 32, kGrid = 8;
-  const int width = std::min(kSide, std::max(1, image.width() / kGrid));
-  const int height = std::min(kSide, std::max(1, image.height() / kGrid));
-  const int columns = std::min(kGrid, image.width() / width);
-  const int rows = std::min(kGrid, image.height() / height);
-  std::vector<PixelRect> windows;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const int x =
-          image.x0 + (image.width() - width) * column / std::max(1, columns - 1);
-      const int y = image.y0 + (image.height() - height) * row / std::max(1, rows - 1);
-      windows.push_back({x, y, x + width, y + height});
-    }
-  }
-  return windows;
-}
-
-// Returns the size of the file of such an image.
-double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
-  const std::string path = FallbackPath("pilot.exr");
-  ExrOptions options;
-  options.half = half;
-  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale()),
-           options);
-  const double bytes = double(fs::file_size(path));
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  return bytes;
-}
-
-}  // namespace
-
 ProbeRender RenderProbe(const Job& job, double seconds, bool half) {
   const std::vector<PixelRect> windows = SpreadWindows(job.window);
-  const int width = windows.front().width() * static_cast<int>(windows.size());
+  const int width = windows.front().width() * int(windows.size());
   const int height = windows.front().height();
   ProbeRender probe;
   probe.pixels = double(job.window.pixels());
-  probe.spp = static_cast<std::uint64_t>(job.loaded->description.sampler.spp);
+  probe.spp = std::uint64_t(job.loaded->description.sampler.spp);
   probe.load_seconds = job.loaded->load_seconds;
   probe.build_seconds = job.loaded->build_seconds;
   RunOptions options;

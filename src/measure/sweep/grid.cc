@@ -12,14 +12,17 @@
 namespace lanelight {
 namespace {
 
+constexpr std::size_t kMaxCells = 1000000;
+
 std::size_t Combinations(const SubGrid& grid) {
   std::size_t cells = 1;
   for (const auto& [axis, values] : grid.axes) {
     cells *= values.size();
     if (cells <= kMaxCells) continue;
-    throw InputError(grid.where, fmt::format("the grid has more than {} cells; divide it "
-                                             "into several sweeps",
-                                             kMaxCells));
+    throw InputError(grid.where,
+                     "the grid has more than {} cells; divide it "
+                     "into several sweeps",
+                     kMaxCells);
   }
   return cells;
 }
@@ -29,17 +32,18 @@ AxisValues CombinationOf(const SubGrid& grid, std::size_t number) {
   AxisValues values;
   for (auto it = grid.axes.rbegin(); it != grid.axes.rend(); ++it) {
     const auto& [axis, list] = *it;
-    values[static_cast<std::size_t>(axis)] = list[number % list.size()].text;
+    values[std::size_t(axis)] = list[number % list.size()].text;
     number /= list.size();
   }
   return values;
 }
 
 bool Applies(const SubGrid& rule, const AxisValues& cell) {
-  return std::all_of(rule.axes.begin(), rule.axes.end(), [&](const auto& entry) {
+  return std::ranges::all_of(rule.axes, [&](const auto& entry) {
     const auto& value = Get(cell, entry.first);
-    return value && std::any_of(entry.second.begin(), entry.second.end(),
-                                [&](const GridValue& v) { return v.text == *value; });
+    return value && std::ranges::any_of(entry.second, [&](const GridValue& v) {
+             return v.text == *value;
+           });
   });
 }
 
@@ -51,12 +55,11 @@ void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
     known.erase("");
     for (const GridValue& value : values) {
       if (known.count(value.text) > 0) continue;
-      throw InputError(
-          value.where,
-          fmt::format("no cell of the grid has {} {}; {}", Name(axis), Quoted(value.text),
-                      known.empty() ? "the grid has no such axis"
-                                    : "its values there: " +
-                                          QuotedList({known.begin(), known.end()})));
+      throw InputError(value.where, "no cell of the grid has {} {}; {}", Name(axis),
+                       Quoted(value.text),
+                       known.empty() ? "the grid has no such axis"
+                                     : "its values there: " +
+                                           QuotedList({known.begin(), known.end()}));
     }
   }
 }
@@ -67,8 +70,8 @@ void CheckRule(const SubGrid& rule, const std::vector<AxisValues>& cells) {
                      "this exclusion names no axis and would exclude all cells");
   }
   CheckValues(rule, cells);
-  if (std::none_of(cells.begin(), cells.end(),
-                   [&](const AxisValues& cell) { return Applies(rule, cell); })) {
+  if (std::ranges::none_of(cells,
+                           [&](const AxisValues& cell) { return Applies(rule, cell); })) {
     throw InputError(rule.where, "no cell of the grid has all of these values together");
   }
 }
@@ -122,8 +125,8 @@ std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
   std::vector<SweepCell> cells;
   std::set<std::string> names;
   for (const AxisValues& values : all) {
-    if (std::any_of(exclude.begin(), exclude.end(),
-                    [&](const SubGrid& rule) { return Applies(rule, values); })) {
+    if (std::ranges::any_of(exclude,
+                            [&](const SubGrid& rule) { return Applies(rule, values); })) {
       continue;
     }
     cells.push_back({cells.size(), values, CellName(values)});
@@ -144,7 +147,7 @@ std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
     for (const GridValue& strategy : strategies->second) {
       std::vector<StrategyPlace>& known = places[strategy.text];
       for (const StrategyPlace& place : strategy.places) {
-        if (std::find(known.begin(), known.end(), place) == known.end()) {
+        if (std::ranges::find(known, place) == known.end()) {
           known.push_back(place);
         }
       }

@@ -44,8 +44,7 @@ Costs CostsOf(const CellGroup& group, const std::vector<Json>& cells) {
 std::vector<std::vector<stat::Cost>> PairedCosts(const std::vector<Costs>& all) {
   std::vector<std::vector<stat::Cost>> paired(all.size());
   for (const auto& [seed, unused] : all[0]) {
-    if (std::any_of(all.begin(), all.end(),
-                    [&](const Costs& c) { return c.count(seed) == 0; })) {
+    if (std::ranges::any_of(all, [&](const Costs& c) { return c.count(seed) == 0; })) {
       continue;
     }
     for (std::size_t i = 0; i < all.size(); ++i) paired[i].push_back(all[i].at(seed));
@@ -90,7 +89,7 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
     if (strategies[i].strategy == baseline) base = i;
   }
   const double confidence =
-      1 - stat::SidakLevel(1 - kSweepConfidence, static_cast<int>(all.size()) - 1);
+      1 - stat::SidakLevel(1 - kSweepConfidence, int(all.size()) - 1);
   std::vector<Interval> ratios;
   for (const auto& costs : paired) {
     ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
@@ -105,9 +104,9 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
                {"equals", nullptr}};
   if (all.size() > kMaxRanked) return json;
   const auto ranks = stat::RankByEfficiency(paired, kSweepConfidence);
-  json["equals"] = std::count_if(ranks.begin(), ranks.end(),
-                                 [](const stat::RankRange& r) { return r.best == 1; }) -
-                   (ranks[best].best == 1);
+  json["equals"] =
+      std::ranges::count_if(ranks, [](const stat::RankRange& r) { return r.best == 1; }) -
+      (ranks[best].best == 1);
   return json;
 }
 
@@ -195,7 +194,7 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   for (const CellGroup& group : groups) {
     Costs costs = CostsOf(group, cells);
     std::vector<StrategyCosts>& in = contexts[group.context];
-    if (costs.empty() || std::any_of(in.begin(), in.end(), [&](const StrategyCosts& c) {
+    if (costs.empty() || std::ranges::any_of(in, [&](const StrategyCosts& c) {
           return c.strategy == group.strategy;
         })) {
       continue;

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "src/base/core/text_layout.h"
-#include "src/measure/sweep/prediction.h"
+#include "src/measure/sweep/runner.h"
 
 namespace lanelight {
 namespace {

@@ -107,8 +107,8 @@ std::vector<std::string> StageNames(const std::vector<Json>& cells) {
 
 bool IsOnPage(const std::string& measure) {
   return measure == kInvalidSamples ||
-         std::any_of(std::begin(kColumns), std::end(kColumns),
-                     [&](const Measure& m) { return m.on_page && m.name == measure; });
+         std::ranges::any_of(
+             kColumns, [&](const Measure& m) { return m.on_page && m.name == measure; });
 }
 
 Json CellReport(const Rendering& rendering) {
@@ -171,8 +171,9 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
   const Json json = SweepJson(sweep, cells, groups);
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
-  WriteFileAtomically(folder.File("report.html"),
-                      SweepReportPage(json, Thumbnails(sweep, folder, groups)));
+  WriteFileAtomically(
+      folder.File("report.html"),
+      ReportPage(PageKind::kSweep, json, Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

@@ -9,6 +9,8 @@
 namespace lanelight {
 namespace {
 
+constexpr std::size_t kMaxPatternStrategies = 10000;
+
 struct OpenPart {
   std::string before;  // fixed text since the previous open part
   std::string name;
@@ -50,7 +52,7 @@ class PatternReader {
 
  private:
   [[noreturn]] void Fail(const std::string& message) const {
-    throw InputError(where_, fmt::format("strategy {}: {}", Quoted(text_), message));
+    throw InputError(where_, "strategy {}: {}", Quoted(text_), message);
   }
 
   // Reads a list in braces and returns its end.
@@ -111,9 +113,8 @@ std::vector<PatternStrategy> ExpandStrategy(const std::string& text,
         longer.back().place.parameters[part.name] = value;
       }
       if (longer.size() <= kMaxPatternStrategies) continue;
-      throw InputError(where,
-                       fmt::format("strategy {} stands for more than {} strategies",
-                                   Quoted(text), kMaxPatternStrategies));
+      throw InputError(where, "strategy {} stands for more than {} strategies",
+                       Quoted(text), kMaxPatternStrategies);
     }
     all = std::move(longer);
   }

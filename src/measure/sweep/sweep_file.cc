@@ -40,10 +40,9 @@ void AddValue(const std::string& name, GridValue value, std::vector<GridValue>& 
   for (GridValue& other : values) {
     if (!Same(axis, other.text, value.text)) continue;
     if (IsJoined(value, other)) return;
-    throw InputError(
-        value.where,
-        fmt::format("{} {} is a duplicate: it equals {} in line {}", Name(axis),
-                    Quoted(value.text), Quoted(other.text), other.where.line));
+    throw InputError(value.where, "{} {} is a duplicate: it equals {} in line {}",
+                     Name(axis), Quoted(value.text), Quoted(other.text),
+                     other.where.line);
   }
   values.push_back(std::move(value));
 }
@@ -68,9 +67,9 @@ std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
   }
   if (array->empty()) {
     throw InputError(file.Where(node),
-                     fmt::format("{} has no values; remove the line to use the value of "
-                                 "the scene",
-                                 name));
+                     "{} has no values; remove the line to use the value of "
+                     "the scene",
+                     name);
   }
   for (const toml::node& item : *array) AddValues(file, name, item, values);
   return values;
@@ -83,8 +82,8 @@ SubGrid ReadSubGrid(const TomlFile& file, const toml::table& table) {
     if (!axis) ThrowUnknown(file.Where(key.source()), "axis", key.str(), AxisNames());
     if (grid.axes.count(*axis) > 0) {
       throw InputError(file.Where(key.source()),
-                       fmt::format("{} and {} set the same axis; remove one of them",
-                                   key.str(), Name(*axis)));
+                       "{} and {} set the same axis; remove one of them", key.str(),
+                       Name(*axis));
     }
     grid.axes[*axis] = ReadValues(file, std::string(key.str()), node);
   }
@@ -103,9 +102,9 @@ void CheckRenderable(const SubGrid& grid, const fs::path& folder) {
     std::error_code error;
     if (fs::is_regular_file(path, error)) continue;
     throw InputError(scene.where,
-                     fmt::format("scene file '{}' does not exist (names are relative to "
-                                 "the sweep file)",
-                                 path.string()));
+                     "scene file '{}' does not exist (names are relative to "
+                     "the sweep file)",
+                     path.string());
   }
   const bool target =
       grid.axes.count(Axis::kTargetRelmse) > 0 || grid.axes.count(Axis::kTargetRmse) > 0;
@@ -128,9 +127,10 @@ std::vector<SubGrid> ReadTables(const TomlFile& file, const std::string& key,
 // Returns the setting with this key in [settings].
 const Setting& SettingOf(const std::string& key, const SourceLocation& where) {
   if (SweepAxisOf(key)) {
-    throw InputError(where, fmt::format("{} is an axis: put it into [grid], with one "
-                                        "value if it is the same for all cells",
-                                        key));
+    throw InputError(where,
+                     "{} is an axis: put it into [grid], with one "
+                     "value if it is the same for all cells",
+                     key);
   }
   std::vector<std::string> known;
   for (const Setting& setting : SettingList()) {
@@ -171,7 +171,7 @@ Sweep ParseSweep(const std::string& path, const std::string& text) {
       sweep.settings = ReadSweepSettings(file, file.Table(key, node));
     } else if (SweepAxisOf(key)) {
       throw InputError(file.Where(toml_key.source()),
-                       fmt::format("{} is an axis: it belongs below [grid]", key));
+                       "{} is an axis: it belongs below [grid]", key);
     } else {
       ThrowUnknown(file.Where(toml_key.source()), "table", key,
                    {"grid", "include", "exclude", "settings"});

@@ -29,13 +29,9 @@ struct PatternStrategy {
 /// Expands a pattern; the last open part changes fastest. "{a, b}" is expanded to each of
 /// these texts, "*" to each choice of its axis ("points=*"). Throws InputError at `where`
 /// for braces that are empty or not closed, for a "*" elsewhere, and for more than
-/// kMaxPatternStrategies.
+/// 10 000 strategies.
 std::vector<PatternStrategy> ExpandStrategy(const std::string& text,
                                             const SourceLocation& where);
-
-inline constexpr std::size_t kMaxPatternStrategies = 10000;
-
-inline constexpr std::size_t kMaxCells = 1000000;
 
 struct GridValue {
   std::string text;  // see CanonicalValue()
@@ -64,7 +60,7 @@ std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
     const std::vector<SubGrid>& grids);
 
 /// Returns the cells of all grids in order, each once, without those that match all axes
-/// of a table of `exclude`. Throws InputError for more than kMaxCells, for a table of
+/// of a table of `exclude`. Throws InputError for more than a million, for a table of
 /// `exclude` that is empty or matches no cell, and if no cell is left.
 std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
                                   const std::vector<SubGrid>& exclude);

@@ -49,7 +49,7 @@ std::string Differences(const Json& there, const Json& here) {
 
 const char* Name(CellState state) {
   constexpr const char* kNames[] = {"missing", "failed", "done"};
-  return kNames[static_cast<int>(state)];
+  return kNames[int(state)];
 }
 
 SweepFolder::SweepFolder(std::string path, const Sweep& sweep)
@@ -86,9 +86,9 @@ CellRecord SweepFolder::Look(const SweepCell& cell) {
       CheckReport(cell, record.report);
     } catch (const Json::exception& problem) {
       throw InputError(
-          fmt::format("'{}' is not a report of a sweep ({}); remove it to "
-                      "render the cell again",
-                      path, JsonProblem(problem)));
+          "'{}' is not a report of a sweep ({}); remove it to "
+          "render the cell again",
+          path, JsonProblem(problem));
     }
     record.state = CellState::kDone;
   } else if (fs::exists(File(cell, "error.json"), error)) {
@@ -111,10 +111,10 @@ void SweepFolder::CheckReport(const SweepCell& cell, const Json& report) {
   here["hash of the scene's files"] = SceneHash(cell);
   const std::string differences = Differences(there, here);
   if (differences.empty()) return;
-  throw InputError(fmt::format(
+  throw InputError(
       "'{}' was rendered with other settings: {}; use another --out, or remove "
       "that directory to render the cell again",
-      path_ + "/cells/" + cell.name, differences));
+      path_ + "/cells/" + cell.name, differences);
 }
 
 const std::string& SweepFolder::SceneHash(const SweepCell& cell) {
@@ -167,7 +167,7 @@ std::vector<std::string> SweepFolder::OtherCells() const {
     const std::string name = entry.path().filename().string();
     if (entry.is_directory() && known.count(name) == 0) others.push_back(name);
   }
-  std::sort(others.begin(), others.end());
+  std::ranges::sort(others);
   return others;
 }
 

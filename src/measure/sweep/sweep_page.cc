@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 bool AreNumbers(const std::vector<std::string>& values) {
-  return std::all_of(values.begin(), values.end(), [](const std::string& text) {
+  return std::ranges::all_of(values, [](const std::string& text) {
     char* end = nullptr;
     const double x = std::strtod(text.c_str(), &end);
     return !text.empty() && *end == '\0' && std::isfinite(x);
@@ -55,7 +55,7 @@ Json AxesJson(const Sweep& sweep, const std::vector<CellGroup>& groups) {
     for (const CellGroup& group : groups) {
       for (const auto& [name, unused] : group.values) {
         if (AxisOfKey(name)) continue;
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
+        if (std::ranges::find(names, name) == names.end()) {
           names.push_back(name);
         }
       }
@@ -101,10 +101,8 @@ constexpr std::size_t kValuesOfOne = 3 * 160 * 90, kValuesOfAll = 3'000'000;
 
 ReportImage ThumbnailOf(const std::string& name, const std::string& path) {
   const LinearImage image = LinearOf(ReadExr(path));
-  std::vector<ReportImage> one = {{name, image.width, image.height, 3, {}}};
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
-    for (const Plane& plane : image.planes) one[0].values.push_back(plane[i]);
-  }
+  std::vector<ReportImage> one = {
+      {name, image.width, image.height, 3, image.Interleaved()}};
   ShrinkImages(one, kValuesOfOne);
   return std::move(one[0]);
 }

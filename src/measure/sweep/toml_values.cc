@@ -40,8 +40,8 @@ std::size_t EndOfString(std::string_view text, std::size_t at) {
 
 TomlPlace PlaceOf(std::string_view text, std::size_t at) {
   const std::string_view before = text.substr(0, at);
-  return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-          static_cast<int>(at - before.rfind('\n'))};  // npos is -1
+  return {1 + int(std::ranges::count(before, '\n')),
+          int(at - before.rfind('\n'))};  // npos is -1
 }
 
 // Returns where more than kMaxTomlDepth brackets are open, or a key has more dots.
@@ -94,27 +94,24 @@ TomlFile::TomlFile(const std::string& path, const std::string& text)
     : name_(std::make_shared<const std::string>(path)) {
   if (const auto deep = TooDeepToml(text)) {
     throw InputError({name_, deep->line, deep->column},
-                     fmt::format("tables, arrays or keys are nested more than {} deep; a "
-                                 "sweep file needs two levels",
-                                 kMaxTomlDepth));
+                     "tables, arrays or keys are nested more than {} deep; a "
+                     "sweep file needs two levels",
+                     kMaxTomlDepth);
   }
   try {
     root_ = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw InputError(Where(error.source()),
-                     fmt::format("this is not TOML: {}", error.description()));
+    throw InputError(Where(error.source()), "this is not TOML: {}", error.description());
   }
 }
 
 SourceLocation TomlFile::Where(const toml::source_region& region) const {
-  return {name_, static_cast<int>(region.begin.line),
-          static_cast<int>(region.begin.column)};
+  return {name_, int(region.begin.line), int(region.begin.column)};
 }
 
 void TomlFile::Refuse(const std::string& key, const toml::node& node,
                       const std::string& right) const {
-  throw InputError(Where(node),
-                   fmt::format("{} is {}; it should be {}", key, Kind(node), right));
+  throw InputError(Where(node), "{} is {}; it should be {}", key, Kind(node), right);
 }
 
 const toml::table& TomlFile::Table(const std::string& key, const toml::node& node) const {
@@ -139,19 +136,19 @@ std::string TomlFile::Value(const std::string& key, ValueForm form,
                             const toml::node& node) const {
   // Counts and times with units are texts.
   const bool number = form == ValueForm::kInteger || form == ValueForm::kNumber;
-  if (number && node.is_string() && !ParseNumber<double>(Text(key, node))) {
-    return Text(key, node);
+  if (const auto* text = node.as_string(); number && text) {
+    if (!ParseNumber<double>(text->get())) return text->get();
   }
   switch (form) {
     case ValueForm::kFlag:
-      return Flag(key, node) ? "true" : "false";
+      return As<bool>(key, node, "true or false") ? "true" : "false";
     case ValueForm::kInteger:
-      return std::to_string(Integer(key, node));
+      return std::to_string(As<std::int64_t>(key, node, "an integer"));
     case ValueForm::kNumber:
       return fmt::format("{}", Number(key, node));
     case ValueForm::kText:
     case ValueForm::kSize:
-      return Text(key, node);
+      return As<std::string>(key, node, "a text in quotes");
     case ValueForm::kWindow:
       return Window(key, node);
   }
@@ -164,24 +161,10 @@ std::string TomlFile::Window(const std::string& key, const toml::node& node) con
   if (array == nullptr) Refuse(key, node, "an array: [x0, y0, x1, y1]");
   std::string text;
   for (const toml::node& side : *array) {
-    text += (text.empty() ? "" : ",") + std::to_string(Integer(key, side));
+    text += (text.empty() ? "" : ",") +
+            std::to_string(As<std::int64_t>(key, side, "an integer"));
   }
   return text;
-}
-
-std::string TomlFile::Text(const std::string& key, const toml::node& node) const {
-  if (const auto* text = node.as_string()) return text->get();
-  Refuse(key, node, "a text in quotes");
-}
-
-bool TomlFile::Flag(const std::string& key, const toml::node& node) const {
-  if (const auto* flag = node.as_boolean()) return flag->get();
-  Refuse(key, node, "true or false");
-}
-
-std::int64_t TomlFile::Integer(const std::string& key, const toml::node& node) const {
-  if (const auto* integer = node.as_integer()) return integer->get();
-  Refuse(key, node, "an integer");
 }
 
 double TomlFile::Number(const std::string& key, const toml::node& node) const {

@@ -31,10 +31,13 @@ class TomlFile {
   std::string Value(const std::string& key, ValueForm form, const toml::node& node) const;
 
  private:
-  std::string Text(const std::string& key, const toml::node& node) const;
-  bool Flag(const std::string& key, const toml::node& node) const;
+  /// Returns the value; throws InputError that asks for `right` for another type.
+  template <class T>
+  const T& As(const std::string& key, const toml::node& node, const char* right) const {
+    if (const auto* value = node.as<T>()) return value->get();
+    Refuse(key, node, right);
+  }
   std::string Window(const std::string& key, const toml::node& node) const;
-  std::int64_t Integer(const std::string& key, const toml::node& node) const;
   /// Returns a finite number; the file may have an integer.
   double Number(const std::string& key, const toml::node& node) const;
   [[noreturn]] void Refuse(const std::string& key, const toml::node& node,

@@ -8,7 +8,6 @@
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/measure/throughput/bench_scenes.h"
 #include "src/render/job/job.h"
 #include "src/scene/parse/parse.h"
 
@@ -18,8 +17,8 @@ namespace {
 // Returns null for a scene file.
 const BenchScene* FindBenchScene(const std::string& scene) {
   const auto& known = BenchScenes();
-  const auto found = std::find_if(known.begin(), known.end(),
-                                  [&](const BenchScene& s) { return scene == s.name; });
+  const auto found =
+      std::ranges::find_if(known, [&](const BenchScene& s) { return scene == s.name; });
   return found == known.end() ? nullptr : &*found;
 }
 

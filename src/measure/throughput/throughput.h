@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,6 +15,27 @@
 #include "src/render/run/run.h"
 
 namespace lanelight {
+
+struct SceneDescription;  // src/scene/description/description.h
+
+/// A default scene of `lanelight bench`. Their texts are part of the program
+/// (embed_scenes.py), so that all users measure the same scenes.
+struct BenchScene {
+  const char* name;
+  std::uint64_t spp;     // of a render; fixed, so that measurements can be compared
+  const char* stresses;  // the parts of the renderer that take most of the time
+  const char* text;
+};
+
+/// Returns the scenes in the order in which they are measured.
+const std::vector<BenchScene>& BenchScenes();
+
+/// Returns the default samples per pixel of that scene; kFileSpp for scene files.
+std::uint64_t BenchSpp(const std::string& scene);
+inline constexpr std::uint64_t kFileSpp = 16;
+
+/// Reads the scene of that name, or the scene file. Throws InputError.
+SceneDescription ReadBenchScene(const std::string& scene);
 
 /// Confidence of all intervals.
 inline constexpr double kBenchConfidence = 0.95;
@@ -97,4 +119,16 @@ inline constexpr double kMaxWaiting = 0.1;
 std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
                                             double within);
 
+/// Markdown without line breaks in rows, or text of at most `width` columns.
+struct TableStyle {
+  bool markdown = false;
+  std::size_t width = 80;
+};
+
+/// Returns the machine and two tables: rates, and nanoseconds per sample by kind of
+/// stage.
+std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
+                           const TableStyle& style);
+/// Returns one line per row, each with the machine.
+std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
 }  // namespace lanelight

@@ -12,6 +12,9 @@
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Interval, value, low, high)
+
 namespace {
 
 using Json = nlohmann::json;
@@ -87,15 +90,11 @@ KnownThroughput ThroughputFromJson(const Json& json) {
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
   known.busy = json.at("busy");
-  const auto interval = [](const Json& rate) {
-    return Interval{rate.at("value"), rate.at("low"), rate.at("high")};
-  };
   for (const Json& row : json.at("rows")) {
-    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
-                          row.at("threads"), row.at("resolution").at(0),
-                          row.at("resolution").at(1), row.at("spp"),
-                          interval(row.at("samples_per_second")),
-                          interval(row.at("samples_per_cpu_second"))});
+    known.rows.push_back(
+        {row.at("scene"), row.at("target"), row.at("strategy"), row.at("threads"),
+         row.at("resolution").at(0), row.at("resolution").at(1), row.at("spp"),
+         row.at("samples_per_second"), row.at("samples_per_cpu_second")});
   }
   return known;
 }
@@ -104,14 +103,13 @@ KnownThroughput ReadThroughput(const std::string& path) {
   return FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
     if (!json.contains("rows") || !json.contains("program")) {
-      throw InputError(
-          fmt::format("'{}' was not written by `lanelight bench --json`", path));
+      throw InputError("'{}' was not written by `lanelight bench --json`", path);
     }
     if (!json.contains("busy")) {
-      throw InputError(fmt::format(
+      throw InputError(
           "'{}' was written by an older version, whose samples per pixel depended on "
           "time; measure again with `lanelight bench --json`",
-          path));
+          path);
     }
     return ThroughputFromJson(json);
   });

@@ -70,8 +70,8 @@ std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   for (const char* name : kGroupNames) groups.push_back({name});
   const auto group_of = [&](const StageProfile& s) -> StageGroup& {
     const std::string name = GroupOf(s.name);
-    return *std::find_if(groups.begin(), groups.end(),
-                         [&](const StageGroup& g) { return name == g.name; });
+    return *std::ranges::find_if(groups,
+                                 [&](const StageGroup& g) { return name == g.name; });
   };
   const double ns = 1e9 / double(row.counts.samples);
   for (const StageProfile& s : row.counts.stages) {

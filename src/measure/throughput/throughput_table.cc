@@ -1,4 +1,4 @@
-#include "src/measure/throughput/throughput_table.h"
+#include "src/measure/throughput/throughput.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "src/base/core/text_layout.h"
 #include "src/base/core/version.h"
 #include "src/base/stat/values.h"
-#include "src/measure/throughput/throughput.h"
 #include "src/render/job/machine_json.h"
 
 namespace lanelight {

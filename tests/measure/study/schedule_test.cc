@@ -1,5 +1,5 @@
 // How many samples a budget is enough for.
-#include "src/measure/study/schedule.h"
+#include "src/measure/study/scene_runner.h"
 
 #include <catch2/catch.hpp>
 

@@ -130,7 +130,7 @@ std::string SyntheticPage(const Sweep& sweep) {
   }
   std::vector<ReportImage> images;
   for (const auto& [name, image] : pictures) images.push_back(image);
-  return SweepReportPage(SweepJson(sweep, cells, groups), images);
+  return ReportPage(PageKind::kSweep, SweepJson(sweep, cells, groups), images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {
