@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "src/base/core/error.h"
-#include "src/measure/study/options.h"
+#include "src/measure/study/runs.h"
 #include "src/render/estimate/estimate.h"
 
 namespace lanelight::bench {

@@ -5,7 +5,7 @@
 
 #include "bench/calibrate/every_strategy.h"
 #include "bench/calibrate/options.h"
-#include "src/measure/study/errors.h"
+#include "src/measure/study/reference.h"
 #include "src/render/films/colors.h"
 
 namespace lanelight::bench {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "src/base/core/source_location.h"
-#include "src/measure/study/measurement.h"
+#include "src/measure/study/cell_store.h"
 #include "src/measure/study/reference.h"
 #include "src/render/job/job.h"
 

@@ -14,7 +14,6 @@
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/measure/advise/advise.h"
-#include "src/measure/advise/candidates.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/report.h"
 

@@ -13,8 +13,8 @@
 #include "src/cli/options.h"
 #include "src/cli/render_outputs.h"
 #include "src/measure/report/page.h"
-#include "src/measure/throughput/bench_scenes.h"
-#include "src/measure/throughput/throughput_table.h"
+#include "src/measure/throughput/throughput.h"
+#include "src/measure/throughput/throughput_comparison.h"
 #include "src/render/job/saving.h"
 
 namespace lanelight {
@@ -69,7 +69,7 @@ int Bench(BenchCommandOptions options) {
   save(options.json, DumpJson(json, 1) + "\n");
   save(options.csv, ThroughputCsv(rows));
   save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
-  if (!options.html.empty()) save(options.html, BenchReportPage(json));
+  if (!options.html.empty()) save(options.html, ReportPage(PageKind::kBench, json));
   if (!good) return kExitBadInput;
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));

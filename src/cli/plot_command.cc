@@ -14,7 +14,7 @@
 #include "src/base/core/input_file.h"
 #include "src/cli/commands.h"
 #include "src/cli/options.h"
-#include "src/measure/report/page_text.h"
+#include "src/measure/report/page.h"
 #include "src/render/job/saving.h"
 
 namespace lanelight {

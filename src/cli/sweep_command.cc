@@ -9,7 +9,6 @@
 #include "src/cli/interrupt.h"
 #include "src/cli/options.h"
 #include "src/cli/progress.h"
-#include "src/measure/sweep/prediction.h"
 #include "src/measure/sweep/runner.h"
 
 namespace lanelight {

@@ -8,7 +8,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/measure/compare/comparison.h"
 #include "src/measure/stress/suite.h"
-#include "src/measure/study/study_json.h"
+#include "src/measure/study/study.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/job/merge.h"
 #include "src/render/job/profile_report.h"

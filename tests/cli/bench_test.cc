@@ -99,7 +99,7 @@ TEST_CASE("bench refuses what it cannot read or do", "[cli]") {
   CHECK_THAT(r.err, Contains("broken.json"));
   const std::string other = WriteText(directory / "other.json", "{}");
   CHECK_THAT(Bench(directory, {"--against", other}).err,
-             Contains("is not what `lanelight bench --json` writes"));
+             Contains("was not written by `lanelight bench --json`"));
   CHECK(Bench(directory, {"--against", directory / "none"}).exit_code == kExitBadInput);
   CHECK(Bench(directory, {"--within", "0"}).exit_code == kExitUsage);
   CHECK(Bench(directory, {"--simd", "Z80"}).exit_code == kExitUsage);

@@ -18,39 +18,39 @@
 namespace lanelight {
 namespace {
 
-// Shares of the trial: a few samples of all candidates; those that may be better; the
-// best again; the very best alone.
+// Fractions of the trial for its rounds: all candidates; those that may be better; the
+// best two; the best.
 constexpr double kProbe = 0.15, kFirst = 0.25, kSecond = 0.2, kLast = 0.25;
-// Share of path reuse, beside what has been chosen.
+// Fraction of the trial for path reuse with the chosen strategy.
 constexpr double kTiles = 0.15;
-// Fewer samples say nothing of a candidate: rather leave candidates out.
-constexpr std::uint64_t kLeastSamples = 4096;
-constexpr std::size_t kBest = 2;  // that are tried again, beside what they make together
-// Changes that may be worth combining, and going on with.
+// Samples that a candidate needs; a short trial omits candidates instead.
+constexpr std::uint64_t kMinSamples = 4096;
+constexpr std::size_t kBest = 2;  // tried again, and their combination
+// Gain from which a change stays in the trial.
 constexpr double kPromising = 1.03;
 // A trial is ended if it takes this factor of its planned processor time, on two
 // processors; but not in the first second, in which much runs for the first time. Advice
 // then depends on the machine, but not on other programs.
 constexpr double kTimeoutFactor = 3, kProcessors = 2, kFirstSecond = 1;
-// Rays of a sample, to plan by before one is traced.
+// Assumed rays per sample before one is traced.
 constexpr double kTypicalRays = 8;
 constexpr double kNormal95 = 1.645;
-// Factor on standard errors by the scatter over pixels, where intervals are stated: few
-// pixels carry an error, and others that would are not among them. Of 555 intervals (90
-// %) on 26 scenes 85 % held without, 89 % with it.
+// Factor on the standard errors of stated intervals, since the sampled pixels may miss
+// those that dominate the error. Of 555 intervals (90 %) on 26 scenes 89 % held with the
+// factor, and 85 % without it.
 constexpr double kExtraUncertainty = 1.5;
-// Samples of a pixel. What strata gain in longer randomisations than a quarter of them is
-// not seen, so there are many, as long as there are many pixels too.
-constexpr std::uint64_t kLeastSpp = 32, kMostSpp = 512, kPixels = 256;
+// Samples per pixel. Only many samples show the gain of stratification; the trial also
+// needs about kPixels pixels.
+constexpr std::uint64_t kMinSpp = 32, kMaxTrialSpp = 512, kPixels = 256;
 
 // A candidate in the trial.
 struct Tried {
   std::size_t index = 0;  // in Advice::candidates
-  TriedStrategy entry;    // of the last round
+  TriedStrategy entry;    // result of the last round
 };
 
-// A gain with its 90 % interval, in which the scatter from scene to scene of what rays
-// cost has a part. `least`: the lower end without any noise.
+// Returns a gain with its 90 % interval, which includes the scatter of the cost of rays
+// between scenes. `least`: the lower end without noise.
 Interval WithUncertainty(const TrialGain& gain, double least, double price_spread) {
   const double error =
       kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_spread);
@@ -59,7 +59,7 @@ Interval WithUncertainty(const TrialGain& gain, double least, double price_sprea
 
 std::uint32_t SppFor(std::uint64_t samples) {
   return std::uint32_t(
-      std::clamp(std::bit_floor(samples / kPixels), kLeastSpp, kMostSpp));
+      std::clamp(std::bit_floor(samples / kPixels), kMinSpp, kMaxTrialSpp));
 }
 
 class Adviser {
@@ -86,13 +86,12 @@ class Adviser {
   }
 
  private:
-  // Candidates learn as if for a quarter of the render: what they learn from is part of
-  // the trial.
+  // Candidates train as if for a quarter of the render, which is part of the trial.
   std::uint64_t PlannedSamples() const {
     return std::uint64_t(options_.seconds * kRaysPerSecond / kTypicalRays / 4);
   }
-  // Returns the samples of each in a round with this share of the trial. A combination
-  // that has not been tried yet is taken to cost what its parts do.
+  // Returns the samples of each candidate in a round with this fraction of the trial. The
+  // cost of a new combination is that of its first part.
   std::uint64_t SamplesFor(const std::vector<Tried>& tried, double share) const {
     double rays = 0;
     for (const Tried& t : tried) {
@@ -103,15 +102,13 @@ class Adviser {
     return std::uint64_t(share * pilot_ * kRaysPerSecond / rays);
   }
 
-  // A few samples of each show what it costs, and what is clearly worse; then as many as
-  // each can have the least number of samples. A trial that cannot try so few of all
-  // tries what comes first.
+  // Returns the candidates of the first round: as many as can have kMinSamples samples.
   std::vector<Tried> First() {
     std::vector<Tried> tried(1);
     for (std::size_t i = 1; i < all_.size(); ++i) {
       if (all_[i].status != CandidateStatus::kRefused) tried.push_back({i, {}});
     }
-    const double of_all = double(kLeastSamples) * kTypicalRays * double(tried.size());
+    const double of_all = double(kMinSamples) * kTypicalRays * double(tried.size());
     advice_.seconds_to_try = of_all / (kProbe * kRaysPerSecond);
     const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
     const auto reached = std::size_t(share * double(tried.size()));
@@ -123,7 +120,7 @@ class Adviser {
   }
 
   bool Round(std::vector<Tried>& tried, double share) {
-    const std::uint64_t samples = std::max(SamplesFor(tried, share), kLeastSamples);
+    const std::uint64_t samples = std::max(SamplesFor(tried, share), kMinSamples);
     advice_.interrupted |= IsTooSlow() || !TryAll(tried, samples);
     if (advice_.interrupted) return false;
     for (const Tried& t : tried) {
@@ -136,7 +133,7 @@ class Adviser {
     return true;
   }
 
-  // The default first, on pixels that no other round has. False: the user has stopped it.
+  // Tries the default first, on pixels of no other round. Returns false if stopped.
   bool TryAll(std::vector<Tried>& tried, std::uint64_t samples) {
     trial_.Begin(samples, SppFor(samples), turn_++);
     for (Tried& t : tried) {
@@ -149,8 +146,8 @@ class Adviser {
     return true;
   }
 
-  // Roulette is a change of the plan, which is what a pair is known by (StrategyTrial);
-  // all else is prepared with the scene.
+  // Returns the scene prepared for the candidate, without roulette, which StrategyTrial
+  // changes in the plan.
   PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
     Strategy prepared = candidate.strategy;
     const Strategy usual;
@@ -188,7 +185,7 @@ class Adviser {
 
   static double Score(const Tried& t) { return t.entry.Gain().log; }
 
-  // The default, the best of the first round, and what both of them make together.
+  // Tries the default, the best two of the first round, and their combination.
   void Second(std::vector<Tried>& tried) {
     const auto better = [](const Tried& a, const Tried& b) {
       return Score(a) > Score(b);
@@ -228,7 +225,7 @@ class Adviser {
     const Tried& chosen = chosen_ == 0 ? usual : tried.back();
     const Tried& base = chosen.entry.splits ? usual : chosen;
     const double gain = chosen_ == 0 ? 1 : EfficiencyOf(chosen).value;
-    // Half as many again since they cost more.
+    // A sample with blocks costs 1.5 times as much as one without.
     const auto samples =
         std::uint64_t(kTiles * pilot_ * kRaysPerSecond / (2.5 * base.entry.measure.cost));
     for (const TriedBlocks& blocks :
@@ -264,11 +261,12 @@ class Adviser {
                    : c.efficiency.low > 1 ? "clearly more efficient than the default"
                                           : "probably more efficient than the default";
       } else if (c.status == CandidateStatus::kKept) {
-        c.reason = i == 0 ? "the default; another is clearly more efficient"
-                   : i == unseen_
-                       ? "few bright samples carry its error: a trial cannot tell"
-                   : chosen_ == 0 ? "not clearly better than the default"
-                                  : "not the best";
+        c.reason =
+            i == 0 ? "the default; another is clearly more efficient"
+            : i == unseen_
+                ? "few bright samples dominate its error, so the trial is inconclusive"
+            : chosen_ == 0 ? "not clearly better than the default"
+                           : "not the best";
       }
     }
     const AdvisedCandidate& best = all_[chosen_];
@@ -310,7 +308,7 @@ class Adviser {
 }  // namespace
 
 bool IsUncertain(const Interval& efficiency) {
-  return efficiency.HasBounds() && !(efficiency.high <= kMostUncertain * efficiency.low);
+  return efficiency.HasBounds() && !(efficiency.high <= kMaxUncertainty * efficiency.low);
 }
 
 Advice Advise(const Job& job, const AdviceOptions& options) {

@@ -1,4 +1,4 @@
-#include "src/measure/advise/candidates.h"
+#include "src/measure/advise/advise.h"
 
 #include <fmt/format.h>
 
@@ -16,16 +16,16 @@
 namespace lanelight {
 namespace {
 
-// A tree over fewer lights finds no more than their power says.
+// With fewer lights, a light BVH selects hardly better than by power.
 constexpr std::size_t kFewLights = 4;
 
-// After the changes that gain most where they gain: a short pilot reaches these only.
+// Behind the changes with the largest gains, which are all that a short trial reaches.
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
-// Of what a ray costs, of strategies that nobody has timed.
+// Spread of the cost of a ray for strategies without measured cost.
 constexpr double kUnknownSpread = 0.15;
 
-// Why the scene does not take the strategy; empty if it does. `key` is then its plan's.
+// Returns why the scene refuses the strategy; empty if not, with `key` its plan's key.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
                     const PreparedScene& scene, std::string& key) {
   if (strategy.light_selection == LightSelection::kTree &&
@@ -45,7 +45,7 @@ std::string Refusal(const Strategy& strategy, const PlanOptions& options,
   return "";
 }
 
-// The axis of a change: "roulette" of "roulette=none".
+// Returns the axis of a change: "roulette" of "roulette=none".
 std::string AxisOf(const std::string& changes) {
   return changes.substr(0, changes.find('='));
 }
@@ -54,7 +54,7 @@ std::string AxisOf(const std::string& changes) {
 
 const char* Name(CandidateStatus status) {
   constexpr const char* kNames[] = {"chosen", "kept", "dropped", "skipped", "refused"};
-  return kNames[static_cast<int>(status)];
+  return kNames[int(status)];
 }
 
 AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
@@ -73,7 +73,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
   AdvisedCandidate both;
   both.strategy = a.strategy;
   both.changes = a.changes;
-  both.meaning = "both pay";
+  both.meaning = "both changes are more efficient";
   both.price = a.price * b.price;
   both.price_spread = std::hypot(a.price_spread, b.price_spread);
   return WithMore(both, b.changes);
@@ -99,19 +99,20 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
   for (AdvisedCandidate& candidate : out) {
     std::string key;
     candidate.reason = Refusal(candidate.strategy, options, scene, key);
-    // Equal plans give equal bits: what would differ is their timing alone.
-    const auto twin = std::find(keys.begin(), keys.end(), key);
+    // Equal plans give equal bits; only timing would differ.
+    const auto twin = std::ranges::find(keys, key);
     if (candidate.reason.empty() && twin != keys.end()) {
       const std::string& changes = out[std::size_t(twin - keys.begin())].changes;
-      candidate.reason = "does on this scene exactly what " +
-                         (changes.empty() ? "the default" : changes) + " does";
+      candidate.reason =
+          "is on this scene identical to " + (changes.empty() ? "the default" : changes);
     }
     if (!candidate.reason.empty()) candidate.status = CandidateStatus::kRefused;
     keys.push_back(candidate.reason.empty() ? key : "-");
   }
-  // A comparison needs its first.
-  if (out.front().status == CandidateStatus::kRefused)
+  // The comparison needs a first candidate that is not refused.
+  if (out.front().status == CandidateStatus::kRefused) {
     std::swap(out[0], out[kPlaceOfOwn]);
+  }
   return out;
 }
 

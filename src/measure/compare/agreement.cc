@@ -10,7 +10,6 @@
 #include "src/base/image/image.h"
 #include "src/base/stat/distributions.h"
 #include "src/base/stat/hypothesis.h"
-#include "src/measure/compare/noisy_channels.h"
 
 namespace lanelight {
 namespace {
@@ -19,7 +18,7 @@ using stat::MeanEstimate;
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-// Half floats are rounded by so much at most, and all alike where an image is smooth.
+// Largest relative rounding of half floats, the same for all pixels of a smooth area.
 constexpr double kHalfRounding = 0x1p-11;
 
 bool HasHalfValues(const Image& image, const std::vector<int>& channels) {
@@ -34,15 +33,10 @@ bool HasHalfValues(const Image& image, const std::vector<int>& channels) {
   return true;
 }
 
-// How many samples a pixel of the reference has for each of the image's; 1 if not known.
+// Returns samples per pixel of the reference divided by those of the image; 1 if unknown.
 double SamplesRatio(const Image& test, const Image& reference) {
-  const auto spp = [](const Image& image) {
-    const auto found = image.attributes.find("spp");
-    const double* value =
-        found == image.attributes.end() ? nullptr : std::get_if<double>(&found->second);
-    return value != nullptr && *value > 0 ? *value : 0;
-  };
-  const double a = spp(test), b = spp(reference);
+  const double a = NumberAttribute(test, "spp", 0);
+  const double b = NumberAttribute(reference, "spp", 0);
   return a > 0 && b > 0 ? b / a : 1;
 }
 
@@ -57,12 +51,12 @@ std::string SharedSeed(const Image& test, const Image& reference) {
   const std::string seed = text(test, "seed");
   if (seed.empty() || seed != text(reference, "seed")) return "";
   return fmt::format(
-      "both were rendered with the seed {}: noise that they have in common hides "
-      "differences; another --seed for one of them would not",
+      "both were rendered with the seed {}, and common noise hides differences; render "
+      "one of them with another --seed",
       seed);
 }
 
-// The tests of one channel, and what is found of all channels so far.
+// Tests channels and collects their results.
 class AgreementTest {
  public:
   AgreementTest(const Image& test, const Image& reference)
@@ -72,8 +66,8 @@ class AgreementTest {
     out_.level = kBiasLevel;
   }
 
-  // Estimates of the tiles; variances of tiles in which rare samples were missed are
-  // those of the tiles around.
+  // Tests the tiles and the whole image. Tiles that may have missed rare samples get the
+  // variance of their neighbours.
   void AddChannel(ChannelMeans means, double rounding) {
     const std::vector<MeanEstimate> a = means.test, b = means.reference;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -93,7 +87,7 @@ class AgreementTest {
 
   Agreement Finish() {
     out_.tests = p_.size();
-    out_.untested = std::count_if(p_.begin(), p_.end(), [](double p) { return p != p; });
+    out_.untested = std::ranges::count_if(p_, [](double p) { return p != p; });
     out_.detectable = Detectable();
     if (out_.untested == out_.tests) {
       out_.why = "their means rest on too few bright samples";
@@ -102,7 +96,7 @@ class AgreementTest {
     }
     double least = 1;
     for (double p : p_) least = std::min(least, std::isnan(p) ? 1 : p);
-    out_.p = std::min(1.0, least * static_cast<double>(p_.size()));
+    out_.p = std::min(1.0, least * double(p_.size()));
     for (std::size_t i : stat::HolmRejections(p_, out_.level)) {
       if (where_[i] == out_.layout.size()) {
         out_.image_failed = true;
@@ -110,7 +104,7 @@ class AgreementTest {
         out_.failed.push_back(where_[i]);
       }
     }
-    std::sort(out_.failed.begin(), out_.failed.end());
+    std::ranges::sort(out_.failed);
     out_.failed.erase(std::unique(out_.failed.begin(), out_.failed.end()),
                       out_.failed.end());
     out_.verdict = out_.failed.empty() && !out_.image_failed ? AgreementVerdict::kAgree
@@ -124,7 +118,7 @@ class AgreementTest {
     bool tested;
   };
 
-  // With the variance of the tiles around, where that is larger.
+  // Replaces the variance by that of the neighbouring tiles if that is larger.
   MeanEstimate WithSurroundings(const std::vector<MeanEstimate>& tiles,
                                 std::size_t i) const {
     const MeanEstimate around = VarianceAround(out_.layout, tiles, i);
@@ -146,15 +140,15 @@ class AgreementTest {
     if (!(std::abs(z) <= std::abs(out_.z[tile]))) out_.z[tile] = z;
   }
 
-  // Of the channel in which the least is seen.
+  // Returns the largest of the channels' smallest detectable differences.
   double Detectable() const {
     double most = 0;
     for (const Whole& w : wholes_) {
       if (!w.tested) return kNotKnown;
       const MeanEstimate pair[] = {w.test, w.reference};
       const MeanEstimate half_sum = stat::Average({pair[0], pair[1]});
-      const double t = stat::StudentTwoSidedQuantile(
-          out_.level / static_cast<double>(p_.size()), half_sum.dof);
+      const double t =
+          stat::StudentTwoSidedQuantile(out_.level / double(p_.size()), half_sum.dof);
       most = std::max(most,
                       2 * t * std::sqrt(half_sum.variance) / std::abs(w.reference.mean));
     }
@@ -164,7 +158,8 @@ class AgreementTest {
   Agreement out_;
   const double ratio_;
   std::vector<double> p_;
-  std::vector<std::size_t> where_;  // tiles of these; the number of tiles: the whole
+  std::vector<std::size_t>
+      where_;  // tile of each p_; the number of tiles for the whole image
   std::vector<Whole> wholes_;
 };
 
@@ -181,15 +176,8 @@ Agreement CannotTell(const Image& test, const std::string& why) {
 }  // namespace
 
 std::string Name(AgreementVerdict verdict) {
-  switch (verdict) {
-    case AgreementVerdict::kAgree:
-      return "agree";
-    case AgreementVerdict::kDiffer:
-      return "differ";
-    case AgreementVerdict::kCannotTell:
-      break;
-  }
-  return "cannot tell";
+  constexpr const char* kNames[] = {"agree", "differ", "cannot tell"};
+  return kNames[int(verdict)];
 }
 
 Agreement TestAgreement(const Image& test, const Image& reference, bool exact_reference) {
@@ -200,8 +188,7 @@ Agreement TestAgreement(const Image& test, const Image& reference, bool exact_re
   if (a.variances.empty()) return CannotTell(test, "the first image has no variances");
   if (b.variances.empty() && !exact_reference) {
     return CannotTell(test,
-                      "the reference has no variances (--reference: it is exact, and "
-                      "needs none)");
+                      "the reference has no variances (--reference treats it as exact)");
   }
   if (a.colors.size() != b.colors.size()) {
     return CannotTell(test, "one image is grey, the other is not");

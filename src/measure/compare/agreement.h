@@ -11,35 +11,65 @@ namespace lanelight {
 
 enum class AgreementVerdict {
   kAgree,      // no difference beyond noise was found
-  kDiffer,     // one was
-  kCannotTell  // the images do not say how noisy they are, or rest on too few samples
+  kDiffer,     // a difference was found
+  kCannotTell  // variances are missing, or too few samples
 };
 
 /// "agree", "differ", "cannot tell".
 std::string Name(AgreementVerdict verdict);
 
-/// Tests of equal means of the whole image and of its tiles, each channel by itself.
+/// Result of tests of equal means of the whole image and of its tiles, for each channel.
 struct Agreement {
   AgreementVerdict verdict = AgreementVerdict::kCannotTell;
-  std::string why;    // kCannotTell: what is missing
-  std::string doubt;  // what makes an agreement say less than it seems to; may be empty
-  double level = 0;   // probability that images that differ by noise alone "differ"
-  double p = 0;       // of all tests together; NaN where the verdict is kCannotTell
-  std::size_t tests = 0, untested = 0;  // the latter rest on too few samples
+  std::string why;    // reason of kCannotTell
+  std::string doubt;  // reason to doubt kAgree; may be empty
+  double level = 0;   // probability of kDiffer for images that differ by noise alone
+  double p = 0;       // of all tests together; NaN for kCannotTell
+  std::size_t tests = 0, untested = 0;  // untested: too few samples
   TileLayout layout;
-  std::vector<double> z;            // of each tile, of its worst channel; NaN: not tested
+  std::vector<double> z;            // of the worst channel of each tile; NaN: not tested
   std::vector<std::size_t> failed;  // tiles, ascending
   bool image_failed = false;        // the mean of the whole image differs
-  /// Relative difference of the whole images' means that would be found in one case of
-  /// two; NaN where these rest on too few samples.
+  /// Relative difference of the whole images' means that the test finds with probability
+  /// 0.5; NaN for too few samples.
   double detectable = 0;
 };
 
-/// Welch's tests, corrected by Holm's procedure, of two images of one size with the
-/// channels "variance.R", ... or "variance.Y". What is done about heavy tails is in
-/// tile_test.h; degrees of freedom are those of the fewest samples that have a variance.
-/// `exact_reference`: the reference has no noise, whatever its channels say. Tiles of
-/// renders whose pixels have paths in common (reuse=block) count as that much noisier.
+/// Compares two images of one size by Welch's tests with Holm's correction. Both have the
+/// channels "variance.R", ... or "variance.Y"; an exact reference has no noise and needs
+/// none. Heavy tails: see tile_test.h. Path reuse (reuse=block) correlates pixels and
+/// increases the variance of tiles.
 Agreement TestAgreement(const Image& test, const Image& reference, bool exact_reference);
+
+/// Indices of the colour channels (R, G and B, or Y) and of their variances. There are no
+/// variances if any is missing.
+struct NoisyChannels {
+  std::vector<int> colors, variances;
+};
+
+NoisyChannels FindNoisyChannels(const Image& image);
+
+/// Returns a numeric attribute of an image; `otherwise` if there is none.
+double NumberAttribute(const Image& image, const char* name, double otherwise);
+
+/// One colour channel of an image.
+struct NoisyChannel {
+  const Image& image;
+  const NoisyChannels& channels;
+  std::size_t index;      // of `colors`
+  bool is_exact = false;  // ignores the variances
+};
+
+/// Means of the tiles and of the whole of both images, with variances and degrees of
+/// freedom.
+struct ChannelMeans {
+  std::vector<stat::MeanEstimate> test, reference;
+  std::vector<std::size_t> pixels;  // valid pixels of a tile
+  stat::MeanEstimate whole_test, whole_reference;
+};
+
+/// Returns means without pixels whose value or variance is invalid in either image.
+ChannelMeans MeansOf(const NoisyChannel& test, const NoisyChannel& reference,
+                     const TileLayout& layout);
 
 }  // namespace lanelight

@@ -3,10 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "src/base/image/image.h"
+#include "src/base/stat/values.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipSummary, mean, first_quartile, median,
+                                   third_quartile, max)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FlipExposures, start, stop, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorTile, x, y, width, height, relmse, share)
+
 namespace {
 
 constexpr std::size_t kMostWorstTiles = 6;
@@ -26,7 +34,7 @@ FlipMaps FlipOf(const LinearImage& test, const LinearImage& reference, bool high
 
 std::string Percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-// Beyond that, distributions are not what they are taken for.
+// Smaller p-values depend on the assumed distributions.
 std::string PText(double p) {
   return p < 1e-12 ? "p < 1e-12" : fmt::format("p = {:.2g}", p);
 }
@@ -42,7 +50,7 @@ bool IsEqual(const ImageComparison& c) {
          c.metrics.invalid_reference == 0;
 }
 
-// By how much, and whether noise explains it.
+// Returns how much the images differ, and whether noise explains it.
 std::string VerdictOf(const ImageComparison& c) {
   const CompareResult& m = c.metrics;
   if (m.samples == 0) return "there is no pixel with a valid value in both images";
@@ -63,6 +71,34 @@ std::string VerdictOf(const ImageComparison& c) {
   return text + "; it is unknown whether noise explains it: " + c.agreement.why;
 }
 
+nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
+  if (!flip) return nullptr;
+  nlohmann::json out = {{"pixels_per_degree", flip->pixels_per_degree},
+                        {"ldr", flip->ldr_summary},
+                        {"hdr", nullptr},
+                        {"exposures", nullptr}};
+  if (flip->hdr.empty()) return out;
+  out["hdr"] = flip->hdr_summary;
+  out["exposures"] = flip->exposures;
+  return out;
+}
+
+nlohmann::json AgreementJson(const Agreement& a) {
+  nlohmann::json tiles = TilesJson(a.layout, a.z);
+  tiles["failed"] = a.failed;
+  return {{"verdict", Name(a.verdict)},
+          {"why", a.why},
+          {"doubt", a.doubt},
+          {"text", AgreementText(a)},
+          {"p", NumberJson(a.p)},
+          {"false_alarm", a.level},
+          {"tests", a.tests},
+          {"untested", a.untested},
+          {"image_differs", a.image_failed},
+          {"detectable", NumberJson(a.detectable)},
+          {"tiles", tiles}};
+}
+
 }  // namespace
 
 ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
@@ -70,8 +106,7 @@ ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
   ImageComparison out;
   out.test = test.name;
   out.reference = reference.name;
-  out.metrics = CompareImages(test.image, reference.image,
-                              {.exact_reference = options.exact_reference});
+  out.metrics = CompareImages(test.image, reference.image, options.exact_reference);
   out.agreement = TestAgreement(test.image, reference.image, options.exact_reference);
   const LinearImage a = LinearOf(test.image), b = LinearOf(reference.image);
   out.worst = WorstTiles(a, b, kMostWorstTiles);
@@ -101,6 +136,17 @@ std::string AgreementText(const Agreement& a) {
       break;
   }
   return "cannot tell: " + a.why;
+}
+
+nlohmann::json ToJson(const ImageComparison& c) {
+  nlohmann::json out = ToJson(c.metrics);
+  out.update({{"test", c.test},
+              {"reference", c.reference},
+              {"verdict", c.verdict},
+              {"agreement", AgreementJson(c.agreement)},
+              {"flip", FlipJson(c.flip)},
+              {"worst_tiles", c.worst}});
+  return out;
 }
 
 }  // namespace lanelight

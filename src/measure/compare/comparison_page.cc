@@ -1,26 +1,19 @@
-#include "src/measure/compare/comparison_page.h"
+#include "src/measure/compare/comparison.h"
 
 #include <nlohmann/json.hpp>
 
-#include "src/measure/compare/error_maps.h"
 #include "src/measure/compare/linear_image.h"
 #include "src/measure/report/page.h"
-#include "src/measure/report/shrink.h"
 
 namespace lanelight {
 namespace {
 
-// Pictures of a page, by names that do not hang on those of files, of which two may be
+// Images of a page. Their names do not depend on names of files, of which two may be
 // equal.
 class PagePictures {
  public:
   std::string Add(const std::string& name, const LinearImage& image) {
-    ReportImage out = {name, image.width, image.height, 3, {}};
-    out.values.reserve(3 * image.pixels());
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-      for (int c = 0; c < 3; ++c) out.values.push_back(image.planes[c][i]);
-    }
-    images_.push_back(std::move(out));
+    images_.push_back({name, image.width, image.height, 3, image.Interleaved()});
     return name;
   }
 
@@ -72,7 +65,7 @@ std::string ComparisonPage(const std::vector<NamedImage>& tests,
     out["comparisons"].push_back(std::move(one));
   }
   out["report_scale"] = ShrinkImages(pictures.images(), kReportValues);
-  return ComparisonReportPage(out, pictures.images());
+  return ReportPage(PageKind::kComparison, out, pictures.images());
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/compare/comparison_sheet.h"
+#include "src/measure/compare/comparison.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "src/base/image/pixel_rect.h"
-#include "src/measure/compare/error_maps.h"
+#include "src/measure/compare/linear_image.h"
 
 namespace lanelight {
 namespace {
 
-constexpr int kColumns = 4, kGap = 4;  // pictures in a row; pixels between two
+constexpr int kColumns = 4, kGap = 4;  // pictures in a row; pixels between them
 constexpr Vec3d kGapColor = {1, 1, 1}, kInvalid = {0.2, 0.2, 0.2};
 // Linear colours.
 constexpr Vec3d kDarker = {0.02, 0.1, 0.55}, kBrighter = {0.55, 0.03, 0.03},
@@ -31,15 +31,15 @@ Vec3d DifferenceColor(double x) {
 Vec3d FlipColor(double x) {
   constexpr int kSteps = std::size(kFlipColors) - 1;
   const double at = std::clamp(x, 0.0, 1.0) * kSteps;
-  const int step = std::min(kSteps - 1, static_cast<int>(at));
+  const int step = std::min(kSteps - 1, int(at));
   return Mix(kFlipColors[step], kFlipColors[step + 1], at - step);
 }
 
 void Put(Image& image, int x, int y, Vec3d color) {
-  for (int c = 0; c < 3; ++c) image.At(x, y, c) = static_cast<float>(color[c]);
+  for (int c = 0; c < 3; ++c) image.At(x, y, c) = float(color[c]);
 }
 
-// Calls color(i) for all pixels of a picture that lies there.
+// Fills `place` with color(i).
 template <class Color>
 void Draw(Image& image, const PixelRect& place, const Color& color) {
   std::size_t i = 0;
@@ -58,7 +58,7 @@ auto Colors(const LinearImage& image) {
 
 ComparisonSheet SheetOf(const std::vector<SheetRow>& rows) {
   const int w = rows.front().test.image.width, h = rows.front().test.image.height;
-  const int count = static_cast<int>(rows.size());
+  const int count = int(rows.size());
   std::vector<Plane> differences;
   ComparisonSheet out;
   for (const SheetRow& row : rows) {

@@ -6,21 +6,20 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
-#include "src/measure/compare/convolve.h"
-#include "src/measure/compare/flip_color.h"
+#include "src/measure/compare/flip_filters.h"
 
 namespace lanelight {
 namespace {
 
 constexpr std::size_t kPixelsOfTask = 4096;
 
-// The paper's constants, by its names: the exponents of colour and feature differences;
-// where the larger part of colour differences ends, and to what it is spread.
+// The paper's constants, by its names: exponents of colour and feature differences, and
+// the knee (kPc, kPt) of the curve for colour differences.
 constexpr double kQc = 0.7, kQf = 0.5, kPc = 0.4, kPt = 0.95;
-// Width of the eye's detectors of edges and points, in degrees.
+// Width of the detectors of edges and points, in degrees.
 constexpr double kFeatureWidth = 0.082;
 
-// A term of the eye's contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
+// A term of the contrast sensitivity: a sqrt(pi / b) exp(-pi^2 x^2 / b), x in
 // degrees.
 struct Sensitivity {
   double a, b;
@@ -30,11 +29,11 @@ constexpr Sensitivity kLuminance = {1, 0.0047}, kRedGreen = {1, 0.0053},
 
 Kernel Scaled(std::vector<double> weights, double factor) {
   Kernel out;
-  for (double w : weights) out.push_back(static_cast<float>(w * factor));
+  for (double w : weights) out.push_back(float(w * factor));
   return out;
 }
 
-// exp(-x^2 / scale) at whole pixels.
+// Returns exp(-x^2 / scale) at integer x.
 std::vector<double> Bell(int radius, double scale) {
   std::vector<double> out;
   for (int x = -radius; x <= radius; ++x) out.push_back(std::exp(-double(x) * x / scale));
@@ -45,15 +44,14 @@ double Sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// The filters of an image for one distance of the eye.
+// The filters of an image for one viewing distance.
 class EyeFilters {
  public:
   explicit EyeFilters(double pixels_per_degree)
       : ppd_(pixels_per_degree),
-        radius_(static_cast<int>(
-            std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * kPi * kPi)) * ppd_))),
+        radius_(int(std::ceil(3 * std::sqrt(kBlueYellow[0].b / (2 * kPi * kPi)) * ppd_))),
         deviation_(0.5 * kFeatureWidth * ppd_),
-        feature_radius_(static_cast<int>(std::ceil(3 * deviation_))) {}
+        feature_radius_(int(std::ceil(3 * deviation_))) {}
 
   Plane Luminance(const Plane& in, int w, int h) const {
     return One(in, w, h, kLuminance);
@@ -69,15 +67,14 @@ class EyeFilters {
     }
     Plane out = One(in, w, h, kBlueYellow[0]);
     const Plane second = One(in, w, h, kBlueYellow[1]);
-    const float part = static_cast<float>(share[0] / (share[0] + share[1]));
+    const float part = float(share[0] / (share[0] + share[1]));
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i] = part * out[i] + (1 - part) * second[i];
     }
     return out;
   }
 
-  // Lengths of the gradients that the detector of edges (derivative 1) or points (2)
-  // sees.
+  // Returns lengths of gradients of the edge (derivative 1) or point (2) detector.
   Plane Features(const Plane& in, int w, int h, int derivative) const {
     std::vector<double> bell = Bell(feature_radius_, 2 * deviation_ * deviation_);
     const Kernel smooth = Scaled(bell, 1 / Sum(bell)), slope = Slope(bell, derivative);
@@ -100,15 +97,15 @@ class EyeFilters {
     return ConvolveColumns(ConvolveRows(in, w, h, kernel), w, h, kernel);
   }
 
-  // A derivative of the bell; weights above and below zero have sums of 1 and -1.
+  // Returns a derivative of the bell; positive weights sum to 1, negative ones to -1.
   Kernel Slope(std::vector<double> weights, int derivative) const {
     double above = 0, below = 0;
-    for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
+    for (int i = 0; i < int(weights.size()); ++i) {
       const double x = i - feature_radius_;
       weights[i] *= derivative == 1 ? -x : x * x / (deviation_ * deviation_) - 1;
       (weights[i] > 0 ? above : below) += std::abs(weights[i]);
     }
-    // A detector narrower than a pixel sees nothing.
+    // A detector narrower than a pixel detects nothing.
     if (above == 0 || below == 0) return Kernel(weights.size(), 0.0f);
     for (double& w : weights) w /= w > 0 ? above : below;
     return Scaled(weights, 1);
@@ -120,7 +117,7 @@ class EyeFilters {
   const int feature_radius_;
 };
 
-// What one image brings to the comparison.
+// The filtered colours and features of one image.
 struct Seen {
   std::array<Plane, 3> lab;
   Plane edges, points;
@@ -137,7 +134,7 @@ std::array<Plane, 3> OpponentPlanes(const LinearImage& image,
       const Vec3d opponent =
           colors.FromRgb({Shown(image.planes[0][i]), Shown(image.planes[1][i]),
                           Shown(image.planes[2][i])});
-      for (int c = 0; c < 3; ++c) out[c][i] = static_cast<float>(opponent[c]);
+      for (int c = 0; c < 3; ++c) out[c][i] = float(opponent[c]);
     }
   });
   return out;
@@ -155,13 +152,13 @@ Seen Look(const LinearImage& image, const EyeFilters& eye, const OpponentColors&
     for (std::size_t i = from; i < to; ++i) {
       const Vec3d rgb = colors.ToRgb({out.lab[0][i], out.lab[1][i], out.lab[2][i]});
       const Vec3d lab = colors.HuntLab(Min(Max(rgb, Vec3d{}), Vec3d{1, 1, 1}));
-      for (int c = 0; c < 3; ++c) out.lab[c][i] = static_cast<float>(lab[c]);
+      for (int c = 0; c < 3; ++c) out.lab[c][i] = float(lab[c]);
     }
   });
   return out;
 }
 
-// Of a difference of colours, 0 to 1: most of the range is for those that occur.
+// Maps a colour difference to 0 ... 1; frequent differences take most of the range.
 double ColorError(double distance, double largest) {
   const double error = std::pow(distance, kQc), knee = kPc * largest;
   if (error < knee) return kPt / knee * error;
@@ -192,7 +189,7 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
       const double distance = HyAb({a.lab[0][i], a.lab[1][i], a.lab[2][i]},
                                    {b.lab[0][i], b.lab[1][i], b.lab[2][i]});
       const double color = std::min(1.0, ColorError(distance, largest));
-      map[i] = static_cast<float>(std::pow(color, 1 - FeatureError(a, b, i)));
+      map[i] = float(std::pow(color, 1 - FeatureError(a, b, i)));
     }
   });
   return map;
@@ -201,10 +198,10 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
 FlipSummary SummaryOf(const Plane& map) {
   LL_CHECK(!map.empty());
   Plane sorted = map;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double sum = std::accumulate(sorted.begin(), sorted.end(), 0.0);
   FlipSummary out;
-  out.mean = sum / static_cast<double>(sorted.size());
+  out.mean = sum / double(sorted.size());
   out.max = sorted.back();
   double* const quartiles[] = {&out.first_quartile, &out.median, &out.third_quartile};
   double up_to = 0;

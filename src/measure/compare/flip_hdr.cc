@@ -1,4 +1,4 @@
-// FLIP of images of a high dynamic range: as a screen shows them at several exposures.
+// FLIP of images of a high dynamic range, at several exposures.
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +12,11 @@ namespace {
 // (kTop[0] x^2 + kTop[1] x) / (kBottom[0] x^2 + kBottom[1] x + kBottom[2]).
 constexpr double kTop[] = {0.6 * 0.6 * 2.51, 0.6 * 0.03};
 constexpr double kBottom[] = {0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14};
-// What the curve maps to this is bright, and not yet burnt out.
+// Bright, but not clipped.
 constexpr double kBright = 0.85;
 // Weights of luminance, with the digits that the authors give them.
 constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
-// Where the curve is as good as level, and squares are not yet infinite.
+// The curve is flat here, and squares are still finite.
 constexpr double kLevel = 1e15;
 
 double ToneCurve(double x) {
@@ -36,7 +36,7 @@ LinearImage Toned(const LinearImage& image, double exposure) {
   const double gain = std::exp2(exposure);
   LinearImage out = image;
   for (Plane& plane : out.planes) {
-    for (float& value : plane) value = static_cast<float>(ToneCurve(gain * value));
+    for (float& value : plane) value = float(ToneCurve(gain * value));
   }
   return out;
 }
@@ -44,7 +44,7 @@ LinearImage Toned(const LinearImage& image, double exposure) {
 }  // namespace
 
 FlipExposures ExposuresOf(const LinearImage& reference) {
-  constexpr double kLeast = 1e-30;  // of a luminance: its logarithm is wanted
+  constexpr double kLeast = 1e-30;  // of a luminance, whose logarithm is computed
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.pixels(); ++i) {
     double y = 0;
@@ -52,17 +52,17 @@ FlipExposures ExposuresOf(const LinearImage& reference) {
     if (std::isfinite(y)) luminances.push_back(std::max(y, kLeast));
   }
   if (luminances.empty()) return {0, 1, 2};
-  const auto middle = luminances.begin() + static_cast<long>(luminances.size() / 2);
+  const auto middle = luminances.begin() + long(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
   const double median = *middle;
-  const double brightest = *std::max_element(luminances.begin(), luminances.end());
+  const double brightest = *std::ranges::max_element(luminances);
   if (brightest <= kLeast) return {0, 1, 2};
   FlipExposures out;
   out.start = std::log2(BrightInput() / brightest);
-  // Where most of an image is black, the exposures end where nothing is left to see.
+  // Limits the range for images that are mostly black.
   constexpr double kMost = 32;
   out.stop = std::min(std::log2(BrightInput() / median), out.start + kMost);
-  out.count = std::max(2, static_cast<int>(std::ceil(out.stop - out.start)));
+  out.count = std::max(2, int(std::ceil(out.stop - out.start)));
   return out;
 }
 

@@ -8,15 +8,17 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "src/base/core/check.h"
 #include "src/base/core/error.h"
 #include "src/base/image/image.h"
 #include "src/base/stat/interval.h"
-#include "src/measure/compare/z_scores.h"
+#include "src/measure/compare/tile_test.h"
 
 namespace lanelight {
 namespace {
 
+// Fraction of the largest errors that the trimmed metric leaves out.
+constexpr double kTrim = 0.001;
+constexpr int kTileSide = 16;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // One colour channel present in both images, with its variances (-1 = none).
@@ -28,25 +30,22 @@ struct Channel {
 std::vector<Channel> CommonChannels(const Image& test, const Image& reference,
                                     bool exact_reference) {
   const auto has_all = [&](const std::vector<std::string>& names) {
-    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::ranges::all_of(names, [&](const std::string& name) {
       return test.FindChannel(name) >= 0 && reference.FindChannel(name) >= 0;
     });
   };
-  std::vector<Channel> channels;
-  for (const std::vector<std::string>& names :
-       {std::vector<std::string>{"R", "G", "B"}, std::vector<std::string>{"Y"}}) {
-    if (!channels.empty() || !has_all(names)) continue;
-    for (const std::string& name : names) {
-      channels.push_back(
-          {name, test.FindChannel(name), reference.FindChannel(name),
-           test.FindChannel("variance." + name),
-           exact_reference ? -1 : reference.FindChannel("variance." + name)});
-    }
+  std::vector<std::string> names = {"R", "G", "B"};
+  if (!has_all(names)) names = {"Y"};
+  if (!has_all(names)) {
+    throw InputError("the images share neither R, G, B nor Y: one has {}, the other {}",
+                     fmt::join(test.names, ", "), fmt::join(reference.names, ", "));
   }
-  if (channels.empty()) {
-    throw InputError(
-        fmt::format("the images share neither R, G, B nor Y: one has {}, the other {}",
-                    fmt::join(test.names, ", "), fmt::join(reference.names, ", ")));
+  std::vector<Channel> channels;
+  for (const std::string& name : names) {
+    const std::string variance = "variance." + name;
+    channels.push_back({name, test.FindChannel(name), reference.FindChannel(name),
+                        test.FindChannel(variance),
+                        exact_reference ? -1 : reference.FindChannel(variance)});
   }
   return channels;
 }
@@ -55,19 +54,18 @@ std::vector<Channel> CommonChannels(const Image& test, const Image& reference,
 class TileGrid {
  public:
   TileGrid(int width, int height, int tile)
-      : tile_(tile),
-        columns_((width + tile - 1) / tile),
-        tiles_(static_cast<std::size_t>(columns_) * ((height + tile - 1) / tile)) {}
+      : layout_{tile, (width + tile - 1) / tile, (height + tile - 1) / tile},
+        tiles_(layout_.size()) {}
 
   void Add(int x, int y, double a, double b) {
-    Tile& tile = tiles_[static_cast<std::size_t>(y / tile_) * columns_ + x / tile_];
+    Tile& tile = tiles_[layout_.At(x, y)];
     tile.test += a, tile.reference += b, ++tile.count;
   }
-  void AppendErrors(double epsilon, std::vector<double>* errors) const {
+  void AppendErrors(std::vector<double>* errors) const {
     for (const Tile& t : tiles_) {
       if (t.count == 0) continue;
       const double b = t.reference / t.count, d = t.test / t.count - b;
-      errors->push_back(d * d / (b * b + epsilon));
+      errors->push_back(d * d / (b * b + kRelativeEpsilon));
     }
   }
 
@@ -75,41 +73,38 @@ class TileGrid {
   struct Tile {
     double test = 0, reference = 0, count = 0;
   };
-  int tile_, columns_;
+  TileLayout layout_;
   std::vector<Tile> tiles_;
 };
 
-// Mean without the largest `share` of the values.
+// Returns the mean without the largest fraction `share` of the values.
 double TrimmedMean(std::vector<double> values, double share) {
-  const std::size_t keep =
-      values.size() -
-      static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  const std::size_t keep = values.size() - std::size_t(share * double(values.size()));
   if (keep == 0) return kNan;
   std::nth_element(values.begin(), values.begin() + (keep - 1), values.end());
   double sum = 0;
   for (std::size_t i = 0; i < keep; ++i) sum += values[i];
-  return sum / static_cast<double>(keep);
+  return sum / double(keep);
 }
 
 double Ratio(double test, double reference) {
   return test == 0 && reference == 0 ? 1 : test / reference;
 }
 
-// Sums over all channels and pixels, on the way to a CompareResult.
+// Sums over all channels and pixels.
 class Comparison {
  public:
-  Comparison(const Image& test, const Image& reference, const CompareOptions& options)
+  Comparison(const Image& test, const Image& reference, bool exact_reference)
       : test_(test),
         reference_(reference),
-        options_(options),
+        exact_reference_(exact_reference),
         test_unit_(VarianceUnit(test)),
         reference_unit_(VarianceUnit(reference)) {}
 
   CompareResult Run() {
     result_.width = test_.width;
     result_.height = test_.height;
-    for (const Channel& channel :
-         CommonChannels(test_, reference_, options_.exact_reference)) {
+    for (const Channel& channel : CommonChannels(test_, reference_, exact_reference_)) {
       AddChannel(channel);
     }
     return Finish();
@@ -120,7 +115,7 @@ class Comparison {
     result_.channels.push_back(channel.name);
     const bool variances = channel.test_variance >= 0 || channel.reference_variance >= 0;
     has_variance_ |= variances;
-    TileGrid tiles(test_.width, test_.height, options_.tile);
+    TileGrid tiles(test_.width, test_.height, kTileSide);
     std::vector<TileGrid> squares;
     for (int side : kFilterSides) {
       squares.emplace_back(test_.width, test_.height, side);
@@ -141,11 +136,11 @@ class Comparison {
         sum_a += a, sum_b += b, ++count;
       }
     }
-    tiles.AppendErrors(options_.epsilon, &tile_errors_);
+    tiles.AppendErrors(&tile_errors_);
     for (std::size_t k = 0; k < kFilters; ++k) {
-      squares[k].AppendErrors(options_.epsilon, &filtered_[k]);
+      squares[k].AppendErrors(&filtered_[k]);
     }
-    const double n = static_cast<double>(count);
+    const double n = double(count);
     result_.mean_test.push_back(sum_a / n);
     result_.mean_reference.push_back(sum_b / n);
     result_.mean_ratio.push_back(Ratio(sum_a, sum_b));
@@ -166,29 +161,27 @@ class Comparison {
     const double d = a - b;
     squares_ += d * d;
     absolute_ += std::abs(d);
-    percentage_ += std::abs(d) / (std::abs(b) + options_.epsilon);
+    percentage_ += std::abs(d) / (std::abs(b) + kRelativeEpsilon);
     peak_ = std::max(peak_, b);
-    relative_.push_back(d * d / (b * b + options_.epsilon));
+    relative_.push_back(d * d / (b * b + kRelativeEpsilon));
   }
 
   CompareResult Finish() {
-    const double n = static_cast<double>(relative_.size());  // 0: every mean becomes NaN
+    const double n = double(relative_.size());  // 0: every mean becomes NaN
     result_.samples = relative_.size();
     result_.mse = squares_ / n;
     result_.rmse = std::sqrt(result_.mse);
     result_.mae = absolute_ / n;
     result_.mape = percentage_ / n;
     result_.relmse = TrimmedMean(relative_, 0);
-    result_.relmse_trimmed = TrimmedMean(std::move(relative_), options_.trim);
+    result_.relmse_trimmed = TrimmedMean(std::move(relative_), kTrim);
     for (std::size_t k = 0; k < kFilters; ++k) {
       result_.relmse_filtered[k] = TrimmedMean(std::move(filtered_[k]), 0);
     }
     result_.psnr = result_.mse == 0 ? std::numeric_limits<double>::infinity()
                                     : 10 * std::log10(peak_ * peak_ / result_.mse);
     result_.tile_relmse_max =
-        tile_errors_.empty()
-            ? kNan
-            : *std::max_element(tile_errors_.begin(), tile_errors_.end());
+        tile_errors_.empty() ? kNan : *std::ranges::max_element(tile_errors_);
     result_.tile_relmse_median = stat::Median(std::move(tile_errors_));
     if (has_variance_) result_.z = z_.Finish();
     return result_;
@@ -196,7 +189,7 @@ class Comparison {
 
   const Image& test_;
   const Image& reference_;
-  const CompareOptions& options_;
+  const bool exact_reference_;
   const double test_unit_, reference_unit_;  // of their variances
   CompareResult result_;
   ZCollector z_;
@@ -209,15 +202,12 @@ class Comparison {
 }  // namespace
 
 CompareResult CompareImages(const Image& test, const Image& reference,
-                            const CompareOptions& options) {
-  LL_CHECK(options.epsilon > 0 && options.tile > 0);
-  LL_CHECK(options.trim >= 0 && options.trim < 1);
+                            bool exact_reference) {
   if (test.width != reference.width || test.height != reference.height) {
-    throw InputError(fmt::format("the images differ in size: {} x {} and {} x {}",
-                                 test.width, test.height, reference.width,
-                                 reference.height));
+    throw InputError("the images differ in size: {} x {} and {} x {}", test.width,
+                     test.height, reference.width, reference.height);
   }
-  return Comparison(test, reference, options).Run();
+  return Comparison(test, reference, exact_reference).Run();
 }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ZScores, available, count, exact, mismatched, invalid,

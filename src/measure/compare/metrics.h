@@ -1,4 +1,4 @@
-// How far an image is from a reference, and whether noise explains it.
+// Error metrics of an image, and z-scores that show whether noise explains the error.
 #pragma once
 
 #include <array>
@@ -13,20 +13,8 @@
 
 namespace lanelight {
 
-struct CompareOptions {
-  /// Added to the squared reference in relMSE (pbrt's imgtool uses 0.01), and to the
-  /// reference in MAPE.
-  double epsilon = kRelativeEpsilon;
-  /// Share of the largest per-sample errors that the trimmed measure leaves out.
-  double trim = 0.001;
-  int tile = 16;  // pixels per side of the tiles of the tile measures
-  /// The reference has no noise: z-scores are those of the variance of `test` alone.
-  bool exact_reference = false;
-};
-
-/// Sides of the box filters after which errors are told as well, in pixels: whether
-/// errors of neighbours have something in common, which a filter or the eye does not
-/// average away.
+/// Sides in pixels of box filters for relmse_filtered, which shows whether errors of
+/// neighbouring pixels are correlated.
 inline constexpr int kFilterSides[] = {2, 4, 8};
 inline constexpr std::size_t kFilters = std::size(kFilterSides);
 
@@ -40,12 +28,13 @@ struct ZScores {
   std::uint64_t mismatched = 0;  // zero variance, different values: certainly different
   std::uint64_t invalid = 0;     // variance negative or not finite
   double mean = 0, standard_deviation = 0;
-  double beyond_2 = 0, beyond_3 = 0;  // shares of |z| > 2 (normal: 0.0455), > 3 (0.0027)
+  double beyond_2 = 0,
+         beyond_3 = 0;     // fractions of |z| > 2 (normal: 0.0455), > 3 (0.0027)
   double ks_distance = 0;  // Kolmogorov-Smirnov distance to the standard normal
 };
 
-/// Sums run over pixels and the colour channels R, G, B (or Y), leaving out samples that
-/// are not finite in either image. Without any finite sample the means are NaN: write a
+/// Metrics over pixels and colour channels, without samples that are not finite in either
+/// image. Without any finite sample the means are NaN: write a
 /// limit as !(relmse <= limit).
 struct CompareResult {
   int width = 0, height = 0;
@@ -53,27 +42,45 @@ struct CompareResult {
   std::uint64_t samples = 0;  // compared: pixels * channels less the invalid ones
   std::uint64_t invalid_test = 0, invalid_reference = 0;  // NaN or infinite samples
   double mse = 0, rmse = 0, mae = 0;
-  double relmse = 0;          // mean of (a-b)^2 / (b^2 + epsilon)
-  double relmse_trimmed = 0;  // the same without the largest `trim` share
+  double relmse = 0;          // mean of (a-b)^2 / (b^2 + kRelativeEpsilon)
+  double relmse_trimmed = 0;  // the same without the largest 0.1 %
   /// relMSE of the means of squares with kFilterSides, from the image's corner on. Errors
   /// of independent pixels fall as 1 / side^2.
   std::array<double, kFilters> relmse_filtered = {};
-  double mape = 0;  // mean of |a-b| / (|b| + epsilon); 1 = 100 %
+  double mape = 0;  // mean of |a-b| / (|b| + kRelativeEpsilon); 1 = 100 %
   double psnr = 0;  // dB, peak = largest reference value; infinite if equal
   std::vector<double> mean_test, mean_reference;  // per channel
   std::vector<double> mean_ratio;                 // test / reference; 1 if both are 0
-  double tile_relmse_median = 0;  // of (mean a - mean b)^2 / ((mean b)^2 + epsilon)
+  double tile_relmse_median = 0;  // of the means of tiles of 16 x 16 pixels
   double tile_relmse_max = 0;     // over tiles and channels
   ZScores z;
 };
 
 /// Compares the colour channels of two images (8-bit ones are decoded as sRGB). Variances
 /// are taken from the channels "variance.R", ... of each image that has them. Throws
-/// InputError that states both sizes if they differ, and if the colour channels do.
+/// InputError that states both sizes if they differ, and if the colour channels do. An
+/// exact reference has no noise: z-scores use the variance of `test` only.
 CompareResult CompareImages(const Image& test, const Image& reference,
-                            const CompareOptions& options = {});
+                            bool exact_reference = false);
 
-/// All members, by name; numbers that are not finite become null in texts.
+/// Writes all members by name; numbers that are not finite become null in texts.
 nlohmann::json ToJson(const CompareResult& result);
+
+class ZCollector {
+ public:
+  /// Adds a difference and its variance by noise alone. Zero, negative and invalid
+  /// variances give no score and are counted separately.
+  void Add(double difference, double variance);
+
+  /// Returns the summary of all scores.
+  ZScores Finish();
+
+ private:
+  // Returns the largest gap between the empirical and the normal distribution function.
+  double KsDistance();
+
+  ZScores scores_;
+  std::vector<double> z_;
+};
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/compare/noisy_channels.h"
+#include "src/measure/compare/agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +10,9 @@ namespace {
 
 using stat::MeanEstimate;
 
-double NumberOf(const Image& image, const char* name, double otherwise) {
-  const auto found = image.attributes.find(name);
-  if (found == image.attributes.end()) return otherwise;
-  if (const int* whole = std::get_if<int>(&found->second)) return *whole;
-  const double* number = std::get_if<double>(&found->second);
-  return number != nullptr ? *number : otherwise;
-}
-
-// Of the variance of one pixel. One that is there comes of two observations at least.
-double DegreesOfFreedom(const Image& image) {
-  return std::max(1.0, NumberOf(image, kObservations, 2) - 1);
-}
-
-// Sums over pixels, on the way to a mean.
+// Sums over pixels.
 struct EstimateSum {
-  double value = 0, variance = 0, quartic = 0;  // the last: squares of variances
+  double value = 0, variance = 0, quartic = 0;  // quartic: squares of variances
   std::size_t count = 0;
 
   void Add(double v, double var) {
@@ -34,17 +21,18 @@ struct EstimateSum {
   void Add(const EstimateSum& o) {
     value += o.value, variance += o.variance, quartic += o.quartic, count += o.count;
   }
-  // Pixels that have paths in common are as many pixels less; `dof` is of one of them.
+  // Path reuse correlates pixels: the variance of the mean is `as_one` times that of
+  // independent pixels. `dof`: degrees of freedom of the variance of one pixel.
   MeanEstimate Mean(double as_one, double dof) const {
     if (count == 0) return {};
-    const double n = static_cast<double>(count), each = std::min(as_one, n);
+    const double n = double(count), each = std::min(as_one, n);
     return {
         value / n, each * variance / (n * n),
         quartic > 0 ? dof * std::max(1.0, variance * variance / (quartic * each)) : 1e9};
   }
 };
 
-// A value with its variance.
+// Values and variances of one channel.
 class NoisyValues {
  public:
   explicit NoisyValues(const NoisyChannel& of)
@@ -67,6 +55,14 @@ class NoisyValues {
 bool IsVariance(double v) { return std::isfinite(v) && v >= 0; }
 
 }  // namespace
+
+double NumberAttribute(const Image& image, const char* name, double otherwise) {
+  const auto found = image.attributes.find(name);
+  if (found == image.attributes.end()) return otherwise;
+  if (const int* whole = std::get_if<int>(&found->second)) return *whole;
+  const double* number = std::get_if<double>(&found->second);
+  return number != nullptr ? *number : otherwise;
+}
 
 NoisyChannels FindNoisyChannels(const Image& image) {
   const auto colors = ColorChannels(image);
@@ -102,14 +98,13 @@ ChannelMeans MeansOf(const NoisyChannel& test, const NoisyChannel& reference,
       sums_b[layout.At(x, y)].Add(value_b, variance_b);
     }
   }
-  const auto mean_a = [one = PixelsAsOne(NumberOf(test.image, kDependentPixels, 1)),
-                       dof = DegreesOfFreedom(test.image)](const EstimateSum& sum) {
-    return sum.Mean(one, dof);
+  // A variance needs at least two observations.
+  const auto mean_of = [](const Image& image) {
+    return [as_one = PixelsAsOne(NumberAttribute(image, kDependentPixels, 1)),
+            dof = std::max(1.0, NumberAttribute(image, kObservations, 2) - 1)](
+               const EstimateSum& sum) { return sum.Mean(as_one, dof); };
   };
-  const auto mean_b = [one = PixelsAsOne(NumberOf(reference.image, kDependentPixels, 1)),
-                       dof = DegreesOfFreedom(reference.image)](const EstimateSum& sum) {
-    return sum.Mean(one, dof);
-  };
+  const auto mean_a = mean_of(test.image), mean_b = mean_of(reference.image);
   ChannelMeans out;
   EstimateSum all_a, all_b;
   for (std::size_t i = 0; i < layout.size(); ++i) {

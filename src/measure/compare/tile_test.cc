@@ -13,15 +13,14 @@ namespace {
 constexpr int kMostTiles = 1024;  // about
 constexpr int kLeastSide = 8;
 
-// At least so many of a tile's samples must be expected.
+// Required number of samples of a tile.
 constexpr double kLeastObservations = 25;
 
 }  // namespace
 
 TileLayout LayoutOf(int width, int height) {
   const double pixels = double(width) * height;
-  const int side =
-      std::max(kLeastSide, static_cast<int>(std::ceil(std::sqrt(pixels / kMostTiles))));
+  const int side = std::max(kLeastSide, int(std::ceil(std::sqrt(pixels / kMostTiles))));
   return {side, (width + side - 1) / side, (height + side - 1) / side};
 }
 
@@ -34,15 +33,14 @@ stat::MeanEstimate VarianceAround(const TileLayout& layout,
                                   const std::vector<stat::MeanEstimate>& tiles,
                                   std::size_t tile) {
   constexpr int kReach = 2;
-  const int row = static_cast<int>(tile) / layout.columns;
-  const int column = static_cast<int>(tile) % layout.columns;
+  const int row = int(tile) / layout.columns;
+  const int column = int(tile) % layout.columns;
   double sum = 0, quartic = 0;
   int count = 0;
   for (int y = row - kReach; y <= row + kReach; ++y) {
     for (int x = column - kReach; x <= column + kReach; ++x) {
       if (x < 0 || y < 0 || x >= layout.columns || y >= layout.rows) continue;
-      const stat::MeanEstimate& one =
-          tiles[static_cast<std::size_t>(y) * layout.columns + x];
+      const stat::MeanEstimate& one = tiles[std::size_t(y) * layout.columns + x];
       sum += one.variance;
       if (one.variance > 0) quartic += one.variance * one.variance / one.dof;
       ++count;
@@ -70,8 +68,7 @@ nlohmann::json TilesJson(const TileLayout& layout, const std::vector<double>& z)
   for (int row = 0; row < layout.rows; ++row) {
     rows.push_back(nlohmann::json::array());
     for (int column = 0; column < layout.columns; ++column) {
-      rows.back().push_back(
-          NumberJson(z[static_cast<std::size_t>(row) * layout.columns + column]));
+      rows.back().push_back(NumberJson(z[std::size_t(row) * layout.columns + column]));
     }
   }
   return {{"side", layout.side},

@@ -1,4 +1,4 @@
-#include "src/measure/compare/z_scores.h"
+#include "src/measure/compare/metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ ZScores ZCollector::Finish() {
   scores_.available = true;
   scores_.count = z_.size();
   if (z_.empty()) return scores_;
-  const double n = static_cast<double>(z_.size());
+  const double n = double(z_.size());
   double sum = 0, squares = 0;
   std::uint64_t beyond_2 = 0, beyond_3 = 0;
   for (double z : z_) {
@@ -32,15 +32,15 @@ ZScores ZCollector::Finish() {
   scores_.mean = sum / n;
   for (double z : z_) squares += (z - scores_.mean) * (z - scores_.mean);
   scores_.standard_deviation = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
-  scores_.beyond_2 = static_cast<double>(beyond_2) / n;
-  scores_.beyond_3 = static_cast<double>(beyond_3) / n;
+  scores_.beyond_2 = double(beyond_2) / n;
+  scores_.beyond_3 = double(beyond_3) / n;
   scores_.ks_distance = KsDistance();
   return scores_;
 }
 
 double ZCollector::KsDistance() {
-  std::sort(z_.begin(), z_.end());
-  const double n = static_cast<double>(z_.size());
+  std::ranges::sort(z_);
+  const double n = double(z_.size());
   double distance = 0;
   for (std::size_t i = 0; i < z_.size(); ++i) {
     const double cdf = stat::NormalCdf(z_[i]);

@@ -21,29 +21,29 @@ IMAGES = "tone picture place pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts.
 PAGES = {
-    "Page": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
+    "Study": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
              "images",
              f"""{CURVES} {IMAGES} curves hero warnings summary ranking ranking_columns calibration
              figures figures_level insets maps stages levels glossary main"""),
-    "PaperPage": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
+    "Paper": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
                   "images",
                   f"""{CURVES} tone picture difference curves hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
-    "ComparePage": ({"NAME": "compare", "TABS": "Images",
+    "Comparison": ({"NAME": "compare", "TABS": "Images",
                      "FILES": "what compare --json prints"}, "images",
                     f"""{REPORT} {PLOTS} {IMAGES} maps histogram compare_tiles compare_numbers
                     compare_main"""),
-    "SweepPage": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
+    "Sweep": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
                   sweep_plots sweep_images sweep_stages sweep_table sweep_headline
                   sweep_summary sweep_main"""),
-    "BenchPage": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
+    "Bench": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
                   "sweep", f"{CURVES} stages rates bench_rows bench_main"),
-    "StressPage": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
+    "Stress": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
                    f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles
                    stress_about stress_detail stress_strategies stress_table stress_summary
                    stress_main"""),
-    "LivePage": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
+    "Live": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
                   "CONNECT": "; connect-src 'self'"}, "live",
                  f"""{COMMON} strategies scale plot_draw tone place live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
@@ -54,7 +54,7 @@ DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
 PIECE = 12000  # characters of one literal; compilers must take 65535
 
 HEADER = """// Written by src/measure/report/embed_page.py; not to be edited.
-#include "src/measure/report/page_text.h"
+#include "src/measure/report/page.h"
 
 namespace lanelight {
 """
@@ -129,10 +129,13 @@ def plot_script(python_dir):
 def main():
     page_dir, python_dir, output = map(pathlib.Path, sys.argv[1:])
     body = HEADER
+    cases = ""
     for name, page in PAGES.items():
         head, tail = assemble(page_dir, *page)
-        body += "\n" + literal(f"{name}Head", head)
-        body += "\n" + literal(f"{name}Tail", tail)
+        body += "\nstatic " + literal(f"{name}Head", head)
+        body += "\nstatic " + literal(f"{name}Tail", tail)
+        cases += f"    case PageKind::k{name}: return {{{name}Head(), {name}Tail()}};\n"
+    body += f"\nPageText TextOf(PageKind kind) {{\n  switch (kind) {{\n{cases}  }}\n  return {{}};\n}}\n"
     body += "\n" + literal("PlotScript", plot_script(python_dir))
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 

@@ -6,20 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string_view>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "src/base/core/check.h"
 #include "src/base/core/json_text.h"
-#include "src/measure/report/page_text.h"
 
 namespace lanelight {
 namespace {
 
 constexpr float kMaxHalf = 65504.0f;
 
-// JSON has `<` in texts only, where the escape means the same. Without any `<`, nothing
-// in the block can end it or begin a comment.
+// Escapes `<`, which JSON has in texts only, so that no text can end the script element
+// or begin a comment.
 std::string JsonForScript(const nlohmann::json& json) {
   const std::string text = DumpJson(json);
   std::string out;
@@ -34,28 +33,18 @@ std::string JsonForScript(const nlohmann::json& json) {
   return out;
 }
 
-std::string DataBlock(const nlohmann::json& data) {
-  return "<script type=\"application/json\" id=\"study\">" + JsonForScript(data) +
-         "</script>\n";
-}
-
-// The name as JSON, so that the page reads it as it reads the names in the study; then
-// safe between double quotes.
+// Returns the name as JSON, which the page parses, escaped for double quotes.
 std::string Attribute(const std::string& name) {
   std::string out;
   for (const char c : JsonForScript(name)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -95,52 +84,68 @@ void AppendImage(const ReportImage& image, std::string& page) {
   page += "</script>\n";
 }
 
-std::string WithImages(std::string page, const nlohmann::json& data,
-                       const std::vector<ReportImage>& images, const std::string& tail) {
+std::size_t CountValues(const std::vector<ReportImage>& images) {
   std::size_t values = 0;
   for (const ReportImage& image : images) values += image.values.size();
-  page.reserve(page.size() + values * 8 / 3 + (1 << 20));
-  page += DataBlock(data);
-  for (const ReportImage& image : images) AppendImage(image, page);
-  return page + tail;
+  return values;
+}
+
+ReportImage Shrunk(const ReportImage& image, int side) {
+  ReportImage out;
+  out.name = image.name;
+  out.width = (image.width + side - 1) / side;
+  out.height = (image.height + side - 1) / side;
+  out.channels = image.channels;
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const int x1 = std::min(image.width, (x + 1) * side);
+      const int y1 = std::min(image.height, (y + 1) * side);
+      for (int c = 0; c < image.channels; ++c) {
+        double sum = 0;
+        for (int yy = y * side; yy < y1; ++yy) {
+          for (int xx = x * side; xx < x1; ++xx) {
+            sum +=
+                image.values[(std::size_t(yy) * image.width + xx) * image.channels + c];
+          }
+        }
+        const double count = double(x1 - x * side) * double(y1 - y * side);
+        out.values.push_back(float(sum / count));
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace
 
 std::uint16_t ToHalfBits(float value) {
-  // A NaN's payload may not fit: one quiet NaN for all.
+  // The payload of a NaN may not fit.
   if (std::isnan(value)) return 0x7e00;
   return half(std::clamp(value, -kMaxHalf, kMaxHalf)).bits();
 }
 
-std::string ReportPage(const nlohmann::json& study,
+std::string ReportPage(PageKind kind, const nlohmann::json& data,
                        const std::vector<ReportImage>& images) {
-  return WithImages(PageHead(), study, images, PageTail());
+  const PageText text = TextOf(kind);
+  std::string page = text.head;
+  page.reserve(page.size() + CountValues(images) * 8 / 3 + (1 << 20));
+  page += "<script type=\"application/json\" id=\"study\">" + JsonForScript(data) +
+          "</script>\n";
+  for (const ReportImage& image : images) AppendImage(image, page);
+  return page + text.tail;
 }
 
-std::string PaperReportPage(const nlohmann::json& study,
-                            const std::vector<ReportImage>& images) {
-  return WithImages(PaperPageHead(), study, images, PaperPageTail());
+std::string LivePage() {
+  const PageText text = TextOf(PageKind::kLive);
+  return text.head + text.tail;
 }
 
-std::string ComparisonReportPage(const nlohmann::json& comparisons,
-                                 const std::vector<ReportImage>& images) {
-  return WithImages(ComparePageHead(), comparisons, images, ComparePageTail());
+int ShrinkImages(std::vector<ReportImage>& images, std::size_t most) {
+  const double excess = double(CountValues(images)) / double(most);
+  const int side = std::max(1, int(std::ceil(std::sqrt(excess))));
+  if (side == 1) return side;
+  for (ReportImage& image : images) image = Shrunk(image, side);
+  return side;
 }
-
-std::string SweepReportPage(const nlohmann::json& sweep,
-                            const std::vector<ReportImage>& images) {
-  return WithImages(SweepPageHead(), sweep, images, SweepPageTail());
-}
-
-std::string BenchReportPage(const nlohmann::json& bench) {
-  return BenchPageHead() + DataBlock(bench) + BenchPageTail();
-}
-
-std::string StressReportPage(const nlohmann::json& stress) {
-  return StressPageHead() + DataBlock(stress) + StressPageTail();
-}
-
-std::string LivePage() { return LivePageHead() + LivePageTail(); }
 
 }  // namespace lanelight

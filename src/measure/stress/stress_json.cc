@@ -155,7 +155,7 @@ void WriteResults(const SuiteResult& result, const std::string& dir) {
   MakeResultsFolder(dir);
   const Json json = ToJson(result);
   WriteFileAtomically(dir + "/stress.json", DumpJson(json, 1) + "\n");
-  WriteFileAtomically(dir + "/report.html", StressReportPage(json));
+  WriteFileAtomically(dir + "/report.html", ReportPage(PageKind::kStress, json));
 }
 
 }  // namespace lanelight::stress

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "src/measure/compare/tile_test.h"
-#include "src/measure/study/study_images.h"
+#include "src/measure/study/study.h"
 #include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
 namespace {
 
-// The largest sample count with all repetitions; else the largest with the most of them.
+// Returns the largest sample count that has the largest number of repetitions.
 std::size_t ComparedLevel(const std::vector<LevelAnalysis>& levels) {
   std::size_t best = 0;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -19,7 +19,7 @@ std::size_t ComparedLevel(const std::vector<LevelAnalysis>& levels) {
   return best;
 }
 
-stat::Level CostsOf(const Cells& cells, std::uint64_t spp, double Measurement::* error) {
+stat::Level LevelOf(const Cells& cells, std::uint64_t spp, double Measurement::* error) {
   stat::Level level;
   level.samples = double(spp);
   for (const Measurement& m : cells.repetitions) {
@@ -62,11 +62,11 @@ class SceneAnalyser {
       for (const Measurement& m : cells.repetitions) AddMachine(m.machine, out_.machines);
       strategy.levels.push_back(
           AnalyseLevel(cells, runs_.reference, spp, options_.confidence));
-      if (strategy.levels.back().reference_share <= kMostReferenceShare) {
+      if (strategy.levels.back().reference_share <= kMaxReferenceShare) {
         strategy.self.Add(cells.repetitions);
       }
-      strategy.costs.push_back(CostsOf(cells, spp, &Measurement::relmse));
-      strategy.squares.push_back(CostsOf(cells, spp, &Measurement::mse));
+      strategy.costs.push_back(LevelOf(cells, spp, &Measurement::relmse));
+      strategy.squares.push_back(LevelOf(cells, spp, &Measurement::mse));
       if (pictured_.contains(index)) firsts.push_back(cells.first);
     }
     if (strategy.HasRuns()) {
@@ -97,8 +97,8 @@ class SceneAnalyser {
     return cells;
   }
 
-  // Of one kind of squared error, `own` being the reference's. Levels whose error is
-  // mostly the reference's would bend the line.
+  // Fits one kind of squared error; `own`: that of the reference. Leaves out levels whose
+  // error is mostly the reference's.
   std::optional<Interval> FitOrder(const StrategyAnalysis& strategy,
                                    const std::vector<stat::Level>& levels,
                                    double own) const {

@@ -1,5 +1,5 @@
-// What the renders of a study say, with intervals. The members are documented in
-// docs/study.md under the same names.
+// Statistics of a study's renders, with intervals. docs/study.md documents the members
+// under the same names.
 #pragma once
 
 #include <array>
@@ -19,30 +19,30 @@
 
 namespace lanelight {
 
-/// How often the renders' own error estimates held.
+/// Coverage of the renders' own error estimates.
 struct SelfCheck {
   Interval relmse;                      // mean of the estimates
-  std::uint64_t inside = 0, total = 0;  // of the renders that stated an interval
-  std::uint64_t refused = 0;            // stated an estimate, and no interval about it
+  std::uint64_t inside = 0, total = 0;  // of renders with an interval
+  std::uint64_t refused = 0;            // with an estimate, but no interval
 };
 
-/// Of one strategy: whether renders' own intervals held, by seed, and where those that
-/// did not have their worst pixel.
+/// Coverage of the renders' own intervals for one strategy, by seed, and the worst pixels
+/// of renders whose interval did not hold.
 struct SelfRenders {
   std::map<std::uint64_t, stat::Cluster> seeds;
   std::map<std::array<std::uint64_t, 2>, int> missed;
-  double missed_worst_share = 0;  // sum over these
+  double missed_worst_share = 0;  // sum over missed
 
-  /// Renders without an interval are left out.
+  /// Adds renders that have an interval.
   void Add(const std::vector<Measurement>& renders);
 };
 
-/// A strategy whose intervals certainly hold less often than they say.
+/// A strategy whose intervals hold significantly less often than stated.
 struct SelfFailure {
   std::size_t strategy = 0;
   std::uint64_t inside = 0, total = 0;
-  std::array<std::uint64_t, 2> pixel = {};  // most often the worst of the others
-  double worst_share = 0;  // of their error, in the worst kWorstShare of their pixels
+  std::array<std::uint64_t, 2> pixel = {};  // most frequent worst pixel of missed ones
+  double worst_share = 0;  // fraction of their error in the worst kWorstShare of pixels
 };
 
 struct LevelAnalysis {
@@ -57,7 +57,7 @@ struct LevelAnalysis {
   double reference_share = 0;
   std::uint64_t invalid = 0;
   SelfCheck self;
-  std::string image;  // name, of the first repetition; empty: none
+  std::string image;  // name of the first repetition's image; may be empty
 
   bool ReferenceLimited() const { return reference_share > 0.5; }
 };
@@ -66,13 +66,13 @@ struct LevelAnalysis {
 struct TileTest {
   TileLayout layout;
   std::vector<double> z;  // signed, normal if the means are equal; NaN: not testable
-  /// By Holm's correction over the tiles; after TestBias without those that are `shared`.
+  /// Tiles that fail with Holm's correction; TestBias() moves some to `shared`.
   std::vector<std::size_t> failed;
-  /// Differ from the reference as the other strategies do.
+  /// Tiles that differ from the reference like those of the other strategies.
   std::vector<std::size_t> shared;
-  /// Of the tiles: all repetitions together, and the reference.
+  /// Means of the tiles over all repetitions, and of the reference.
   std::vector<stat::MeanEstimate> means, reference;
-  double level = 0;  // of all tiles together
+  double level = 0;  // false-alarm rate of all tiles together
 };
 
 struct StrategyAnalysis {
@@ -80,15 +80,15 @@ struct StrategyAnalysis {
   std::vector<stat::Level> costs;    // relative MSE and processor seconds by level
   std::vector<stat::Level> squares;  // MSE and processor seconds by level
   std::vector<stat::Cost> trimmed;   // trimmed relative MSE, at the level `at`
-  std::size_t at = 0;                // index of the level that comparisons are at
-  /// Slopes over log samples of log RMSE, and of log sqrt(relative MSE): they differ
-  /// where dark and bright pixels converge at different rates.
+  std::size_t at = 0;                // index of the compared level
+  /// Slopes of log RMSE and of log sqrt(relative MSE) over log samples. They differ if
+  /// dark and bright pixels converge at different rates.
   std::optional<Interval> order, order_relmse;
   std::optional<stat::TargetCost> to_target;
   std::optional<Interval> efficiency;
   std::optional<Interval> efficiency_trimmed;  // of Measurement::relmse_trimmed
-  /// Standard deviation of the logarithm of the efficiency at equal time, because the
-  /// budget's sample counts are measured; in the intervals of both efficiencies.
+  /// Standard deviation of the logarithm of the efficiency at equal time, by the measured
+  /// sample counts of a budget. Both efficiencies' intervals include it.
   double budget_doubt = 0;
   stat::RankRange rank;
   stat::MeanEstimate image_mean;  // of all pixels and repetitions at the level `at`
@@ -96,84 +96,85 @@ struct StrategyAnalysis {
   std::vector<StageProfile> stages;
   SelfRenders self;
   std::optional<TileTest> tiles;
-  std::string mean, one, variance, bias;  // names of images; empty: none
+  std::string mean, one, variance, bias;  // names of images; may be empty
 
   bool HasRuns() const { return !levels.empty(); }
   const LevelAnalysis& AtLevel() const { return levels[at]; }
 };
 
 struct SceneAnalysis {
-  std::vector<StrategyAnalysis> strategies;  // as SceneRuns::strategies
+  std::vector<StrategyAnalysis> strategies;  // in the order of SceneRuns::strategies
   std::vector<std::size_t> ranking;          // with runs, most efficient first
   std::size_t baseline = 0;
   double target_relmse = 0;
   SelfCheck calibration;
-  /// Share of the intervals that held; renders of one seed depend on each other, whatever
-  /// their strategies.
+  /// Fraction of intervals that held. Renders of one seed are correlated across
+  /// strategies.
   Interval calibration_share;
   std::size_t calibration_seeds = 0;
   std::vector<SelfFailure> self_failures;
   std::size_t bias_tests = 0;
-  /// Strategies whose whole image differs from the reference, by Holm: those that differ
-  /// from the other strategies too, and those that do as these, which points at it.
+  /// Strategies whose whole image differs from the reference, by Holm's correction. Those
+  /// in biased_alike agree with the other strategies, so the reference may be wrong.
   std::vector<std::size_t> biased, biased_alike;
   std::vector<std::size_t> suspect_tiles;  // TileTest::shared of any strategy
   double bias_level = 0;
   std::string verdict;
   std::vector<std::string> cautions;  // Cautions()
-  std::vector<MachineInfo> machines;  // that rendered the cells
+  std::vector<MachineInfo> machines;  // machines that rendered cells
   std::string reference_image;        // name
   std::vector<std::string> diffuse_images;
   int report_scale = 1;  // the report's images are smaller by this factor
 };
 
-/// Share of the relative MSE in the worst kWorstShare of the pixels above which a
-/// strategy counts as heavy-tailed: a few pixels then decide the mean.
+/// Fraction of the relative MSE in the worst kWorstShare of the pixels above which a
+/// strategy is heavy-tailed: a few pixels dominate its mean error.
 inline constexpr double kHeavyTail = 0.3;
 
-/// Names that a reader takes in.
-inline constexpr std::size_t kMostNames = 4;
+/// Longest list of names in texts.
+inline constexpr std::size_t kMaxNames = 4;
 
-/// Share of the reference's own error above which it would decide whether an interval
-/// holds.
-inline constexpr double kMostReferenceShare = 0.1;
+/// Largest fraction of the reference's own error at levels that test intervals.
+inline constexpr double kMaxReferenceShare = 0.1;
 
-/// Analyses a scene, reading its cells from the disk, and collects the images.
+/// Analyses a scene from its cells on disk, and collects images.
 SceneAnalysis AnalyseScene(const SceneRuns& runs, const StudyOptions& options,
                            std::vector<ReportImage>& images);
 
-/// The parts of it.
+/// Analyses one sample count of a strategy.
 LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
                            std::uint64_t spp, double confidence);
+/// Returns the mean over pixels and repetitions. Its variance is that of pixels, which
+/// has more degrees of freedom than that of the means of a few repetitions.
 stat::MeanEstimate ImageMean(const Moments& moments);
-/// After the strategies have their levels: ranking, efficiencies, ranks.
+/// Returns squared errors, at least 0, with seconds, of the first repetitions of a level.
+std::vector<stat::Cost> CostsOf(const stat::Level& level, std::size_t repetitions);
+/// Sets ranking, efficiencies and ranks of strategies that have levels.
 void CompareStrategies(const SceneRuns& runs, const StudyOptions& options,
                        SceneAnalysis& analysis);
 stat::MeanEstimate ReferenceMean(const Reference& reference);
-/// After the strategies have their tiles. An error of the reference is in the comparison
-/// of every strategy with it: what differs from the reference, does not differ from the
-/// consensus of the other strategies, and is not in it alone, points at the reference.
-/// Heavy-tailed strategies are not tested.
+/// Tests strategies that have tiles for bias. A difference from the reference that agrees
+/// with the consensus of the other strategies is attributed to the reference. Does not
+/// test heavy-tailed strategies.
 void TestBias(const Reference& reference, SceneAnalysis& analysis);
-/// `moments` of renders of `spp` samples per pixel.
+/// Tests tiles of renders of `spp` samples per pixel, at a false-alarm rate of `level`.
 TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
                    double level);
-/// After the strategies have their levels and renders: how often intervals held.
+/// Sets the coverage of the renders' own intervals.
 void Calibrate(double confidence, SceneAnalysis& analysis);
-/// Sentences about that; may be empty.
+/// Returns sentences about the coverage; may be empty.
 std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis);
 std::string Verdict(const SceneRuns& runs, const SceneAnalysis& analysis);
-/// Why the ranking may be another than that of long renders on a quiet machine, one
-/// sentence each: its sample count is small, ranks change between sample counts, or the
-/// load of the machine exceeds its cores.
+/// Returns sentences on why long renders on a quiet machine may rank differently: few
+/// samples, ranks that depend on the sample count, or a busy machine.
 std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& options,
                                   const SceneAnalysis& analysis);
-/// The verdict's sentences about bias; may be empty.
+/// Returns the verdict's sentences about bias; may be empty.
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
-/// Puts a sentence, which may be empty, behind what there is.
+/// Appends a sentence, which may be empty, to a text.
 void AddSentence(const std::string& sentence, std::string& text);
-/// "A, B and C"; "7 strategies" of more than `most`.
+/// Returns "A, B and C", or "7 strategies" for more than `most`.
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
-                      std::size_t most = kMostNames);
+                      std::size_t most = kMaxNames);
 
 }  // namespace lanelight

@@ -1,5 +1,6 @@
-// Which images differ from what they should be by more than noise, and whether that
-// speaks of their strategy or of the reference that all share.
+// Tests images and tiles for differences from the reference beyond noise, and attributes
+// them to the strategy or to the reference.
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +12,11 @@ namespace {
 
 using stat::MeanEstimate;
 
-// Evidence that the others do not agree with the reference either.
+// Level of the test that the other strategies differ from the reference too.
 constexpr double kOthersLevel = 0.05;
 
-// Of what differs from the reference: whether the others say the same, so that it speaks
-// against the reference. `tests`: how many differences of the strategy are looked at.
+// Returns whether a difference from the reference agrees with the other strategies, which
+// points at the reference. `tests`: number of differences of the strategy.
 bool PointsAtReference(const MeanEstimate& own, const MeanEstimate& reference,
                        const std::vector<MeanEstimate>& others, std::size_t tests) {
   if (others.empty()) return false;
@@ -35,8 +36,8 @@ class BiasTests {
 
   void Run(const MeanEstimate& reference) {
     out_.bias_level = kBiasLevel;
-    // Most renders miss the rarest samples, and their scatter does not show it: the mean
-    // is low without being biased.
+    // Most renders of heavy-tailed strategies miss the rarest samples, which their
+    // variance does not show: their mean is low without bias.
     for (std::size_t i = 0; i < out_.strategies.size(); ++i) {
       const StrategyAnalysis& s = out_.strategies[i];
       if (s.HasRuns() && s.AtLevel().bias_p && !s.heavy_tailed) tested_.push_back(i);
@@ -46,7 +47,7 @@ class BiasTests {
       if (s.tiles && s.heavy_tailed) s.tiles->failed.clear();
     }
     for (std::size_t i : tested_) JudgeTiles(i);
-    std::sort(out_.suspect_tiles.begin(), out_.suspect_tiles.end());
+    std::ranges::sort(out_.suspect_tiles);
     out_.suspect_tiles.erase(
         std::unique(out_.suspect_tiles.begin(), out_.suspect_tiles.end()),
         out_.suspect_tiles.end());
@@ -95,7 +96,12 @@ class BiasTests {
   }
 
   SceneAnalysis& out_;
-  std::vector<std::size_t> tested_;  // strategies
+  std::vector<std::size_t> tested_;  // indices of strategies
+};
+
+// Estimates of the pixels of a tile.
+struct TileMeans {
+  std::vector<stat::MeanEstimate> image, reference;
 };
 
 }  // namespace
@@ -103,6 +109,45 @@ class BiasTests {
 void TestBias(const Reference& reference, SceneAnalysis& analysis) {
   if (reference.mean.empty()) return;  // interrupted before there was one
   BiasTests(analysis).Run(ReferenceMean(reference));
+}
+
+// The variance of a tile's mean is that of its pixels, which has more degrees of freedom
+// than that of the repetitions of the tile (Welch and Satterthwaite).
+TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint64_t spp,
+                   double level) {
+  TileTest test;
+  test.level = level;
+  test.layout = LayoutOf(reference.width, reference.height);
+  std::vector<TileMeans> tiles(test.layout.size());
+  for (int y = 0; y < reference.height; ++y) {
+    for (int x = 0; x < reference.width; ++x) {
+      const std::size_t tile = test.layout.At(x, y);
+      const std::size_t pixel = std::size_t(y) * reference.width + x;
+      tiles[tile].image.push_back(moments.GreyEstimate(pixel));
+      tiles[tile].reference.push_back(reference.GreyEstimate(pixel));
+    }
+  }
+  for (const TileMeans& tile : tiles) {
+    test.means.push_back(stat::Average(tile.image, moments.pixels_as_one));
+    test.reference.push_back(stat::Average(tile.reference));
+  }
+  const double samples = double(spp) * double(moments.count());
+  std::vector<double> p;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const stat::MeanEstimate b = test.reference[i];
+    stat::MeanEstimate a = test.means[i];
+    a.variance =
+        std::max(a.variance, VarianceAround(test.layout, test.means, i).variance);
+    if (!RestsOnEnough(a, b, double(reference.spp) / samples)) {
+      p.push_back(1);
+      test.z.push_back(std::nan(""));
+      continue;
+    }
+    p.push_back(stat::WelchPValue(a, b, kFloatRounding * std::abs(b.mean)));
+    test.z.push_back(SignedZ(p.back(), a, b));
+  }
+  test.failed = stat::HolmRejections(p, level);
+  return test;
 }
 
 }  // namespace lanelight

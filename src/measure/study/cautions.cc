@@ -1,4 +1,5 @@
-// What a reader of a ranking has to know before believing it.
+// Cautions about a ranking.
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,15 +33,15 @@ class Cautioner {
   void SmallLevel() {
     const LevelAnalysis& level = Of(analysis_.baseline).AtLevel();
     const double error = std::sqrt(std::max(0.0, level.relmse.value));
-    if (level.spp >= kLeastLargest || error < kSmallError) return;
-    texts_.push_back(
-        fmt::format("The ranking is at {} samples per pixel, where {} has an error of "
-                    "{:.2g} %. Longer renders may rank otherwise: use --spp up to {} or "
-                    "more, or a larger --budget.",
-                    level.spp, NameOf(analysis_.baseline), 100 * error, kLeastLargest));
+    if (level.spp >= kMinLargest || error < kSmallError) return;
+    texts_.push_back(fmt::format(
+        "The ranking is at {} samples per pixel, where {} has an error of "
+        "{:.2g} %. Longer renders may rank differently: use --spp up to {} or "
+        "more, or a larger --budget.",
+        level.spp, NameOf(analysis_.baseline), 100 * error, kMinLargest));
   }
 
-  // Level of that sample count with all repetitions; null without one.
+  // Returns the level of that sample count with all repetitions; null without one.
   const stat::Level* LevelOf(std::size_t i, std::uint64_t spp) const {
     const StrategyAnalysis& s = Of(i);
     for (std::size_t k = 0; k < s.levels.size(); ++k) {
@@ -50,23 +51,17 @@ class Cautioner {
     return nullptr;
   }
 
-  static std::vector<stat::Cost> CostsOf(const stat::Level& level) {
-    std::vector<stat::Cost> costs;
-    for (std::size_t r = 0; r < level.error.size(); ++r) {
-      costs.push_back({std::max(0.0, level.error[r]), level.seconds[r]});
-    }
-    return costs;
-  }
-
-  // `other` is the more efficient at that sample count, beyond doubt.
+  // Returns whether `other` is significantly more efficient at that sample count.
   bool Beats(std::size_t other, std::size_t one, std::uint64_t spp) const {
     const stat::Level *a = LevelOf(one, spp), *b = LevelOf(other, spp);
     if (a == nullptr || b == nullptr || a->error.size() != b->error.size()) return false;
-    return stat::EfficiencyRatio(CostsOf(*a), CostsOf(*b), options_.confidence).low > 1;
+    const std::size_t n = a->error.size();
+    return stat::EfficiencyRatio(CostsOf(*a, n), CostsOf(*b, n), options_.confidence)
+               .low > 1;
   }
 
-  // The first is behind the winner at the count that is compared, and before it at a
-  // smaller one: both beyond doubt.
+  // Reports a strategy that is significantly worse than the winner at the compared sample
+  // count, and significantly better at a smaller one.
   void ChangedRanks() {
     const std::size_t winner = analysis_.ranking.front();
     const std::uint64_t at = Of(winner).AtLevel().spp;
@@ -90,7 +85,7 @@ class Cautioner {
       if (!IsOverloaded(machine)) continue;
       texts_.push_back(fmt::format(
           "The load of a machine before the start, {:.2f}, exceeds its {:.3g} "
-          "cores: times, and so efficiencies, may be off.",
+          "cores: times and efficiencies may be wrong.",
           *machine.load, *CoresAtATime(machine)));
     }
   }
@@ -101,11 +96,83 @@ class Cautioner {
   std::vector<std::string> texts_;
 };
 
+// Heavy-tailed strategies are not tested.
+bool AnyHeavy(const SceneAnalysis& analysis) {
+  return std::ranges::any_of(analysis.strategies,
+                             [](const StrategyAnalysis& s) { return s.heavy_tailed; });
+}
+
+std::string ImagesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  if (!analysis.biased.empty()) {
+    return fmt::format(
+        "The mean image of {} differs from the reference by more than noise (level {:g} "
+        "for all tests together).",
+        NamesText(runs, analysis.biased), analysis.bias_level);
+  }
+  if (analysis.bias_tests == 0 || !analysis.biased_alike.empty()) return "";
+  return fmt::format(
+      "No {}mean image differs from the reference by more than noise ({} test{}).",
+      AnyHeavy(analysis) ? "other " : "", analysis.bias_tests,
+      analysis.bias_tests == 1 ? "" : "s");
+}
+
+std::string TilesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  std::vector<std::size_t> differing;
+  for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
+    const std::optional<TileTest>& tiles = analysis.strategies[i].tiles;
+    if (tiles && !tiles->failed.empty()) differing.push_back(i);
+  }
+  if (differing.empty()) return "";
+  return "Parts of the image differ by more than noise for " +
+         NamesText(runs, differing) + ".";
+}
+
+std::string ReferenceText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  if (analysis.biased_alike.empty()) return "";
+  return fmt::format(
+      "The mean image of {} differs from the reference by more than noise, but not from "
+      "those of the other strategies, which points at the reference.",
+      NamesText(runs, analysis.biased_alike));
+}
+
+std::string SuspectTilesText(const SceneAnalysis& analysis) {
+  const std::size_t tiles = analysis.suspect_tiles.size();
+  if (tiles == 0) return "";
+  return fmt::format(
+      "In {} tile{} of the image the strategies agree with each other but not with the "
+      "reference, whose variance is too small there.",
+      tiles, tiles == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& options,
                                   const SceneAnalysis& analysis) {
   return Cautioner(runs, options, analysis).Texts();
+}
+
+void AddSentence(const std::string& sentence, std::string& text) {
+  text += (text.empty() || sentence.empty() ? "" : " ") + sentence;
+}
+
+std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
+                      std::size_t most) {
+  if (strategies.size() > most) return fmt::format("{} strategies", strategies.size());
+  std::string text;
+  for (std::size_t k = 0; k < strategies.size(); ++k) {
+    text += k == 0 ? "" : k + 1 == strategies.size() ? " and " : ", ";
+    text += runs.strategies[strategies[k]].named.name;
+  }
+  return text;
+}
+
+std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis) {
+  std::string text;
+  AddSentence(ImagesText(runs, analysis), text);
+  AddSentence(TilesText(runs, analysis), text);
+  AddSentence(ReferenceText(runs, analysis), text);
+  AddSentence(SuspectTilesText(analysis), text);
+  return text;
 }
 
 }  // namespace lanelight

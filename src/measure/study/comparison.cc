@@ -1,5 +1,4 @@
-// Which strategy gives the least error for the time: efficiencies, ranks, and how far a
-// budget's sample counts can be trusted.
+// Ranks strategies by efficiency, with the uncertainty of a budget's sample counts.
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +12,9 @@ class Comparison {
   Comparison(const SceneRuns& runs, const StudyOptions& options, SceneAnalysis& out)
       : runs_(runs), options_(options), out_(out) {}
 
-  // All strategies with runs, by the repetitions that all of them have.
+  // Compares all strategies with runs, by the repetitions that all of them have.
   void Run() {
-    repetitions_ = static_cast<std::size_t>(options_.Repetitions());
+    repetitions_ = std::size_t(options_.Repetitions());
     for (std::size_t i = 0; i < out_.strategies.size(); ++i) {
       if (!out_.strategies[i].HasRuns()) continue;
       out_.ranking.push_back(i);
@@ -29,10 +28,10 @@ class Comparison {
   }
 
  private:
-  // Errors that fall otherwise than 1 / samples make the efficiency depend on the number
-  // of samples, like its power -(1 + 2 order). With a budget that number is what pilots
-  // made of it: its spread, and how far the time was missed, are doubts of the comparison
-  // at equal time.
+  // Sets the uncertainty of comparisons at equal time. If errors do not fall as 1 /
+  // samples, efficiency is proportional to samples^-(1 + 2 order). Timed renders estimate
+  // the sample counts of a budget, with a spread; the actual time also differs from the
+  // budget.
   void FindDoubts() {
     if (!options_.budget || !options_.spp.empty()) return;
     std::vector<double> times;
@@ -51,8 +50,7 @@ class Comparison {
     return out_.strategies[i].AtLevel().cpu_seconds.value;
   }
 
-  // |1 + 2 order|, the larger one of its bounds; an error that does not fall at all if
-  // the order is not known.
+  // Returns the largest |1 + 2 order| within the bounds; 1 (order 0) if unknown.
   static double Sensitivity(const StrategyAnalysis& s) {
     if (!s.order_relmse) return 1;
     const Interval& order = *s.order_relmse;
@@ -62,15 +60,6 @@ class Comparison {
       most = std::max(most, std::abs(1 + 2 * bound));
     }
     return most;
-  }
-
-  std::vector<stat::Cost> CostsAt(const StrategyAnalysis& strategy) const {
-    const stat::Level& level = strategy.costs[strategy.at];
-    std::vector<stat::Cost> costs;
-    for (std::size_t r = 0; r < repetitions_; ++r) {
-      costs.push_back({std::max(0.0, level.error[r]), level.seconds[r]});
-    }
-    return costs;
   }
 
   Interval Relative(std::span<const stat::Cost> other_costs,
@@ -87,7 +76,8 @@ class Comparison {
     std::vector<std::vector<stat::Cost>> costs;
     std::vector<double> doubts;
     for (std::size_t i : out_.ranking) {
-      costs.push_back(CostsAt(out_.strategies[i]));
+      const StrategyAnalysis& strategy = out_.strategies[i];
+      costs.push_back(CostsOf(strategy.costs[strategy.at], repetitions_));
       doubts.push_back(out_.strategies[i].budget_doubt);
     }
     const auto trimmed = [&](std::size_t i) {
@@ -104,12 +94,11 @@ class Comparison {
   }
 
   void SortRanking() {
-    std::sort(out_.ranking.begin(), out_.ranking.end(),
-              [&](std::size_t a, std::size_t b) {
-                const double ea = out_.strategies[a].efficiency->value;
-                const double eb = out_.strategies[b].efficiency->value;
-                return ea != eb ? ea > eb : a < b;
-              });
+    std::ranges::sort(out_.ranking, [&](std::size_t a, std::size_t b) {
+      const double ea = out_.strategies[a].efficiency->value;
+      const double eb = out_.strategies[b].efficiency->value;
+      return ea != eb ? ea > eb : a < b;
+    });
   }
 
   const SceneRuns& runs_;
@@ -119,6 +108,14 @@ class Comparison {
 };
 
 }  // namespace
+
+std::vector<stat::Cost> CostsOf(const stat::Level& level, std::size_t repetitions) {
+  std::vector<stat::Cost> costs;
+  for (std::size_t r = 0; r < repetitions; ++r) {
+    costs.push_back({std::max(0.0, level.error[r]), level.seconds[r]});
+  }
+  return costs;
+}
 
 void CompareStrategies(const SceneRuns& runs, const StudyOptions& options,
                        SceneAnalysis& analysis) {

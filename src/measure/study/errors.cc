@@ -1,4 +1,4 @@
-#include "src/measure/study/errors.h"
+#include "src/measure/study/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace lanelight {
 namespace {
 
-// Relative squared error of a pixel, and the part of it that the reference explains.
+// Relative squared error of a pixel, and the expected part of the reference's own error.
 struct PixelError {
   double raw = 0, own = 0;
 };
@@ -45,10 +45,10 @@ void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
   m.relmse_trimmed = n > trimmed ? kept / double(n - trimmed) : m.relmse;
 }
 
-// Of means over squares, less the reference's own.
+// Returns the relative MSE of means over squares, without the reference's own error.
 double FilteredError(const std::vector<Rgb>& image, const Reference& reference,
                      std::size_t side) {
-  const auto width = static_cast<std::size_t>(reference.width);
+  const auto width = std::size_t(reference.width);
   const std::size_t height = image.size() / width;
   double sum = 0, squares = 0;
   for (std::size_t y = 0; y < height; y += side) {
@@ -103,9 +103,9 @@ void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
   const auto worst = std::max_element(
       errors.begin(), errors.end(),
       [](const PixelError& a, const PixelError& b) { return a.raw < b.raw; });
-  const auto at = static_cast<std::size_t>(worst - errors.begin());
-  m.worst_x = at % static_cast<std::size_t>(reference.width);
-  m.worst_y = at / static_cast<std::size_t>(reference.width);
+  const auto at = std::size_t(worst - errors.begin());
+  m.worst_x = at % std::size_t(reference.width);
+  m.worst_y = at / std::size_t(reference.width);
   MeasureRelative(std::move(errors), m);
   m.relmse_2 = FilteredError(image, reference, 2);
   m.relmse_4 = FilteredError(image, reference, 4);

@@ -9,31 +9,31 @@
 namespace lanelight {
 namespace {
 
-template <class Get>
-std::vector<double> Collect(const std::vector<Measurement>& all, Get&& get) {
+std::vector<double> Collect(const std::vector<Measurement>& all,
+                            double Measurement::* member) {
   std::vector<double> values;
-  for (const Measurement& m : all) values.push_back(static_cast<double>(get(m)));
+  for (const Measurement& m : all) values.push_back(m.*member);
   return values;
 }
 
-// A squared error is not negative, whatever its t interval says. (Its estimate may be,
-// where the reference's own error was subtracted.)
+// Clamps the lower bound of a squared error to 0. Its estimate may be negative, since the
+// reference's own error is subtracted.
 Interval NotNegative(Interval v) {
   if (v.value >= 0 && v.low < 0) v.low = 0;
   return v;
 }
 
-// Root of a mean square and of its bounds; NaN where they are negative (all of it is
-// the reference's error).
+// Returns the roots of a mean square and its bounds; NaN for negative values, if all of
+// the error is the reference's.
 Interval Root(const Interval& square) {
   return {std::sqrt(square.value), std::sqrt(std::max(square.low, 0.0)),
           std::sqrt(square.high)};
 }
 
-// A relative squared error of the mean image that its noise and that of the reference do
-// not explain. With d the difference of a pixel, t^2 its variance and b the bias,
-// Var(d^2 - t^2) = 2 t^4 + 4 b^2 t^2 for normal means; pixels are independent, the
-// channels of one are taken as fully dependent.
+// Returns the relative squared error of the mean image beyond its noise and that of the
+// reference. With d the difference of a pixel, t^2 its variance and b the bias,
+// Var(d^2 - t^2) = 2 t^4 + 4 b^2 t^2 for normal means; pixels are independent, and
+// the channels of a pixel are assumed fully dependent.
 Interval SquaredBias(const Moments& moments, const Reference& reference,
                      double confidence) {
   double sum = 0, variance = 0;
@@ -58,8 +58,8 @@ Interval SquaredBias(const Moments& moments, const Reference& reference,
   return {sum / n, sum / n - half, sum / n + half};
 }
 
-// With the variance that independent samples would have by the reference, which has seen
-// more of the rare ones, if that is more: an image may have missed them all.
+// Returns an estimate with at least the variance by the reference, since an image may
+// have missed all rare samples.
 stat::MeanEstimate Cautious(const stat::MeanEstimate& own,
                             const stat::MeanEstimate& known, double reference_per_image) {
   stat::MeanEstimate out = own;
@@ -129,9 +129,6 @@ stat::MeanEstimate ReferenceMean(const Reference& reference) {
   return stat::Average(pixels);
 }
 
-// Mean over the pixels of all repetitions. The variance of the mean is that of the
-// pixels, known with many more degrees of freedom than from the means of a few
-// repetitions.
 stat::MeanEstimate ImageMean(const Moments& moments) {
   std::vector<stat::MeanEstimate> pixels;
   for (std::size_t i = 0; i < moments.size(); ++i) {
@@ -143,28 +140,26 @@ stat::MeanEstimate ImageMean(const Moments& moments) {
 LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
                            std::uint64_t spp, double confidence) {
   const std::vector<Measurement>& all = cells.repetitions;
-  const auto interval = [&](auto get) {
-    return NotNegative(stat::MeanInterval(Collect(all, get), confidence));
+  const auto interval = [&](double Measurement::* member) {
+    return NotNegative(stat::MeanInterval(Collect(all, member), confidence));
   };
   LevelAnalysis level;
   level.spp = spp;
   level.repetitions = all.size();
-  level.rmse = Root(interval([](const Measurement& m) { return m.mse; }));
-  level.relmse = interval([](const Measurement& m) { return m.relmse; });
-  level.relmse_trimmed = interval([](const Measurement& m) { return m.relmse_trimmed; });
-  level.relmse_2 = interval([](const Measurement& m) { return m.relmse_2; });
-  level.relmse_4 = interval([](const Measurement& m) { return m.relmse_4; });
-  level.relmse_8 = interval([](const Measurement& m) { return m.relmse_8; });
-  level.mape = interval([](const Measurement& m) { return m.mape; });
-  level.worst_share =
-      stat::Mean(Collect(all, [](const Measurement& m) { return m.worst_share; }));
-  const double raw =
-      stat::Mean(Collect(all, [](const Measurement& m) { return m.raw_relmse; }));
+  level.rmse = Root(interval(&Measurement::mse));
+  level.relmse = interval(&Measurement::relmse);
+  level.relmse_trimmed = interval(&Measurement::relmse_trimmed);
+  level.relmse_2 = interval(&Measurement::relmse_2);
+  level.relmse_4 = interval(&Measurement::relmse_4);
+  level.relmse_8 = interval(&Measurement::relmse_8);
+  level.mape = interval(&Measurement::mape);
+  level.worst_share = stat::Mean(Collect(all, &Measurement::worst_share));
+  const double raw = stat::Mean(Collect(all, &Measurement::raw_relmse));
   level.reference_share = raw > 0 ? (raw - level.relmse.value) / raw : 0;
-  level.cpu_seconds = stat::MedianInterval(
-      Collect(all, [](const Measurement& m) { return m.cpu_seconds; }), confidence);
-  level.wall_seconds = stat::MedianInterval(
-      Collect(all, [](const Measurement& m) { return m.wall_seconds; }), confidence);
+  level.cpu_seconds =
+      stat::MedianInterval(Collect(all, &Measurement::cpu_seconds), confidence);
+  level.wall_seconds =
+      stat::MedianInterval(Collect(all, &Measurement::wall_seconds), confidence);
   CountRays(all, level);
   TestMean(cells.moments, reference, confidence, level);
   level.self = CheckSelf(all, confidence);
@@ -173,7 +168,8 @@ LevelAnalysis AnalyseLevel(const Cells& cells, const Reference& reference,
     return level;
   }
   level.bias2 = SquaredBias(cells.moments, reference, confidence);
-  // The mean error is the sum of both, exactly; its interval is that of the variance.
+  // The mean error is the sum of squared bias and variance; its interval is that of the
+  // variance.
   level.variance = level.relmse;
   for (double* v : {&level.variance.value, &level.variance.low, &level.variance.high}) {
     *v -= level.bias2.value;

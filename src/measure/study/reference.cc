@@ -7,14 +7,14 @@
 #include "src/base/core/error.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
-#include "src/measure/compare/noisy_channels.h"
+#include "src/measure/compare/agreement.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 
 namespace lanelight {
 namespace {
 
-// The window of the image in one set of channels; `offset`: of the window in the image.
+// Returns the window, whose corner is (x0, y0) in the image, of three channels.
 std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int x0,
                      int y0, const PixelRect& window) {
   std::vector<Rgb> pixels;
@@ -23,7 +23,7 @@ std::vector<Rgb> Cut(const Image& image, const std::array<int, 3>& channels, int
     for (int x = x0; x < x0 + window.width(); ++x) {
       Rgb value;
       for (int c = 0; c < 3; ++c) {
-        value[c] = LinearValue(image, x, y, channels[static_cast<std::size_t>(c)]);
+        value[c] = LinearValue(image, x, y, channels[std::size_t(c)]);
       }
       pixels.push_back(value);
     }
@@ -38,9 +38,9 @@ void CheckFinite(const std::string& path, const std::vector<Rgb>& pixels) {
   }
   if (bad == 0) return;
   throw InputError(
-      fmt::format("reference '{}': {} of {} pixels are not finite numbers; "
-                  "errors against it would mean nothing",
-                  path, bad, pixels.size()));
+      "reference '{}': {} of {} pixels are not finite numbers; "
+      "errors against it are meaningless",
+      path, bad, pixels.size());
 }
 
 struct Piece {
@@ -55,10 +55,10 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
   const bool whole = image.width == full_width && image.height == full_height;
   if (!whole && (image.width != window.width() || image.height != window.height())) {
     throw InputError(
-        fmt::format("reference '{}' has {}x{} pixels and the render {}x{}; give a "
-                    "reference of that size, or --resolution {}x{}",
-                    path, image.width, image.height, window.width(), window.height(),
-                    image.width, image.height));
+        "reference '{}' has {}x{} pixels and the render {}x{}; give a "
+        "reference of that size, or --resolution {}x{}",
+        path, image.width, image.height, window.width(), window.height(), image.width,
+        image.height);
   }
   const int x0 = whole ? window.x0 : 0, y0 = whole ? window.y0 : 0;
   Piece piece = {Cut(image, *color, x0, y0, window), {}};
@@ -76,7 +76,7 @@ Piece ReadPiece(const std::string& path, const PixelRect& window, int full_width
   return piece;
 }
 
-// Mean of the pieces, and the variance of that mean from their scatter.
+// Sets the mean of the pieces, and the variance of that mean from their scatter.
 void Combine(const std::vector<Piece>& pieces, Reference& reference) {
   const double n = double(pieces.size());
   reference.mean.assign(pieces[0].mean.size(), Rgb{});
@@ -139,9 +139,10 @@ Reference ReadReference(const std::vector<std::string>& files, const PixelRect& 
   reference.variance = std::move(pieces[0].variance);
   if (!reference.has_variance()) {
     reference.note =
-        "the reference file does not say how noisy it is, and is taken as exact: its own "
-        "error counts as error of every strategy, and as bias (give two independent "
-        "renders with --reference A --reference B to have it measured)";
+        "the reference file has no variances and is treated as exact: its own error "
+        "counts "
+        "as error and bias of every strategy (use two independent renders, --reference A "
+        "--reference B, to measure it)";
   }
   return reference;
 }

@@ -1,4 +1,4 @@
-// The image that a study measures errors against, with what is known of its own error.
+// The reference image of a study, with its own error, and errors of images against it.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 
 #include "src/base/core/vec.h"
 #include "src/base/stat/hypothesis.h"
+#include "src/measure/study/cell_store.h"
 #include "src/render/job/job.h"
 
 namespace lanelight {
@@ -14,11 +15,11 @@ namespace lanelight {
 struct Reference {
   int width = 0, height = 0;
   std::vector<Rgb> mean;      // rows from the top
-  std::vector<Rgb> variance;  // of `mean`; empty: not known
+  std::vector<Rgb> variance;  // of `mean`; empty if unknown
   std::vector<std::string> files;
-  std::string strategy;   // of a rendered one
-  std::uint64_t spp = 0;  // of a rendered one
-  double seconds = 0;     // wall clock; 0 if it was read
+  std::string strategy;   // of a rendered reference
+  std::uint64_t spp = 0;  // of a rendered reference
+  double seconds = 0;     // wall clock; 0 for files
   std::string note;
 
   bool rendered() const { return files.empty(); }
@@ -26,50 +27,48 @@ struct Reference {
   Rgb Variance(std::size_t pixel) const {
     return has_variance() ? variance[pixel] : Rgb{};
   }
-  /// Mean of the channels, which are taken as fully dependent. How many of its samples
-  /// found what makes its variance is not known: one degree of freedom.
+  /// Returns the mean of the channels, assumed fully dependent, with one degree of
+  /// freedom, since the number of samples behind the variance is unknown.
   stat::MeanEstimate GreyEstimate(std::size_t pixel) const;
-  /// 1 / (squared mean + 0.01), per channel.
+  /// Returns 1 / (squared mean + 0.01) for each channel.
   Rgb Weight(std::size_t pixel) const;
-  /// Estimated mean squared error of the reference itself, absolute and relative; 0 if
-  /// not known.
+  /// Return the estimated absolute and relative MSE of the reference; 0 if unknown.
   double OwnMse() const;
   double OwnRelMse() const;
 };
 
-/// Reads a reference for the window of a film of full_width x full_height pixels: each
-/// file has the size of either. Several files are independent renders of the same image:
-/// their mean is the reference and their scatter its variance. A single file brings its
-/// own variance channels, or none. Throws InputError: unreadable, of another size,
-/// without colour, with values that are not finite.
+/// Reads a reference for a crop window of a film. Each file has the size of the window or
+/// of the film. Several files are independent renders: the reference is their mean, with
+/// the variance of their scatter. A single file may have variance channels. Throws
+/// InputError for files that are unreadable, of another size, without colour, or not
+/// finite.
 Reference ReadReference(const std::vector<std::string>& files, const PixelRect& window,
                         int full_width, int full_height);
 
 struct ReferenceOptions {
   std::uint64_t spp = 1, seed = 0;
-  /// File that keeps the render's state (docs/state.md) once a minute, and when it is
-  /// stopped; it goes on from one that is there, and leaves it behind. Empty: none.
+  /// State file (docs/state.md), written once a minute and when stopped. Resumes from an
+  /// existing file and keeps it. May be empty.
   std::string state;
   std::function<void(const Progress&)> on_progress;
-  std::function<void(const std::string&)> on_problem;  // a state that cannot be written
-  const std::atomic<bool>* stop = nullptr;             // as in RunOptions
+  std::function<void(const std::string&)>
+      on_problem;                           // for state files that cannot be written
+  const std::atomic<bool>* stop = nullptr;  // as in RunOptions
 };
 
-/// Renders one: independent points, which no low-discrepancy sampler under test shares,
-/// with a seed of its own. Leaves the job with that strategy. If it was stopped, the
-/// result is unusable. The same pixels whether it was stopped in between or not. Throws
-/// InputError if the state is damaged, or of another render.
+/// Renders a reference with the independent sampler, which shares no samples with tested
+/// strategies, and its own seed. The result is unusable if stopped; a resumed render is
+/// bit-identical. Throws InputError if the state is damaged, or of another render.
 Reference RenderReference(const Job& job, const ReferenceOptions& options);
 
-/// The same without a state.
-inline Reference RenderReference(const Job& job, std::uint64_t spp, std::uint64_t seed,
-                                 const std::function<void(const Progress&)>& on_progress,
-                                 const std::atomic<bool>* stop) {
-  return RenderReference(job, {spp, seed, "", on_progress, {}, stop});
-}
-
-/// As an EXR file with variance channels; mean and variance are floats, so that what is
-/// read back is the same.
+/// Writes an EXR file with variance channels. Mean and variance are floats already, so
+/// that reading them returns the same values.
 void WriteReference(const std::string& path, const Reference& reference);
+
+/// Sets the errors and means of `m`. Squared errors exclude the reference's own error;
+/// the MAPE includes it, since absolute errors do not add up. The worst pixel is relative
+/// to the reference image.
+void MeasureErrors(const std::vector<Rgb>& image, const Reference& reference,
+                   Measurement& m);
 
 }  // namespace lanelight

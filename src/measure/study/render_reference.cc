@@ -1,5 +1,4 @@
-// The reference that a study renders itself. It may be the longest of all its renders: it
-// keeps its state, and goes on from it.
+// Renders a study's reference, with checkpoints, since it may be the longest render.
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -26,9 +25,8 @@ std::unique_ptr<Checkpoint> OpenCheckpoint(const Job& job,
     return std::make_unique<Checkpoint>(job, settings, HeadJson(job, "", false),
                                         on_problem);
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}\nremove '{}', and the reference is rendered from its beginning",
-                    error.what(), options.state));
+    throw InputError("{}\nremove '{}' to render the reference from the start",
+                     error.what(), options.state);
   }
 }
 

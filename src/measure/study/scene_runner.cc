@@ -3,8 +3,7 @@
 #include <filesystem>
 
 #include "kernels/simd/target.h"
-#include "src/measure/study/errors.h"
-#include "src/measure/study/schedule.h"
+#include "src/measure/study/reference.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/loaded_scene.h"
@@ -50,7 +49,8 @@ void SceneRunner::Run() {
   if (!Stopped()) Report("finished");
 }
 
-// By one process; the others wait, and take over what it has found.
+// Chooses sample counts and the reference. One process does it; the others wait and use
+// its results.
 void SceneRunner::Settle() {
   const auto claim = WaitForClaim("scene");
   if (!claim) return;
@@ -81,7 +81,7 @@ void SceneRunner::Prepare() {
     scene_.notes.push_back(note.where.ToString() + ": " + note.message);
   }
   scene_.differs = ImageChangesText(job_.loaded->description.notes);
-  // Before anything is written: a wrong file leaves nothing behind.
+  // Reads references before writing anything, so that an invalid file has no effect.
   if (!options_.references.empty()) {
     scene_.reference = ReadReference(options_.references, job_.window, scene_.full_width,
                                      scene_.full_height);
@@ -91,11 +91,10 @@ void SceneRunner::Prepare() {
 }
 
 std::uint64_t SceneRunner::Seed(int repetition) const {
-  return job_.loaded->description.sampler.seed + 1 +
-         static_cast<std::uint64_t>(repetition);
+  return job_.loaded->description.sampler.seed + 1 + std::uint64_t(repetition);
 }
 
-std::uint64_t SceneRunner::MostSamples() const {
+std::uint64_t SceneRunner::MaxSamples() const {
   std::uint64_t most = 1;
   for (const StrategyRuns& runs : scene_.strategies) {
     if (!runs.counts.empty()) most = std::max(most, runs.counts.back());
@@ -104,7 +103,7 @@ std::uint64_t SceneRunner::MostSamples() const {
 }
 
 double SceneRunner::Work(std::uint64_t spp) const {
-  // Starting a render costs about as much as a few thousand samples.
+  // The start of a render costs about as much as 5000 samples.
   return double(spp) * double(job_.window.pixels()) + 5000;
 }
 
@@ -121,12 +120,10 @@ void SceneRunner::Report(const std::string& what) {
 }
 
 void SceneRunner::RunCells() {
-  std::vector<std::uint64_t> counts;
+  std::set<std::uint64_t> counts;
   for (const StrategyRuns& runs : scene_.strategies) {
-    counts.insert(counts.end(), runs.counts.begin(), runs.counts.end());
+    counts.insert(runs.counts.begin(), runs.counts.end());
   }
-  std::sort(counts.begin(), counts.end());
-  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
   for (int repetition = 0; repetition < options_.Repetitions(); ++repetition) {
     for (std::uint64_t spp : counts) {
       for (StrategyRuns& runs : scene_.strategies) {
@@ -139,7 +136,7 @@ void SceneRunner::RunCells() {
   WaitForOthers();
 }
 
-// False: stopped.
+// Returns false if stopped.
 bool SceneRunner::RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition) {
   const auto claim = claims_->Take(CellKey(runs, spp));
   if (!claim) {
@@ -149,7 +146,7 @@ bool SceneRunner::RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repet
   return FillCell(runs, spp, repetition);
 }
 
-// What other processes were rendering: it is done then, or they are dead.
+// Waits for cells of other processes, and renders them if those processes died.
 void SceneRunner::WaitForOthers() {
   for (const auto& [runs, spp] : elsewhere_) {
     Report(fmt::format("waiting for {}, {} spp", runs->named.name, spp));
@@ -158,10 +155,10 @@ void SceneRunner::WaitForOthers() {
   }
 }
 
-// With all repetitions up to this one. False: stopped.
+// Renders missing repetitions up to this one. Returns false if stopped.
 bool SceneRunner::FillCell(StrategyRuns& runs, std::uint64_t spp, int repetition) {
   Cells cells = store_->Load(runs.Text(), spp);
-  const int done = static_cast<int>(cells.repetitions.size());
+  const int done = int(cells.repetitions.size());
   for (int next = done; next <= repetition && runs.status == RunStatus::kOk; ++next) {
     if (!RenderRepetition(runs, spp, next, cells)) return false;
   }
@@ -202,8 +199,8 @@ Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
   Describe(run.result, EstimateError(run.film), m);
   const std::vector<Rgb> image = FilmColors(run.film);
   MeasureErrors(image, scene_.reference, m);
-  m.worst_x += static_cast<std::uint64_t>(scene_.window.x0);
-  m.worst_y += static_cast<std::uint64_t>(scene_.window.y0);
+  m.worst_x += std::uint64_t(scene_.window.x0);
+  m.worst_y += std::uint64_t(scene_.window.y0);
   cells.moments.Add(image);
   AddStages(run.result.stages, cells.stages);
   if (repetition == 0) cells.first = image;

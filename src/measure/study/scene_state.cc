@@ -1,5 +1,7 @@
-// What a study on one scene settles before its renders, and keeps for a continuation:
-// sample counts, the reference, the diffuse models.
+// Sample counts and reference of a study on one scene, which are kept when it is resumed,
+// and the clock.
+
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -7,7 +9,6 @@
 #include "src/base/core/json_text.h"
 #include "src/base/image/atomic_file.h"
 #include "src/measure/study/scene_runner.h"
-#include "src/measure/study/schedule.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/setting.h"
@@ -17,16 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
+constexpr int kSceneFormat = 1;
 constexpr std::uint64_t kReferenceSeed = 0x9e3779b97f4a7c15u;
 
-// Everything that finished renders depend on, beyond their strategy.
+// Returns all settings that finished renders depend on, other than their strategy.
 nlohmann::json Identity(const StudyOptions& options, const Job& job) {
   RenderSettings settings = SettingsInForce(job);
   settings.seed =
       job.loaded->description.sampler.seed;  // repetitions have seeds of their own
   nlohmann::json identity = SettingsJson(settings, kStudyIdentity);
-  identity.update({{"format", kFormat},
+  identity.update({{"format", kSceneFormat},
                    {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
                    {"references", options.references}});
   return identity;
@@ -36,7 +37,8 @@ nlohmann::json Identity(const StudyOptions& options, const Job& job) {
 
 void SceneRunner::CheckState() {
   const std::string path = scene_.folder + "/cells/scene.json";
-  // As a file has it: names of references may have bytes that JSON has not.
+  // Converts to text and back, since names of references may have bytes that are not
+  // UTF-8.
   const nlohmann::json identity = ParseJson(DumpJson(Identity(options_, job_)));
   if (!fs::exists(path)) {
     state_ = {{"identity", identity}, {"counts", nlohmann::json::object()}};
@@ -47,9 +49,10 @@ void SceneRunner::CheckState() {
     const nlohmann::json& had = state_["identity"][name];
     if (had == value) continue;
     throw OtherStudy(
-        fmt::format("'{}' has a study with {} {}, now it is {}: use the earlier value, "
-                    "or another directory",
-                    scene_.folder, name, DumpJson(had), DumpJson(value)));
+        "'{}' has a study with {} {}, but now it is {}; continue it with the "
+        "same value, or "
+        "use another directory",
+        scene_.folder, name, DumpJson(had), DumpJson(value));
   }
 }
 
@@ -57,7 +60,8 @@ void SceneRunner::SaveState() {
   WriteFileAtomically(scene_.folder + "/cells/scene.json", DumpJson(state_, 2) + "\n");
 }
 
-// Counts that were measured once stay: they depend on the machine's speed then.
+// Finds sample counts. Measured counts are kept, since they depend on the machine's
+// speed.
 void SceneRunner::FindCounts() {
   nlohmann::json& counts = state_["counts"];
   nlohmann::json& spreads = state_["spreads"];
@@ -78,20 +82,20 @@ void SceneRunner::FindCounts() {
       runs.counts = counts[runs.Text()].get<std::vector<std::uint64_t>>();
       runs.count_spread = spreads.value(runs.Text(), 0.0);
     }
-    if (runs.counts.empty()) continue;  // stopped before it was known
+    if (runs.counts.empty()) continue;  // stopped before they were known
     counts[runs.Text()] = runs.counts;
     if (runs.count_spread > 0) spreads[runs.Text()] = runs.count_spread;
   }
   SaveState();
 }
 
-// The reference takes about half the samples of all strategies together at their largest
-// count, so that its error is small next to theirs.
+// Returns about half the samples of all strategies together at their largest count, so
+// that the reference's error is much smaller than theirs.
 std::uint64_t SceneRunner::ReferenceSamples() const {
   std::uint64_t ok = 0;
   for (const StrategyRuns& runs : scene_.strategies) ok += runs.status == RunStatus::kOk;
-  const std::uint64_t renders = ok * static_cast<std::uint64_t>(options_.Repetitions());
-  return std::min(kMaxSpp, MostSamples() * std::max<std::uint64_t>(16, renders / 2));
+  const std::uint64_t renders = ok * std::uint64_t(options_.Repetitions());
+  return std::min(kMaxSpp, MaxSamples() * std::max<std::uint64_t>(16, renders / 2));
 }
 
 void SceneRunner::PlanWork() {
@@ -99,7 +103,7 @@ void SceneRunner::PlanWork() {
   for (const StrategyRuns& runs : scene_.strategies) {
     for (std::uint64_t spp : runs.counts) {
       const auto done = store_->Load(runs.Text(), spp).repetitions.size();
-      const auto wanted = static_cast<std::size_t>(options_.Repetitions());
+      const auto wanted = std::size_t(options_.Repetitions());
       work += double(wanted - std::min(done, wanted)) * Work(spp);
     }
   }
@@ -119,10 +123,10 @@ void SceneRunner::LoadReference() {
     scene_.reference = ReadReference({ReferencePath()}, job_.window, scene_.full_width,
                                      scene_.full_height);
   } catch (const InputError& error) {
-    throw InputError(fmt::format(
-        "the reference of this study cannot be read: {}\nremove '{}', and --resume "
-        "renders the same one again ({} samples per pixel)",
-        error.what(), ReferencePath(), had.at("spp").get<std::uint64_t>()));
+    throw InputError(
+        "the reference of this study cannot be read: {}\nremove '{}', and use --resume "
+        "to render it again ({} samples per pixel)",
+        error.what(), ReferencePath(), had.at("spp").get<std::uint64_t>());
   }
   scene_.reference.files.clear();
   scene_.reference.strategy = had.at("strategy");
@@ -130,7 +134,8 @@ void SceneRunner::LoadReference() {
   scene_.reference.seconds = had.at("seconds");
 }
 
-// How long it is stays as it was when it was begun: errors were measured against it.
+// Reads or renders the reference. A resumed study keeps its sample count, since errors
+// were measured against it.
 void SceneRunner::FindReference() {
   if (!options_.references.empty()) return;  // read already
   if (state_.contains("reference") && fs::exists(ReferencePath())) return LoadReference();
@@ -159,6 +164,32 @@ void SceneRunner::FindReference() {
                          {"seconds", scene_.reference.seconds}};
   SaveState();
   fs::remove(options.state);
+}
+
+void StudyClock::StartScene(double work) {
+  started_ = true;
+  --scenes_left_;
+  ++scenes_started_;
+  planned_ += work;
+}
+
+void StudyClock::FinishScene() {
+  if (!started_) --scenes_left_;  // failed before its work was known
+  started_ = false;
+}
+
+double StudyClock::Total() const {
+  if (scenes_started_ == 0) return 0;
+  return planned_ * (1 + double(scenes_left_) / double(scenes_started_));
+}
+
+double StudyClock::Fraction() const {
+  return Total() > 0 ? std::clamp(done_ / Total(), 0.0, 1.0) : 0;
+}
+
+double StudyClock::SecondsLeft() const {
+  const double fraction = Fraction();
+  return fraction > 0 ? Seconds() * (1 - fraction) / fraction : 0;
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/study/schedule.h"
+#include "src/measure/study/scene_runner.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,10 +12,10 @@ namespace lanelight {
 namespace {
 
 constexpr std::uint64_t kMostSpp = 1u << 20;
-constexpr double kLeastSeconds = 1e-9;  // what a coarse clock cannot show
+constexpr double kMinSeconds = 1e-9;  // replaces 0 of a coarse clock
 
 std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
-  std::sort(counts.begin(), counts.end());
+  std::ranges::sort(counts);
   counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
   return counts;
 }
@@ -49,7 +49,7 @@ class TimedRenders {
  private:
   struct TimedStrategy {
     std::uint64_t spp = 1;
-    // Of the processor; `few`: of a quarter of the samples.
+    // Processor seconds; `few`: with a quarter of the samples.
     std::vector<double> seconds, few;
     double for_small_error = std::numeric_limits<double>::infinity();
     std::uint64_t FewSpp() const { return std::max<std::uint64_t>(spp / 4, 1); }
@@ -65,24 +65,23 @@ class TimedRenders {
   }
 
   static Seconds SecondsOf(const RunResult& result) {
-    return {std::max(result.seconds, kLeastSeconds),
-            std::max(result.cpu_seconds, kLeastSeconds)};
+    return {std::max(result.seconds, kMinSeconds),
+            std::max(result.cpu_seconds, kMinSeconds)};
   }
 
-  // Squared errors fall as 1 / samples.
+  // Assumes that squared errors fall as 1 / samples.
   static double ForSmallError(const FilmAccumulator& film, std::uint64_t spp) {
     const ErrorEstimate error = EstimateError(film);
     if (!error.available) return std::numeric_limits<double>::infinity();
     return double(spp) * error.relmse.value / (kSmallError * kSmallError);
   }
 
-  // Renders of doubling size until one takes as long as a timed one: its samples. What
-  // they load, build and allocate for the first time does not count.
+  // Doubles the samples until a render takes as long as a timed one, and returns them.
   std::uint64_t WarmUp(const Strategy& strategy) {
     const double wanted = std::clamp(seconds_ / 2, kMinTimedSeconds, kMaxTimedSeconds);
     std::uint64_t spp = 1;
     Render(strategy, spp);
-    // A half, or the next would be too long.
+    // Stops at half the time, since the next render takes twice as long.
     while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMostSpp &&
            !Stopped()) {
       spp *= 2;
@@ -138,15 +137,15 @@ std::vector<Calibration> Calibrate(const Job& job,
 }
 
 std::uint64_t DefaultLargest(const Calibration& baseline) {
-  const double enough = std::clamp(baseline.for_small_error, 1.0, double(kLeastLargest));
-  return std::max(std::bit_floor(static_cast<std::uint64_t>(baseline.samples)),
-                  std::bit_ceil(static_cast<std::uint64_t>(std::ceil(enough))));
+  const double enough = std::clamp(baseline.for_small_error, 1.0, double(kMinLargest));
+  return std::max(std::bit_floor(std::uint64_t(baseline.samples)),
+                  std::bit_ceil(std::uint64_t(std::ceil(enough))));
 }
 
 std::vector<std::uint64_t> CountsUpTo(std::uint64_t largest) {
   std::vector<std::uint64_t> counts;
   for (std::uint64_t n = 1; n < largest; n *= 2) counts.push_back(n);
-  const int shift = std::max(0, static_cast<int>(std::bit_width(largest)) - 7);
+  const int shift = std::max(0, int(std::bit_width(largest)) - 7);
   counts.push_back(largest >> shift << shift);
   return Sorted(counts);
 }
@@ -167,8 +166,7 @@ void ChooseCounts(const StudyOptions& options, const Job& job,
       Calibrate(job, calibrated, options.budget.value_or(kDefaultStudySeconds), stop);
   for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
     const Calibration& c = found[each ? i : 0];
-    runs[i]->counts =
-        CountsUpTo(each ? static_cast<std::uint64_t>(c.samples) : DefaultLargest(c));
+    runs[i]->counts = CountsUpTo(each ? std::uint64_t(c.samples) : DefaultLargest(c));
     runs[i]->count_spread = each ? c.spread : 0;
   }
 }

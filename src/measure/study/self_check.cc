@@ -1,7 +1,7 @@
-// How often the intervals that renders state of their own error held, in a study.
-#include <algorithm>
-
+// Coverage of the intervals that renders state of their own error.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "src/measure/study/analysis.h"
 #include "src/render/estimate/estimate.h"
@@ -9,7 +9,7 @@
 namespace lanelight {
 namespace {
 
-// Probability that any strategy whose intervals hold is said to fail.
+// Probability that any strategy whose intervals hold is reported.
 constexpr double kFalseAlarm = 0.05;
 
 std::vector<stat::Cluster> Clusters(const std::map<std::uint64_t, stat::Cluster>& seeds) {
@@ -27,7 +27,7 @@ SelfFailure Failure(std::size_t strategy, const SelfRenders& self) {
   }
   out.worst_share = self.missed_worst_share / double(out.total - out.inside);
   const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-  out.pixel = std::max_element(self.missed.begin(), self.missed.end(), fewer)->first;
+  out.pixel = std::ranges::max_element(self.missed, fewer)->first;
   return out;
 }
 
@@ -52,7 +52,7 @@ void Calibrate(double confidence, SceneAnalysis& analysis) {
   for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
     const StrategyAnalysis& strategy = analysis.strategies[i];
     for (const LevelAnalysis& level : strategy.levels) {
-      if (level.reference_share > kMostReferenceShare) continue;
+      if (level.reference_share > kMaxReferenceShare) continue;
       analysis.calibration.inside += level.self.inside;
       analysis.calibration.total += level.self.total;
       analysis.calibration.refused += level.self.refused;
@@ -85,11 +85,13 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
   text +=
       fmt::format(" of {} renders of {} seed{}, which the strategies share", self.total,
                   analysis.calibration_seeds, analysis.calibration_seeds == 1 ? "" : "s");
-  text += self.refused == 0 ? "." : fmt::format("; {} more stated none.", self.refused);
+  text += self.refused == 0 ? "."
+                            : fmt::format("; {} more stated no interval.", self.refused);
   for (const SelfFailure& f : analysis.self_failures) {
     text += fmt::format(
-        " Those of {} held in {} of {}: where they did not, {:g} % of the pixels carried "
-        "{:.0f} % of the error, and pixel ({}, {}) was the worst most often.",
+        " Those of {} held in {} of {}: in the others, {:g} % of the pixels had {:.0f} % "
+        "of "
+        "the error, and pixel ({}, {}) was the worst most often.",
         runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstShare,
         100 * f.worst_share, f.pixel[0], f.pixel[1]);
   }

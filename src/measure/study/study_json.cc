@@ -1,4 +1,4 @@
-#include "src/measure/study/study_json.h"
+#include "src/measure/study/study.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -10,6 +10,17 @@
 #include "src/render/job/report.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Interval, value, low, high)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfCheck, relmse, inside, total, refused)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LevelAnalysis, spp, repetitions, rmse, relmse,
+                                   relmse_trimmed, relmse_2, relmse_4, relmse_8, mape,
+                                   worst_share, variance, bias2, bias, cpu_seconds,
+                                   wall_seconds, rays_per_sample, path_length,
+                                   reference_share, invalid)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SelfFailure, strategy, inside, total, pixel,
+                                   worst_share)
+
 namespace {
 
 using Json = nlohmann::json;
@@ -23,39 +34,15 @@ Json Optional(const std::optional<T>& v) {
   return v ? Json(*v) : Json();
 }
 
-Json SelfJson(const SelfCheck& self) {
-  if (self.total + self.refused == 0) return nullptr;
-  return {{"relmse", IntervalJson(self.relmse)},
-          {"inside", self.inside},
-          {"total", self.total},
-          {"refused", self.refused}};
-}
-
 Json LevelJson(const LevelAnalysis& l) {
-  return {{"spp", l.spp},
-          {"repetitions", l.repetitions},
-          {"rmse", IntervalJson(l.rmse)},
-          {"relmse", IntervalJson(l.relmse)},
-          {"relmse_trimmed", IntervalJson(l.relmse_trimmed)},
-          {"relmse_2", IntervalJson(l.relmse_2)},
-          {"relmse_4", IntervalJson(l.relmse_4)},
-          {"relmse_8", IntervalJson(l.relmse_8)},
-          {"mape", IntervalJson(l.mape)},
-          {"worst_share", NumberJson(l.worst_share)},
-          {"variance", IntervalJson(l.variance)},
-          {"bias2", IntervalJson(l.bias2)},
-          {"mean", Color(l.mean)},
-          {"bias", IntervalJson(l.bias)},
-          {"bias_p", l.bias_p ? NumberJson(*l.bias_p) : Json()},
-          {"cpu_seconds", IntervalJson(l.cpu_seconds)},
-          {"wall_seconds", IntervalJson(l.wall_seconds)},
-          {"rays_per_sample", NumberJson(l.rays_per_sample)},
-          {"path_length", NumberJson(l.path_length)},
-          {"reference_share", NumberJson(l.reference_share)},
-          {"reference_limited", l.ReferenceLimited()},
-          {"invalid", l.invalid},
-          {"image", Text(l.image)},
-          {"self", SelfJson(l.self)}};
+  const bool has_self = l.self.total + l.self.refused > 0;
+  Json out = l;
+  out.update({{"mean", Color(l.mean)},
+              {"bias_p", Optional(l.bias_p)},
+              {"reference_limited", l.ReferenceLimited()},
+              {"image", Text(l.image)},
+              {"self", has_self ? Json(l.self) : Json()}});
+  return out;
 }
 
 Json StagesJson(const std::vector<StageProfile>& stages) {
@@ -137,21 +124,13 @@ Json ReferenceJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
 Json CalibrationJson(const SceneAnalysis& analysis) {
   const SelfCheck& self = analysis.calibration;
   if (self.total + self.refused == 0) return nullptr;
-  Json failed = Json::array();
-  for (const SelfFailure& f : analysis.self_failures) {
-    failed.push_back({{"strategy", f.strategy},
-                      {"inside", f.inside},
-                      {"total", f.total},
-                      {"pixel", f.pixel},
-                      {"worst_share", NumberJson(f.worst_share)}});
-  }
   return {{"inside", self.inside},
           {"total", self.total},
           {"refused", self.refused},
           {"seeds", analysis.calibration_seeds},
           {"share", IntervalJson(analysis.calibration_share)},
           {"stated", kEstimateConfidence},
-          {"failed", failed}};
+          {"failed", analysis.self_failures}};
 }
 
 Json DiffuseJson(const SceneRuns& runs, const SceneAnalysis& analysis) {
@@ -229,7 +208,7 @@ nlohmann::json StudyJson(const std::vector<SceneStudy>& scenes,
                          const StudyOptions& options, double seconds) {
   Json versions = Json::object();
   for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
-  Json out = {{"schema", kStudySchema},
+  Json out = {{"schema", 1},
               {"kind", "lanelight-study"},
               {"settings", SettingsJson(options)},
               {"machine", ToJson(ThisMachine())},

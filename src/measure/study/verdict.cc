@@ -1,4 +1,4 @@
-// A study of one scene in a paragraph.
+// The result of a study of one scene in a paragraph.
 #include <algorithm>
 #include <cmath>
 
@@ -66,14 +66,14 @@ class Writer {
                     NameOf(best), amount, Others(first)));
   }
 
-  // "A and B are", "27 others are".
+  // Returns e.g. "A and B are" or "27 others are".
   std::string Others(const std::vector<std::size_t>& first) const {
     std::vector<std::size_t> others;
     for (std::size_t i : first) {
       if (i != analysis_.ranking.front()) others.push_back(i);
     }
     if (others.size() == 1) return NameOf(others.front()) + " is";
-    if (others.size() > kMostNames) return fmt::format("{} others are", others.size());
+    if (others.size() > kMaxNames) return fmt::format("{} others are", others.size());
     return List(others) + " are";
   }
 
@@ -105,8 +105,7 @@ class Writer {
     const auto better = [&](std::size_t a, std::size_t b) {
       return Of(a).efficiency_trimmed->value < Of(b).efficiency_trimmed->value;
     };
-    const std::size_t best =
-        *std::max_element(analysis_.ranking.begin(), analysis_.ranking.end(), better);
+    const std::size_t best = *std::ranges::max_element(analysis_.ranking, better);
     if (best == analysis_.baseline) return;
     Say(fmt::format(
         "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
@@ -131,8 +130,9 @@ class Writer {
     Say(BiasText(runs_, analysis_));
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
-      Say("The reference is too noisy for the smallest errors: more than half of what "
-          "was measured there is its own.");
+      Say("The reference is too noisy for the smallest errors: more than half of those "
+          "is "
+          "its own error.");
     }
     if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
   }

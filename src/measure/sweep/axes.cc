@@ -7,8 +7,8 @@
 namespace lanelight {
 namespace {
 
-// What of an axis the list of settings does not say; `before` and `after` stand around
-// its value in the names of cells.
+// Properties of an axis that its setting does not have. Names of cells have the value
+// between `before` and `after`.
 struct AxisInfo {
   const char *name, *column, *title, *before = "", *after = "", *key = name;
 };
@@ -17,7 +17,7 @@ constexpr AxisInfo kAxes[kNumAxes] = {
     {"scene", "scene", "Scene"},
     {"resolution", "resolution_pixels", "Resolution (pixels)"},
     {"max-depth", "max_depth", "Maximum depth", "depth"},
-    {"build", "build", "Build of the trees"},
+    {"build", "build", "BVH build"},
     {"simd", "simd_target", "SIMD target", "", "", "target"},
     {"threads", "threads", "Threads", "", "threads"},
     {"strategy", "strategy", "Strategy"},
@@ -28,10 +28,9 @@ constexpr AxisInfo kAxes[kNumAxes] = {
     {"seed", "seed", "Seed", "seed"},
 };
 
-const AxisInfo& Info(Axis axis) { return kAxes[static_cast<std::size_t>(axis)]; }
+const AxisInfo& Info(Axis axis) { return kAxes[std::size_t(axis)]; }
 
-// What Highway calls the targets of processors; which of them there are is another
-// question (AvailableTargets()).
+// Highway's names of SIMD targets, available or not (AvailableTargets()).
 const std::vector<std::string> kTargets = {
     "AVX3_SPR", "AVX3_ZEN4", "AVX3_DL", "AVX3",        "AVX2", "SSE4", "SSSE3",
     "SSE2",     "SVE2_128",  "SVE_256", "SVE2",        "SVE",  "NEON", "NEON_WITHOUT_AES",
@@ -74,8 +73,8 @@ std::vector<std::string> AxisNames() {
 }
 
 std::optional<Axis> SweepAxisOf(const std::string& name) {
-  for (int i = 0; i < kNumAxes; ++i) {
-    if (name == kAxes[i].name) return static_cast<Axis>(i);
+  for (const Axis axis : kAllAxes) {
+    if (name == Name(axis)) return axis;
   }
   if (name == WrittenBy(SettingNamed(Name(Axis::kTargetRelmse)))) {
     return Axis::kTargetRelmse;
@@ -84,10 +83,18 @@ std::optional<Axis> SweepAxisOf(const std::string& name) {
 }
 
 std::optional<Axis> AxisOfKey(const std::string& key) {
-  for (int i = 0; i < kNumAxes; ++i) {
-    if (key == kAxes[i].key) return static_cast<Axis>(i);
+  for (const Axis axis : kAllAxes) {
+    if (key == Key(axis)) return axis;
   }
   return std::nullopt;
+}
+
+std::map<std::string, std::string> ByKey(const AxisValues& values) {
+  std::map<std::string, std::string> by_key;
+  for (const Axis axis : kAllAxes) {
+    if (const auto& value = Get(values, axis)) by_key[Key(axis)] = *value;
+  }
+  return by_key;
 }
 
 std::string CanonicalValue(const std::string& name, const std::string& text,
@@ -100,12 +107,11 @@ std::string CanonicalValue(const std::string& name, const std::string& text,
 }
 
 void ApplyValues(const AxisValues& values, RenderSettings& settings) {
-  for (int i = 0; i < kNumAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
+  for (const Axis axis : kAllAxes) {
     const auto& value = Get(values, axis);
     if (!value || axis == Axis::kScene || axis == Axis::kStrategy) continue;
     if (axis == Axis::kTarget) {
-      settings.target = *value;  // which this machine need not have
+      settings.target = *value;  // may be unavailable on this machine
     } else {
       SettingNamed(Name(axis)).read(settings, *value);
     }

@@ -1,24 +1,68 @@
 #include "src/measure/sweep/cell_render.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 #include "kernels/simd/target.h"
+#include "src/render/estimate/estimate.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
+#include "src/render/job/output.h"
+#include "src/render/job/saving.h"
 #include "src/scene/compile/compile.h"
 #include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
 namespace {
 
-// What a scene is compiled for: threads and target matter to its time.
+// Axes on which a compiled scene depends; threads and target change the time it takes.
 constexpr Axis kCompiled[] = {Axis::kScene, Axis::kResolution, Axis::kMaxDepth,
                               Axis::kBuild, Axis::kTarget,     Axis::kThreads};
 
-// Cells that differ here have other trees, or may have; they are not kept for them.
+// Cells with the same key share BVHs.
 std::string TreeKeyOf(const AxisValues& values) {
   return Get(values, Axis::kScene).value_or("") + "\n" +
          Get(values, Axis::kBuild).value_or("");
+}
+
+namespace fs = std::filesystem;
+
+// Samples per pixel of the shortest probe.
+constexpr std::uint64_t kProbeSamples = 4;
+
+// Returns tiles of at most 32 x 32 pixels in a grid of 8 x 8 over the image.
+std::vector<PixelRect> SpreadWindows(const PixelRect& image) {
+  constexpr int kSide = 32, kGrid = 8;
+  const int width = std::min(kSide, std::max(1, image.width() / kGrid));
+  const int height = std::min(kSide, std::max(1, image.height() / kGrid));
+  const int columns = std::min(kGrid, image.width() / width);
+  const int rows = std::min(kGrid, image.height() / height);
+  std::vector<PixelRect> windows;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const int x =
+          image.x0 + (image.width() - width) * column / std::max(1, columns - 1);
+      const int y = image.y0 + (image.height() - height) * row / std::max(1, rows - 1);
+      windows.push_back({x, y, x + width, y + height});
+    }
+  }
+  return windows;
+}
+
+// Returns the size of the file of such an image.
+double FileBytes(const FilmAccumulator& film, const Job& job, bool half) {
+  const std::string path = FallbackPath("pilot.exr");
+  ExrOptions options;
+  options.half = half;
+  WriteExr(path, film.width(), film.height(), FilmPlanes(film, job.scene.scale()),
+           options);
+  const double bytes = double(fs::file_size(path));
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  return bytes;
 }
 
 }  // namespace
@@ -33,17 +77,17 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
   const auto& target = Get(cell.values, Axis::kTarget);
   if (!target) return true;
   const std::vector<std::string> available = AvailableTargets();
-  return std::find(available.begin(), available.end(), *target) != available.end();
+  return std::ranges::find(available, *target) != available.end();
 }
 
-// Leaves no job, and failure_, if that is not possible.
+// Compiles the scene; sets failure_ and no job if that fails.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   const std::string trees = TreeKeyOf(cell.values);
   if (job_ && trees == tree_key_) settings.known_tree = TreesOf(*job_->scene.compiled);
   tree_key_ = trees;
-  job_.reset();  // before there is another in memory
+  job_.reset();  // frees memory before the next is built
   failure_.clear();
-  settings.seed.reset();  // that of one cell is not that of the next
+  settings.seed.reset();  // cells differ in their seeds
   for (const auto& [name, places] : sweep_.places) {
     settings.compared.push_back(StrategyNamed(name, {}, {}));
   }
@@ -65,7 +109,7 @@ Job CellRenderer::Prepare(const SweepCell& cell) {
     key_ = key;
     Compile(cell, settings);
   }
-  // All cells of a broken scene fail, and only the first one takes the time.
+  // All cells of a broken scene fail; only the first takes the time.
   if (!job_) throw std::runtime_error(failure_);
   const Strategy strategy =
       StrategyNamed(Get(cell.values, Axis::kStrategy).value_or(kSceneStrategyName), {},
@@ -87,6 +131,39 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   targets.checkpoint.resume = Resume::kIfAny;
   targets.checkpoint.finished = false;
   return RenderToFiles(job, sweep_.ScenePath(cell), targets, hooks);
+}
+
+ProbeRender RenderProbe(const Job& job, double seconds, bool half) {
+  const std::vector<PixelRect> windows = SpreadWindows(job.window);
+  const int width = windows.front().width() * int(windows.size());
+  const int height = windows.front().height();
+  ProbeRender probe;
+  probe.pixels = double(job.window.pixels());
+  probe.spp = std::uint64_t(job.loaded->description.sampler.spp);
+  probe.load_seconds = job.loaded->load_seconds;
+  probe.build_seconds = job.loaded->build_seconds;
+  RunOptions options;
+  options.windows = windows;
+  options.seed = job.seed;
+  options.threads = job.settings.threads;
+  // The first render fills caches; the last one measures.
+  Job windowed = job;
+  windowed.window = {0, 0, width, height};
+  for (options.spp = kProbeSamples;; options.spp *= 4) {
+    FilmAccumulator film = MakeFilm(windowed);
+    const RunResult result = Run(job.scene, job.plan, options, film);
+    probe.sample_seconds =
+        result.seconds / double(std::max<std::uint64_t>(1, result.samples));
+    if (4 * result.seconds < seconds && options.spp < 1024) continue;
+    const ErrorEstimate error = EstimateError(film);
+    if (error.available) {
+      probe.relmse = error.relmse.value * double(options.spp);
+      probe.mse = error.rmse.value * error.rmse.value * double(options.spp);
+    }
+    probe.bytes_per_pixel =
+        FileBytes(film, job, half) / double(film.width()) / film.height();
+    return probe;
+  }
 }
 
 }  // namespace lanelight

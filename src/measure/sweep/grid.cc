@@ -1,6 +1,7 @@
-#include "src/measure/sweep/grid.h"
+#include "src/measure/sweep/sweep_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "src/base/core/check.h"
@@ -11,38 +12,42 @@
 namespace lanelight {
 namespace {
 
+constexpr std::size_t kMaxCells = 1000000;
+
 std::size_t Combinations(const SubGrid& grid) {
   std::size_t cells = 1;
   for (const auto& [axis, values] : grid.axes) {
     cells *= values.size();
-    if (cells <= kMostCells) continue;
-    throw InputError(grid.where, fmt::format("the grid has more than {} cells; divide it "
-                                             "into several sweeps",
-                                             kMostCells));
+    if (cells <= kMaxCells) continue;
+    throw InputError(grid.where,
+                     "the grid has more than {} cells; divide it "
+                     "into several sweeps",
+                     kMaxCells);
   }
   return cells;
 }
 
-// Like the digits of a number: the last axis changes fastest.
+// Returns a combination; the last axis changes fastest.
 AxisValues CombinationOf(const SubGrid& grid, std::size_t number) {
   AxisValues values;
   for (auto it = grid.axes.rbegin(); it != grid.axes.rend(); ++it) {
     const auto& [axis, list] = *it;
-    values[static_cast<std::size_t>(axis)] = list[number % list.size()].text;
+    values[std::size_t(axis)] = list[number % list.size()].text;
     number /= list.size();
   }
   return values;
 }
 
 bool Applies(const SubGrid& rule, const AxisValues& cell) {
-  return std::all_of(rule.axes.begin(), rule.axes.end(), [&](const auto& entry) {
+  return std::ranges::all_of(rule.axes, [&](const auto& entry) {
     const auto& value = Get(cell, entry.first);
-    return value && std::any_of(entry.second.begin(), entry.second.end(),
-                                [&](const GridValue& v) { return v.text == *value; });
+    return value && std::ranges::any_of(entry.second, [&](const GridValue& v) {
+             return v.text == *value;
+           });
   });
 }
 
-// Values of an exclusion that no cell has are mistakes.
+// Throws InputError for values of an exclusion that no cell has.
 void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
   for (const auto& [axis, values] : rule.axes) {
     std::set<std::string> known;
@@ -50,12 +55,11 @@ void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
     known.erase("");
     for (const GridValue& value : values) {
       if (known.count(value.text) > 0) continue;
-      throw InputError(
-          value.where,
-          fmt::format("no cell of the grid has {} {}; {}", Name(axis), Quoted(value.text),
-                      known.empty() ? "the grid does not have this axis"
-                                    : "its values there: " +
-                                          QuotedList({known.begin(), known.end()})));
+      throw InputError(value.where, "no cell of the grid has {} {}; {}", Name(axis),
+                       Quoted(value.text),
+                       known.empty() ? "the grid has no such axis"
+                                     : "its values there: " +
+                                           QuotedList({known.begin(), known.end()}));
     }
   }
 }
@@ -63,16 +67,16 @@ void CheckValues(const SubGrid& rule, const std::vector<AxisValues>& cells) {
 void CheckRule(const SubGrid& rule, const std::vector<AxisValues>& cells) {
   if (rule.axes.empty()) {
     throw InputError(rule.where,
-                     "this exclusion names no axis, and would leave out everything");
+                     "this exclusion names no axis and would exclude all cells");
   }
   CheckValues(rule, cells);
-  if (std::none_of(cells.begin(), cells.end(),
-                   [&](const AxisValues& cell) { return Applies(rule, cell); })) {
+  if (std::ranges::none_of(cells,
+                           [&](const AxisValues& cell) { return Applies(rule, cell); })) {
     throw InputError(rule.where, "no cell of the grid has all of these values together");
   }
 }
 
-// What file systems and shells take as it is.
+// Replaces characters that file systems or shells may not accept.
 std::string Plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -101,8 +105,7 @@ std::vector<AxisValues> AllCombinations(const std::vector<SubGrid>& grids) {
 std::string CellName(const AxisValues& values) {
   constexpr std::size_t kLongest = 120;  // of the readable part
   std::string readable, all;
-  for (int i = 0; i < kNumAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
+  for (const Axis axis : kAllAxes) {
     const auto& value = Get(values, axis);
     if (!value) continue;
     readable +=
@@ -122,8 +125,8 @@ std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
   std::vector<SweepCell> cells;
   std::set<std::string> names;
   for (const AxisValues& values : all) {
-    if (std::any_of(exclude.begin(), exclude.end(),
-                    [&](const SubGrid& rule) { return Applies(rule, values); })) {
+    if (std::ranges::any_of(exclude,
+                            [&](const SubGrid& rule) { return Applies(rule, values); })) {
       continue;
     }
     cells.push_back({cells.size(), values, CellName(values)});
@@ -133,6 +136,40 @@ std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
     throw InputError(grids.front().where, "the exclusions leave no cell of the grid");
   }
   return cells;
+}
+
+std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
+    const std::vector<SubGrid>& grids) {
+  std::map<std::string, std::vector<StrategyPlace>> places;
+  for (const SubGrid& grid : grids) {
+    const auto strategies = grid.axes.find(Axis::kStrategy);
+    if (strategies == grid.axes.end()) continue;
+    for (const GridValue& strategy : strategies->second) {
+      std::vector<StrategyPlace>& known = places[strategy.text];
+      for (const StrategyPlace& place : strategy.places) {
+        if (std::ranges::find(known, place) == known.end()) {
+          known.push_back(place);
+        }
+      }
+    }
+  }
+  return places;
+}
+
+std::string Sweep::ScenePath(const SweepCell& cell) const {
+  return (std::filesystem::path(path).parent_path() / *Get(cell.values, Axis::kScene))
+      .string();
+}
+
+std::vector<Axis> Sweep::UsedAxes() const {
+  std::vector<Axis> used;
+  for (const Axis axis : kAllAxes) {
+    const auto has_value = [&](const SweepCell& c) {
+      return Get(c.values, axis).has_value();
+    };
+    if (std::ranges::any_of(cells, has_value)) used.push_back(axis);
+  }
+  return used;
 }
 
 }  // namespace lanelight

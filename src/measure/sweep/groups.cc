@@ -1,4 +1,4 @@
-#include "src/measure/sweep/groups.h"
+#include "src/measure/sweep/results.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,18 +15,20 @@ namespace {
 using Json = nlohmann::json;
 using Costs = std::map<std::string, stat::Cost>;  // by seed
 
+constexpr double kSweepConfidence = 0.95;  // of all intervals over seeds
+
 constexpr const char* kMeans[] = {
     "samples", "render_seconds",  "cpu_seconds",       "relmse",
     "rmse",    "rays_per_second", "samples_per_second"};
-// Comparing each with each takes a bootstrap for every pair.
-constexpr std::size_t kMostRanked = 64;
+// Ranking takes a bootstrap for every pair.
+constexpr std::size_t kMaxRanked = 64;
 
 double MeasureOf(const Json& cell, const char* name) {
   const Json value = cell.at("measured").value(name, Json());
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
-// Cells without a known error have no cost.
+// Returns the costs of cells with a known error.
 Costs CostsOf(const CellGroup& group, const std::vector<Json>& cells) {
   Costs costs;
   for (const std::size_t i : group.cells) {
@@ -38,12 +40,11 @@ Costs CostsOf(const CellGroup& group, const std::vector<Json>& cells) {
   return costs;
 }
 
-// Repetitions of all, of the seeds that all have.
+// Returns the repetitions of each, for seeds that all have.
 std::vector<std::vector<stat::Cost>> PairedCosts(const std::vector<Costs>& all) {
   std::vector<std::vector<stat::Cost>> paired(all.size());
   for (const auto& [seed, unused] : all[0]) {
-    if (std::any_of(all.begin(), all.end(),
-                    [&](const Costs& c) { return c.count(seed) == 0; })) {
+    if (std::ranges::any_of(all, [&](const Costs& c) { return c.count(seed) == 0; })) {
       continue;
     }
     for (std::size_t i = 0; i < all.size(); ++i) paired[i].push_back(all[i].at(seed));
@@ -61,7 +62,7 @@ Json MeansJson(const CellGroup& group, const std::vector<Json>& cells) {
   return means;
 }
 
-// By context.
+// Returns costs of the baseline by context.
 std::map<std::size_t, Costs> BaselineCosts(const std::vector<CellGroup>& groups,
                                            const std::vector<Json>& cells,
                                            const std::string& baseline) {
@@ -88,7 +89,7 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
     if (strategies[i].strategy == baseline) base = i;
   }
   const double confidence =
-      1 - stat::SidakLevel(1 - kSweepConfidence, static_cast<int>(all.size()) - 1);
+      1 - stat::SidakLevel(1 - kSweepConfidence, int(all.size()) - 1);
   std::vector<Interval> ratios;
   for (const auto& costs : paired) {
     ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
@@ -101,15 +102,15 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
                {"strategies", all.size()},
                {"seeds", paired[0].size()},
                {"equals", nullptr}};
-  if (all.size() > kMostRanked) return json;
+  if (all.size() > kMaxRanked) return json;
   const auto ranks = stat::RankByEfficiency(paired, kSweepConfidence);
-  json["equals"] = std::count_if(ranks.begin(), ranks.end(),
-                                 [](const stat::RankRange& r) { return r.best == 1; }) -
-                   (ranks[best].best == 1);
+  json["equals"] =
+      std::ranges::count_if(ranks, [](const stat::RankRange& r) { return r.best == 1; }) -
+      (ranks[best].best == 1);
   return json;
 }
 
-// Values of a group that are not of its strategy.
+// Returns the values of a group that do not belong to its strategy.
 std::map<std::string, std::string> ContextOf(const CellGroup& group) {
   std::map<std::string, std::string> values;
   for (const auto& [axis, value] : group.values) {
@@ -131,16 +132,13 @@ std::string BaselineOf(const Sweep& sweep) {
   return first;
 }
 
-std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& cells,
-                                  const std::map<std::string, std::string>& scenes) {
+std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& cells) {
+  const std::map<std::string, std::string> scenes = NamesOfScenes(sweep);
   std::vector<CellGroup> groups;
   std::map<std::map<std::string, std::string>, std::size_t> known, contexts;
   for (const SweepCell& cell : sweep.cells) {
     CellGroup group;
-    for (int i = 0; i < kNumAxes; ++i) {
-      const auto& value = cell.values[static_cast<std::size_t>(i)];
-      if (value) group.values[Key(static_cast<Axis>(i))] = *value;
-    }
+    group.values = ByKey(cell.values);
     group.values.erase(Key(Axis::kSeed));
     group.values[Key(Axis::kScene)] = scenes.at(*Get(cell.values, Axis::kScene));
     group.strategy = Get(cell.values, Axis::kStrategy).value_or("");
@@ -196,7 +194,7 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   for (const CellGroup& group : groups) {
     Costs costs = CostsOf(group, cells);
     std::vector<StrategyCosts>& in = contexts[group.context];
-    if (costs.empty() || std::any_of(in.begin(), in.end(), [&](const StrategyCosts& c) {
+    if (costs.empty() || std::ranges::any_of(in, [&](const StrategyCosts& c) {
           return c.strategy == group.strategy;
         })) {
       continue;

@@ -1,4 +1,4 @@
-#include "src/measure/sweep/prediction.h"
+#include "src/measure/sweep/runner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <set>
 
 #include "src/measure/sweep/cell_render.h"
-#include "src/measure/sweep/probe_render.h"
 #include "src/measure/sweep/sweep_folder.h"
 
 namespace lanelight {
@@ -17,7 +16,7 @@ constexpr double kProbeSeconds = 0.2;  // of each
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kReportBytes = 12e3;
 
-// A scene as it is compiled, and a strategy on it.
+// A compiled scene with a strategy.
 struct Combination {
   std::string scene, strategy;
   const SweepCell* cell;  // the first of it
@@ -27,114 +26,7 @@ std::string StrategyOf(const SweepCell& cell) {
   return Get(cell.values, Axis::kStrategy).value_or("");
 }
 
-class Predictor {
- public:
-  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
-      : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
-
-  SweepPrediction Predict(std::size_t max_probes);
-
- private:
-  void FindCombinations(SweepPrediction& out);
-  void RenderProbes(std::size_t most, SweepPrediction& out);
-  double SampleSeconds(const std::string& scene, const std::string& strategy) const;
-  double MeanLog(const std::string& scene) const;
-  const ProbeRender* Nearest(const std::string& scene, const std::string& strategy) const;
-  void PredictCell(const SweepCell& cell, bool first_of_scene, CellPrediction& p) const;
-
-  const Sweep& sweep_;
-  SweepFolder folder_;
-  const std::atomic<bool>& stop_;
-  CellRenderer renderer_;
-  std::vector<Combination> combinations_;
-  std::map<std::pair<std::string, std::string>, ProbeRender> pilots_;  // scene, strategy
-  std::map<std::pair<std::string, std::string>, std::string> failures_;
-};
-
-SweepPrediction Predictor::Predict(std::size_t max_probes) {
-  SweepPrediction out;
-  FindCombinations(out);
-  RenderProbes(max_probes, out);
-  std::set<std::string> begun;
-  for (const SweepCell& cell : sweep_.cells) {
-    CellPrediction& p = out.cells[cell.index];
-    if (p.done) continue;
-    PredictCell(cell, begun.insert(renderer_.SceneKey(cell)).second, p);
-  }
-  return out;
-}
-
-void Predictor::FindCombinations(SweepPrediction& out) {
-  std::set<std::pair<std::string, std::string>> seen;
-  out.cells.resize(sweep_.cells.size());
-  for (const SweepCell& cell : sweep_.cells) {
-    out.cells[cell.index].done = folder_.Look(cell).state == CellState::kDone;
-    if (out.cells[cell.index].done || !CellRenderer::HasTarget(cell)) continue;
-    const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
-    if (seen.emplace(scene, strategy).second) {
-      combinations_.push_back({scene, strategy, &cell});
-    }
-  }
-  out.combinations = combinations_.size();
-}
-
-// Every step-th of them, so that all scenes and strategies have their turn; in grid
-// order, so that no scene is compiled twice.
-void Predictor::RenderProbes(std::size_t most, SweepPrediction& out) {
-  const std::size_t count = std::min(most, combinations_.size());
-  for (std::size_t i = 0; i < count && !stop_; ++i) {
-    const Combination& c = combinations_[i * combinations_.size() / count];
-    try {
-      const Job job = renderer_.Prepare(*c.cell);
-      pilots_[{c.scene, c.strategy}] =
-          RenderProbe(job, kProbeSeconds, sweep_.settings.render.image.half);
-      ++out.probes;
-    } catch (const std::exception& error) {
-      failures_[{c.scene, c.strategy}] = error.what();
-    }
-  }
-}
-
-// Mean logarithm of the seconds of a sample over the strategies of a scene; over all
-// scenes if none of this one's was rendered. NaN without any.
-double Predictor::MeanLog(const std::string& scene) const {
-  double sum = 0, all = 0;
-  int count = 0;
-  for (const auto& [key, probe] : pilots_) {
-    all += std::log(probe.sample_seconds);
-    if (key.first != scene) continue;
-    sum += std::log(probe.sample_seconds);
-    ++count;
-  }
-  return count > 0 ? sum / count : all / double(pilots_.size());
-}
-
-double Predictor::SampleSeconds(const std::string& scene,
-                                const std::string& strategy) const {
-  const auto own = pilots_.find({scene, strategy});
-  if (own != pilots_.end()) return own->second.sample_seconds;
-  double ratio = 0;
-  int count = 0;
-  for (const auto& [key, probe] : pilots_) {
-    if (key.second != strategy) continue;
-    ratio += std::log(probe.sample_seconds) - MeanLog(key.first);
-    ++count;
-  }
-  return std::exp(MeanLog(scene) + (count > 0 ? ratio / count : 0));
-}
-
-// Of the same scene and strategy; else of the scene; else any; null without probes.
-const ProbeRender* Predictor::Nearest(const std::string& scene,
-                                      const std::string& strategy) const {
-  const auto own = pilots_.find({scene, strategy});
-  if (own != pilots_.end()) return &own->second;
-  for (const auto& [key, probe] : pilots_) {
-    if (key.first == scene) return &probe;
-  }
-  return pilots_.empty() ? nullptr : &pilots_.begin()->second;
-}
-
-// Samples per pixel that the cell will have, at `pixel_seconds` a sample of every pixel.
+// Returns the samples per pixel of a cell; `pixel_seconds`: for one sample of all pixels.
 double SamplesOf(const RenderSettings& settings, const ProbeRender& probe,
                  double pixel_seconds) {
   double spp = double(settings.spp.value_or(probe.spp));
@@ -148,33 +40,128 @@ double SamplesOf(const RenderSettings& settings, const ProbeRender& probe,
   return std::isfinite(spp) ? std::max(1.0, spp) : kUnknown;
 }
 
-void Predictor::PredictCell(const SweepCell& cell, bool first_of_scene,
-                            CellPrediction& p) const {
-  const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
-  const auto failure = failures_.find({scene, strategy});
-  if (failure != failures_.end()) {
-    p.message = failure->second;
-    return;
+class Predictor {
+ public:
+  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
+      : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
+
+  SweepPrediction Predict(std::size_t max_probes) {
+    SweepPrediction out;
+    FindCombinations(out);
+    RenderProbes(max_probes, out);
+    std::set<std::string> begun;
+    for (const SweepCell& cell : sweep_.cells) {
+      CellPrediction& p = out.cells[cell.index];
+      if (p.done) continue;
+      PredictCell(cell, begun.insert(renderer_.SceneKey(cell)).second, p);
+    }
+    return out;
   }
-  p.seconds = p.bytes = kUnknown;
-  const ProbeRender* probe = Nearest(scene, strategy);
-  if (probe == nullptr) return;
-  p.measured = pilots_.count({scene, strategy}) > 0;
-  RenderSettings settings = sweep_.settings.render;
-  ApplyValues(cell.values, settings);
-  const double pixel_seconds = SampleSeconds(scene, strategy) * probe->pixels;
-  p.seconds = SamplesOf(settings, *probe, pixel_seconds) * pixel_seconds;
-  if (first_of_scene) p.seconds += probe->load_seconds + probe->build_seconds;
-  p.bytes = probe->bytes_per_pixel * probe->pixels + kReportBytes;
-  if (settings.image.png) p.bytes += 3 * probe->pixels;  // at most
-}
+
+ private:
+  void FindCombinations(SweepPrediction& out) {
+    std::set<std::pair<std::string, std::string>> seen;
+    out.cells.resize(sweep_.cells.size());
+    for (const SweepCell& cell : sweep_.cells) {
+      out.cells[cell.index].done = folder_.Look(cell).state == CellState::kDone;
+      if (out.cells[cell.index].done || !CellRenderer::HasTarget(cell)) continue;
+      const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
+      if (seen.emplace(scene, strategy).second) {
+        combinations_.push_back({scene, strategy, &cell});
+      }
+    }
+    out.combinations = combinations_.size();
+  }
+
+  // Renders evenly spaced combinations, to cover all scenes and strategies, in grid
+  // order, to compile each scene once.
+  void RenderProbes(std::size_t most, SweepPrediction& out) {
+    const std::size_t count = std::min(most, combinations_.size());
+    for (std::size_t i = 0; i < count && !stop_; ++i) {
+      const Combination& c = combinations_[i * combinations_.size() / count];
+      try {
+        const Job job = renderer_.Prepare(*c.cell);
+        pilots_[{c.scene, c.strategy}] =
+            RenderProbe(job, kProbeSeconds, sweep_.settings.render.image.half);
+        ++out.probes;
+      } catch (const std::exception& error) {
+        failures_[{c.scene, c.strategy}] = error.what();
+      }
+    }
+  }
+
+  double SampleSeconds(const std::string& scene, const std::string& strategy) const {
+    const auto own = pilots_.find({scene, strategy});
+    if (own != pilots_.end()) return own->second.sample_seconds;
+    double ratio = 0;
+    int count = 0;
+    for (const auto& [key, probe] : pilots_) {
+      if (key.second != strategy) continue;
+      ratio += std::log(probe.sample_seconds) - MeanLog(key.first);
+      ++count;
+    }
+    return std::exp(MeanLog(scene) + (count > 0 ? ratio / count : 0));
+  }
+
+  // Returns the mean logarithm of seconds per sample over probes of the scene, or over
+  // all probes if the scene has none. NaN without probes.
+  double MeanLog(const std::string& scene) const {
+    double sum = 0, all = 0;
+    int count = 0;
+    for (const auto& [key, probe] : pilots_) {
+      all += std::log(probe.sample_seconds);
+      if (key.first != scene) continue;
+      sum += std::log(probe.sample_seconds);
+      ++count;
+    }
+    return count > 0 ? sum / count : all / double(pilots_.size());
+  }
+
+  // Returns a probe of the scene and strategy; else of the scene; else any; null without.
+  const ProbeRender* Nearest(const std::string& scene,
+                             const std::string& strategy) const {
+    const auto own = pilots_.find({scene, strategy});
+    if (own != pilots_.end()) return &own->second;
+    for (const auto& [key, probe] : pilots_) {
+      if (key.first == scene) return &probe;
+    }
+    return pilots_.empty() ? nullptr : &pilots_.begin()->second;
+  }
+
+  void PredictCell(const SweepCell& cell, bool first_of_scene, CellPrediction& p) const {
+    const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
+    const auto failure = failures_.find({scene, strategy});
+    if (failure != failures_.end()) {
+      p.message = failure->second;
+      return;
+    }
+    p.seconds = p.bytes = kUnknown;
+    const ProbeRender* probe = Nearest(scene, strategy);
+    if (probe == nullptr) return;
+    p.measured = pilots_.count({scene, strategy}) > 0;
+    RenderSettings settings = sweep_.settings.render;
+    ApplyValues(cell.values, settings);
+    const double pixel_seconds = SampleSeconds(scene, strategy) * probe->pixels;
+    p.seconds = SamplesOf(settings, *probe, pixel_seconds) * pixel_seconds;
+    if (first_of_scene) p.seconds += probe->load_seconds + probe->build_seconds;
+    p.bytes = probe->bytes_per_pixel * probe->pixels + kReportBytes;
+    if (settings.image.png) p.bytes += 3 * probe->pixels;  // at most
+  }
+
+  const Sweep& sweep_;
+  SweepFolder folder_;
+  const std::atomic<bool>& stop_;
+  CellRenderer renderer_;
+  std::vector<Combination> combinations_;
+  std::map<std::pair<std::string, std::string>, ProbeRender> pilots_;  // scene, strategy
+  std::map<std::pair<std::string, std::string>, std::string> failures_;
+};
 
 }  // namespace
 
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int max_probes,
                         const std::atomic<bool>& stop) {
-  return Predictor(sweep, SweepFolder(out, sweep), stop)
-      .Predict(static_cast<std::size_t>(max_probes));
+  return Predictor(sweep, SweepFolder(out, sweep), stop).Predict(std::size_t(max_probes));
 }
 
 }  // namespace lanelight

@@ -1,14 +1,10 @@
 #include <cmath>
 
 #include "src/base/core/text_layout.h"
-#include "src/measure/sweep/prediction.h"
+#include "src/measure/sweep/runner.h"
 
 namespace lanelight {
 namespace {
-
-std::string TextOf(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
-}
 
 std::string BytesText(double bytes) {
   constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
@@ -44,8 +40,9 @@ std::string Row(const SweepCell& cell, const CellPrediction& p) {
   if (!p.message.empty()) {
     return fmt::format("{:>10} {:>10}  {}: {}\n", "will fail", "", cell.name, p.message);
   }
-  return fmt::format("{:>10} {:>10}  {}\n",
-                     TextOf(p.seconds, "{:.3g}") + (p.measured ? " " : "~"),
+  const std::string seconds =
+      std::isfinite(p.seconds) ? fmt::format("{:.3g}", p.seconds) : "-";
+  return fmt::format("{:>10} {:>10}  {}\n", seconds + (p.measured ? " " : "~"),
                      std::isfinite(p.bytes) ? BytesText(p.bytes) : "-", cell.name);
 }
 
@@ -62,10 +59,10 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
                       sweep.cells.size(), sweep.excluded, sums.done);
   if (sums.failing > 0) text += fmt::format(", {} will fail", sums.failing);
   if (sums.unknown > 0) text += fmt::format(", {} take an unknown time", sums.unknown);
-  text += fmt::format("\n{} of {} combinations of scene and strategy were tried",
+  text += fmt::format("\n{} of {} combinations of scene and strategy were measured",
                       prediction.probes, prediction.combinations);
   if (sums.estimated > 0) {
-    text += fmt::format("; {} cells (~) are judged by the others", sums.estimated);
+    text += fmt::format("; {} cells (~) are estimated from the others", sums.estimated);
   }
   if (prediction.probes == 0) return text + "\n";
   return text + fmt::format("\nthe rest: {} on this machine by one process, {}\n",

@@ -11,8 +11,6 @@
 #include "src/base/image/atomic_file.h"
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
-#include "src/measure/sweep/sweep_page.h"
-#include "src/measure/sweep/thumbnails.h"
 #include "src/render/job/machine_json.h"
 
 namespace lanelight {
@@ -20,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Columns of the table beside the axes, each with its place in report.json.
+// Columns of the table after the axes, with their places in report.json.
 struct Measure {
   const char *name, *place;
   bool on_page = false;
@@ -74,9 +72,7 @@ Json InvalidSamples(const Json& report) {
 
 std::string Header(const std::vector<std::string>& stages) {
   std::string text = "cell,status";
-  for (int i = 0; i < kNumAxes; ++i) {
-    text += std::string(",") + Column(static_cast<Axis>(i));
-  }
+  for (const Axis axis : kAllAxes) text += std::string(",") + Column(axis);
   for (const Measure& column : kColumns) text += std::string(",") + column.name;
   text += ",invalid_samples," + MachineCsvHeader();
   for (const std::string& stage : stages) text += ",stage_" + stage + "_cpu_seconds";
@@ -85,8 +81,8 @@ std::string Header(const std::vector<std::string>& stages) {
 
 std::string Row(const Json& cell, const std::vector<std::string>& stages) {
   std::string text = CsvField(cell.at("name")) + "," + CsvField(cell.at("status"));
-  for (int i = 0; i < kNumAxes; ++i) {
-    text += "," + CsvField(cell.at("values").value(Key(static_cast<Axis>(i)), Json()));
+  for (const Axis axis : kAllAxes) {
+    text += "," + CsvField(cell.at("values").value(Key(axis), Json()));
   }
   for (const Measure& column : kColumns) {
     text += "," + CsvField(cell.at("measured").value(column.name, Json()));
@@ -111,8 +107,8 @@ std::vector<std::string> StageNames(const std::vector<Json>& cells) {
 
 bool IsOnPage(const std::string& measure) {
   return measure == kInvalidSamples ||
-         std::any_of(std::begin(kColumns), std::end(kColumns),
-                     [&](const Measure& m) { return m.on_page && m.name == measure; });
+         std::ranges::any_of(
+             kColumns, [&](const Measure& m) { return m.on_page && m.name == measure; });
 }
 
 Json CellReport(const Rendering& rendering) {
@@ -127,14 +123,10 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
   Json json = {{"name", cell.name},
                {"status", Name(record.state)},
                {"message", record.message.empty() ? Json() : Json(record.message)},
-               {"values", Json::object()},
+               {"values", ByKey(cell.values)},
                {"measured", Json::object()},
                {"machine", Json()},
                {"stages", Json::object()}};
-  for (int i = 0; i < kNumAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
-    if (const auto& value = Get(cell.values, axis)) json["values"][Key(axis)] = *value;
-  }
   if (record.state != CellState::kDone) return json;
   for (const Measure& column : kColumns) {
     const Json::json_pointer place(column.place);
@@ -143,7 +135,7 @@ Json CellJson(const SweepCell& cell, const CellRecord& record) {
     }
   }
   json["measured"][kInvalidSamples] = InvalidSamples(record.report);
-  json["machine"] = record.report.value("machine", Json());  // older ones lack it
+  json["machine"] = record.report.value("machine", Json());  // null in older files
   for (const Json& stage : record.report.at("stages")) {
     json["stages"][stage.at("name").get<std::string>()] = stage.at("seconds");
   }
@@ -179,8 +171,9 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
   const Json json = SweepJson(sweep, cells, groups);
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
-  WriteFileAtomically(folder.File("report.html"),
-                      SweepReportPage(json, Thumbnails(sweep, folder, groups)));
+  WriteFileAtomically(
+      folder.File("report.html"),
+      ReportPage(PageKind::kSweep, json, Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

@@ -1,33 +1,79 @@
-// What becomes of the finished cells: sweep.csv and the page.
+// Results of finished cells: sweep.csv, sweep.json and the page.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "src/measure/report/page.h"
 #include "src/measure/sweep/runner.h"
+#include "src/measure/sweep/sweep_file.h"
 #include "src/measure/sweep/sweep_folder.h"
 #include "src/render/job/render.h"
 
 namespace lanelight {
 
-/// The report of a render with what sweeps add to it: processor seconds, the machine.
+/// Returns the report of a render with processor seconds, machine and program.
 nlohmann::json CellReport(const Rendering& rendering);
 
-/// Looks at all cells, writes the table and the page, and says in `outcome` how the whole
-/// sweep stands.
+/// Reads all cells, writes the table and the page, and adds the state of the whole sweep
+/// to `outcome`.
 void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome);
 
-/// Of all cells, ascending.
+/// Returns the names of stages of all cells, ascending.
 std::vector<std::string> StageNames(const std::vector<nlohmann::json>& cells);
 
-/// Returns whether the page shows a measure, of those that a cell has.
+/// Returns whether the page shows this measure of cells.
 bool IsOnPage(const std::string& measure);
 
-/// A cell as the page has it (docs/sweep.md); numbers that are not known are null.
+/// Writes a cell (docs/sweep.md); unknown numbers are null.
 nlohmann::json CellJson(const SweepCell& cell, const CellRecord& record);
 
-/// sweep.csv of such cells, in order.
+/// Returns sweep.csv of cells by CellJson().
 std::string SweepCsv(const std::vector<nlohmann::json>& cells);
+
+/// Cells that differ in their seed only: repetitions of one render.
+struct CellGroup {
+  /// Texts by axis, without the seed. Open parts of a strategy are axes, and the strategy
+  /// is its family.
+  std::map<std::string, std::string> values;
+  std::string strategy;            // empty if the sweep has no such axis
+  std::size_t context = 0;         // equal for groups that differ in strategy only
+  std::vector<std::size_t> cells;  // finished ones, by index
+};
+
+/// Returns all groups in the order of the grid, with or without finished cells. A
+/// strategy with several places (Sweep::places) is in several groups.
+std::vector<CellGroup> GroupCells(const Sweep& sweep,
+                                  const std::vector<nlohmann::json>& cells);
+
+/// Returns the names of scenes on the page, by their texts in the sweep file.
+std::map<std::string, std::string> NamesOfScenes(const Sweep& sweep);
+
+/// Writes groups with finished cells: "values", "strategy", "cells", for several cells
+/// "measured" (intervals of means), and "efficiency" relative to the baseline with the
+/// same seeds (src/base/stat/efficiency.h); null if unknown.
+nlohmann::json GroupsJson(const std::vector<CellGroup>& groups,
+                          const std::vector<nlohmann::json>& cells,
+                          const std::string& baseline);
+
+/// Writes the most efficient strategy, and how many may be as efficient, for the last
+/// context of each scene with several strategies of known error; docs/sweep.md.
+nlohmann::json LeadersJson(const std::vector<CellGroup>& groups,
+                           const std::vector<nlohmann::json>& cells,
+                           const std::string& baseline);
+
+/// Returns "default" or else the first strategy of the grid; empty without any.
+std::string BaselineOf(const Sweep& sweep);
+
+/// Writes sweep.json (docs/sweep.md); `cells` by CellJson().
+nlohmann::json SweepJson(const Sweep& sweep, const std::vector<nlohmann::json>& cells,
+                         const std::vector<CellGroup>& groups);
+
+/// Returns a small image of the first finished cell of each of the first 1000 groups,
+/// named like the cell; at most about 8 MB of text. Omits images that cannot be read.
+std::vector<ReportImage> Thumbnails(const Sweep& sweep, const SweepFolder& folder,
+                                    const std::vector<CellGroup>& groups);
 
 }  // namespace lanelight

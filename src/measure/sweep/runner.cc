@@ -17,7 +17,7 @@
 namespace lanelight {
 namespace {
 
-// What this process knows of a cell.
+// State of a cell as far as this process knows.
 enum class Known { kMissing, kDone, kFailed, kElsewhere, kNoTarget };
 
 class Runner {
@@ -31,23 +31,169 @@ class Runner {
         claims_(folder.File("claims")),
         renderer_(sweep, folder.Outputs()) {}
 
-  void Run(SweepOutcome& outcome);
+  void Run(SweepOutcome& outcome) {
+    if (!claims_.locking() && options_.part.count == 1) {
+      throw InputError(
+          "the file system of '{}' does not support locks, which several processes need; "
+          "give each process its own part with --part I/N",
+          claims_.path());
+    }
+    FindPart();
+    FirstOfAll();
+    Help();
+    if (options_.wait) WaitForOthers();
+    outcome.rendered = rendered_;
+    outcome.elsewhere = Count(Known::kElsewhere);
+    outcome.without_target = Count(Known::kNoTarget);
+    outcome.interrupted = interrupted_;
+  }
 
  private:
-  using Group = std::vector<std::size_t>;  // places in part_: cells of one compiled scene
+  using Group =
+      std::vector<std::size_t>;  // indices into part_: cells of one compiled scene
 
-  void FindPart();
-  void FirstOfAll();
-  void Help();
-  void WaitForOthers();
-  void TryCell(std::size_t i);
-  bool StillMissing(std::size_t i);
-  void RenderCell(std::size_t i);
-  void Fail(std::size_t i, const std::string& message);
-  void Report(const SweepCell& cell, const Progress& progress);
+  void FindPart() {
+    std::map<std::string, std::size_t> group_of;
+    for (const SweepCell& cell : sweep_.cells) {
+      const CellState state = folder_.Look(cell).state;
+      const auto [index, count] = options_.part;
+      if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
+      const auto [entry, is_new] =
+          group_of.try_emplace(renderer_.SceneKey(cell), groups_.size());
+      if (is_new) groups_.emplace_back();
+      groups_[entry->second].push_back(part_.size());
+      part_.push_back(&cell);
+      known_.push_back(state == CellState::kDone        ? Known::kDone
+                       : !CellRenderer::HasTarget(cell) ? Known::kNoTarget
+                                                        : Known::kMissing);
+      failed_before_.push_back(state == CellState::kFailed);
+    }
+  }
+
+  // Renders scenes that no process has claimed, so that no scene is compiled twice as
+  // long as there are some.
+  void FirstOfAll() {
+    for (const Group& group : groups_) {
+      if (std::ranges::all_of(
+              group, [&](std::size_t i) { return known_[i] != Known::kMissing; })) {
+        continue;
+      }
+      const auto claim = claims_.Take("scene of " + part_[group.front()]->name);
+      if (!claim) continue;
+      for (const std::size_t i : group) {
+        if (Stopped() || interrupted_) return;
+        TryCell(i);
+      }
+    }
+  }
+
+  // Renders cells of scenes claimed by other processes, from their ends, starting at a
+  // place that depends on the process, to avoid conflicts.
+  void Help() {
+    std::vector<std::size_t> rest;
+    for (const Group& group : groups_) {
+      std::vector<std::size_t> missing;
+      for (const std::size_t i : group) {
+        if (known_[i] == Known::kMissing) missing.push_back(i);
+      }
+      std::ranges::reverse(missing);
+      if (!missing.empty()) {
+        const auto place = std::size_t(getpid()) * 7 % missing.size();
+        std::rotate(missing.begin(), missing.begin() + long(place), missing.end());
+      }
+      rest.insert(rest.end(), missing.begin(), missing.end());
+    }
+    for (const std::size_t i : rest) {
+      if (Stopped() || interrupted_) break;
+      TryCell(i);
+    }
+    interrupted_ |= Stopped();
+  }
+
+  void WaitForOthers() {
+    constexpr auto kPause = std::chrono::milliseconds(200);
+    while (!interrupted_ && Count(Known::kElsewhere) > 0) {
+      for (std::size_t i = 0; i < part_.size() && !Stopped(); ++i) {
+        if (known_[i] == Known::kElsewhere) TryCell(i);
+      }
+      interrupted_ |= Stopped();
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
+  void TryCell(std::size_t i) {
+    if (known_[i] != Known::kMissing && known_[i] != Known::kElsewhere) return;
+    const auto claim = claims_.Take(part_[i]->name);
+    if (!claim) {
+      known_[i] = Known::kElsewhere;
+      return;
+    }
+    if (StillMissing(i)) RenderCell(i);
+  }
+
+  // Another process may have rendered the cell since this one looked.
+  bool StillMissing(std::size_t i) {
+    const CellState state = folder_.Look(*part_[i]).state;
+    if (state == CellState::kDone) known_[i] = Known::kDone;
+    if (state == CellState::kFailed && !failed_before_[i]) known_[i] = Known::kFailed;
+    return known_[i] == Known::kMissing || known_[i] == Known::kElsewhere;
+  }
+
+  void RenderCell(std::size_t i) {
+    const SweepCell& cell = *part_[i];
+    // Throws: without a writable directory, no further result can be kept.
+    folder_.CheckWritable();
+    folder_.MakeCell(cell);
+    Report(cell, {});
+    RenderHooks hooks;
+    hooks.on_progress = [&](const Progress& p) { Report(cell, p); };
+    hooks.stop = hooks_.stop;
+    try {
+      const Rendering rendering =
+          renderer_.Render(cell, folder_.path() + "/cells/" + cell.name, hooks);
+      if (rendering.report.result.stopped_early) {
+        folder_.RemoveImages(cell);
+        known_[i] = Known::kMissing;
+        interrupted_ = true;
+        return;
+      }
+      if (!rendering.problems.empty()) {
+        folder_.CheckWritable();
+        std::string text;
+        for (const std::string& problem : rendering.problems) text += problem + "; ";
+        return Fail(i, text.substr(0, text.size() - 2));
+      }
+      folder_.Finish(cell, CellReport(rendering));
+      known_[i] = Known::kDone;
+      ++rendered_;
+    } catch (const WouldOverwrite&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      Fail(i, "error: " + OutOfMemoryText());
+    } catch (const std::exception& error) {
+      folder_.CheckWritable();
+      Fail(i, error.what());
+    }
+  }
+
+  void Fail(std::size_t i, const std::string& message) {
+    const SweepCell& cell = *part_[i];
+    known_[i] = Known::kFailed;
+    folder_.Fail(cell, message);
+    // All cells of a broken scene have the same message.
+    if (!said_.insert(message).second || !hooks_.on_problem) return;
+    hooks_.on_problem(cell.name + ": " + message);
+  }
+
+  void Report(const SweepCell& cell, const Progress& progress) {
+    if (!hooks_.on_progress) return;
+    hooks_.on_progress(
+        {Count(Known::kDone) + Count(Known::kFailed), part_.size(), &cell, progress});
+  }
+
   bool Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
   std::size_t Count(Known what) const {
-    return static_cast<std::size_t>(std::count(known_.begin(), known_.end(), what));
+    return std::size_t(std::ranges::count(known_, what));
   }
 
   const Sweep& sweep_;
@@ -56,171 +202,14 @@ class Runner {
   SweepFolder& folder_;
   const LockFile claims_;  // of cells and scenes, by their names
   CellRenderer renderer_;
-  std::vector<const SweepCell*> part_;  // that this process may render
+  std::vector<const SweepCell*> part_;  // cells of this process
   std::vector<Known> known_;            // of each
-  std::vector<bool> failed_before_;     // this process began; tried again
+  std::vector<bool> failed_before_;     // failed before this process started; retried
   std::vector<Group> groups_;
-  std::set<std::string> said_;  // messages of failures
+  std::set<std::string> said_;  // reported failures
   std::size_t rendered_ = 0;
   bool interrupted_ = false;
 };
-
-void Runner::Run(SweepOutcome& outcome) {
-  if (!claims_.locking() && options_.part.count == 1) {
-    throw InputError(
-        fmt::format("the file system of '{}' has no locks, which processes need to share "
-                    "cells; give each process its own --part I/N",
-                    claims_.path()));
-  }
-  FindPart();
-  FirstOfAll();
-  Help();
-  if (options_.wait) WaitForOthers();
-  outcome.rendered = rendered_;
-  outcome.elsewhere = Count(Known::kElsewhere);
-  outcome.without_target = Count(Known::kNoTarget);
-  outcome.interrupted = interrupted_;
-}
-
-void Runner::FindPart() {
-  std::map<std::string, std::size_t> group_of;
-  for (const SweepCell& cell : sweep_.cells) {
-    const CellState state = folder_.Look(cell).state;
-    const auto [index, count] = options_.part;
-    if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
-    const auto [entry, is_new] =
-        group_of.try_emplace(renderer_.SceneKey(cell), groups_.size());
-    if (is_new) groups_.emplace_back();
-    groups_[entry->second].push_back(part_.size());
-    part_.push_back(&cell);
-    known_.push_back(state == CellState::kDone        ? Known::kDone
-                     : !CellRenderer::HasTarget(cell) ? Known::kNoTarget
-                                                      : Known::kMissing);
-    failed_before_.push_back(state == CellState::kFailed);
-  }
-}
-
-// Scenes that nobody has begun: as long as there are some, no scene is compiled by two
-// processes.
-void Runner::FirstOfAll() {
-  for (const Group& group : groups_) {
-    if (std::all_of(group.begin(), group.end(),
-                    [&](std::size_t i) { return known_[i] != Known::kMissing; })) {
-      continue;
-    }
-    const auto claim = claims_.Take("scene of " + part_[group.front()]->name);
-    if (!claim) continue;
-    for (const std::size_t i : group) {
-      if (Stopped() || interrupted_) return;
-      TryCell(i);
-    }
-  }
-}
-
-// Cells of scenes that others have begun: from their ends, each helper from a place of
-// its own, so that two of them seldom want the same cell.
-void Runner::Help() {
-  std::vector<std::size_t> rest;
-  for (const Group& group : groups_) {
-    std::vector<std::size_t> missing;
-    for (const std::size_t i : group) {
-      if (known_[i] == Known::kMissing) missing.push_back(i);
-    }
-    std::reverse(missing.begin(), missing.end());
-    if (!missing.empty()) {
-      const auto place = static_cast<std::size_t>(getpid()) * 7 % missing.size();
-      std::rotate(missing.begin(), missing.begin() + static_cast<long>(place),
-                  missing.end());
-    }
-    rest.insert(rest.end(), missing.begin(), missing.end());
-  }
-  for (const std::size_t i : rest) {
-    if (Stopped() || interrupted_) break;
-    TryCell(i);
-  }
-  interrupted_ |= Stopped();
-}
-
-void Runner::WaitForOthers() {
-  constexpr auto kPause = std::chrono::milliseconds(200);
-  while (!interrupted_ && Count(Known::kElsewhere) > 0) {
-    for (std::size_t i = 0; i < part_.size() && !Stopped(); ++i) {
-      if (known_[i] == Known::kElsewhere) TryCell(i);
-    }
-    interrupted_ |= Stopped();
-    std::this_thread::sleep_for(kPause);
-  }
-}
-
-void Runner::TryCell(std::size_t i) {
-  if (known_[i] != Known::kMissing && known_[i] != Known::kElsewhere) return;
-  const auto claim = claims_.Take(part_[i]->name);
-  if (!claim) {
-    known_[i] = Known::kElsewhere;
-    return;
-  }
-  if (StillMissing(i)) RenderCell(i);
-}
-
-// Another process may have rendered the cell since this one looked.
-bool Runner::StillMissing(std::size_t i) {
-  const CellState state = folder_.Look(*part_[i]).state;
-  if (state == CellState::kDone) known_[i] = Known::kDone;
-  if (state == CellState::kFailed && !failed_before_[i]) known_[i] = Known::kFailed;
-  return known_[i] == Known::kMissing || known_[i] == Known::kElsewhere;
-}
-
-void Runner::RenderCell(std::size_t i) {
-  const SweepCell& cell = *part_[i];
-  // Not a failure of the cell: nothing of what follows could be kept.
-  folder_.CheckWritable();
-  folder_.MakeCell(cell);
-  Report(cell, {});
-  RenderHooks hooks;
-  hooks.on_progress = [&](const Progress& p) { Report(cell, p); };
-  hooks.stop = hooks_.stop;
-  try {
-    const Rendering rendering =
-        renderer_.Render(cell, folder_.path() + "/cells/" + cell.name, hooks);
-    if (rendering.report.result.stopped_early) {
-      folder_.RemoveImages(cell);
-      known_[i] = Known::kMissing;
-      interrupted_ = true;
-      return;
-    }
-    if (!rendering.problems.empty()) {
-      folder_.CheckWritable();
-      std::string text;
-      for (const std::string& problem : rendering.problems) text += problem + "; ";
-      return Fail(i, text.substr(0, text.size() - 2));
-    }
-    folder_.Finish(cell, CellReport(rendering));
-    known_[i] = Known::kDone;
-    ++rendered_;
-  } catch (const WouldOverwrite&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    Fail(i, "error: " + OutOfMemoryText());
-  } catch (const std::exception& error) {
-    folder_.CheckWritable();
-    Fail(i, error.what());
-  }
-}
-
-void Runner::Fail(std::size_t i, const std::string& message) {
-  const SweepCell& cell = *part_[i];
-  known_[i] = Known::kFailed;
-  folder_.Fail(cell, message);
-  // All cells of a broken scene say the same.
-  if (!said_.insert(message).second || !hooks_.on_problem) return;
-  hooks_.on_problem(cell.name + ": " + message);
-}
-
-void Runner::Report(const SweepCell& cell, const Progress& progress) {
-  if (!hooks_.on_progress) return;
-  hooks_.on_progress(
-      {Count(Known::kDone) + Count(Known::kFailed), part_.size(), &cell, progress});
-}
 
 }  // namespace
 
@@ -230,8 +219,7 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   folder.Make();
   SweepOutcome outcome;
   if (!options.table_only) Runner(sweep, options, hooks, folder).Run(outcome);
-  // One after the other: the last process to get here sees all that is done, and what it
-  // writes stays.
+  // Processes write results one after the other, so that the last one includes all cells.
   const LockFile claims(folder.File("claims"));
   const auto claim = claims.Wait("the table", [](double) { return true; });
   WriteResults(sweep, folder, outcome);

@@ -1,4 +1,4 @@
-// Fills the directory of a sweep, together with any number of other processes.
+// Renders the cells of a sweep, together with any number of other processes.
 #pragma once
 
 #include <atomic>
@@ -14,11 +14,10 @@ namespace lanelight {
 
 struct SweepOptions {
   std::string out;
-  /// This process renders the cells whose index leaves part.index - 1 when divided by
-  /// part.count.
+  /// This process renders cells with index % part.count == part.index - 1.
   Part part = {};
-  bool wait = false;  // for cells that other processes render, and do them if those die
-  bool table_only = false;  // render nothing
+  bool wait = false;  // waits for other processes, and renders their cells if they die
+  bool table_only = false;  // renders nothing
 };
 
 struct SweepProgress {
@@ -30,7 +29,7 @@ struct SweepProgress {
 struct SweepHooks {
   std::function<void(const SweepProgress&)> on_progress;
   std::function<void(const std::string&)> on_problem;  // a line of text
-  const std::atomic<bool>* stop = nullptr;             // ends after giving up the cell
+  const std::atomic<bool>* stop = nullptr;             // aborts the current cell
 };
 
 struct CellFailure {
@@ -40,19 +39,42 @@ struct CellFailure {
 struct SweepOutcome {
   std::size_t rendered = 0;              // by this process
   std::size_t done = 0, total = 0;       // of the whole sweep, at the end
-  std::size_t elsewhere = 0;             // of this part: other processes have them
-  std::size_t without_target = 0;        // of this part: this machine lacks their target
+  std::size_t elsewhere = 0;             // of this part, claimed by other processes
+  std::size_t without_target = 0;        // of this part, whose target this machine lacks
   std::vector<CellFailure> failures;     // of the whole sweep, by index
-  std::vector<std::string> other_cells;  // in the directory, and not of this sweep
-  std::uint64_t invalid_samples = 0;     // of all cells that are done
-  std::size_t differing = 0;             // the same: not what their files ask for
+  std::vector<std::string> other_cells;  // directories of other sweeps' cells
+  std::uint64_t invalid_samples = 0;     // of all finished cells
+  std::size_t differing = 0;  // finished cells that differ from their scene files
   bool interrupted = false;
 };
 
-/// Renders what is missing, and then writes sweep.csv and report.html of what there is.
-/// Throws InputError if the directory cannot be written, or holds cells rendered
-/// otherwise (see SweepFolder::Look); failures of single cells are in the outcome.
+/// Renders missing cells, and then writes sweep.csv and report.html of all finished
+/// cells. Throws InputError if the directory is not writable, or has cells of other
+/// settings (see SweepFolder::Look()); failures of single cells are in the outcome.
 SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
                       const SweepHooks& hooks);
+
+struct CellPrediction {
+  bool done = false;      // exists already; the other members are not set
+  bool measured = false;  // by a probe of the same scene and strategy
+  double seconds = 0;     // wall clock on this machine; NaN if unknown
+  double bytes = 0;       // of its files; NaN if unknown
+  std::string message;    // why it will fail; may be empty
+};
+
+struct SweepPrediction {
+  std::vector<CellPrediction> cells;         // of all cells, in order
+  std::size_t probes = 0, combinations = 0;  // of scene and strategy
+};
+
+/// Renders at most `max_probes` probes of different scenes and strategies. For
+/// combinations without a probe, the relative cost of a strategy is that on other scenes.
+/// The first cell of a scene includes the time of loading and building. Ends early once
+/// `stop` is set.
+SweepPrediction Predict(const Sweep& sweep, const std::string& out, int max_probes,
+                        const std::atomic<bool>& stop);
+
+/// Returns a table of the cells, and sums.
+std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/sweep/strategy_pattern.h"
+#include "src/measure/sweep/sweep_file.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,10 @@
 namespace lanelight {
 namespace {
 
+constexpr std::size_t kMaxPatternStrategies = 10000;
+
 struct OpenPart {
-  std::string before;  // fixed text since the last one
+  std::string before;  // fixed text since the previous open part
   std::string name;
   std::vector<std::string> values;
 };
@@ -36,11 +38,11 @@ class PatternReader {
   PatternReader(const std::string& text, const SourceLocation& where)
       : text_(text), where_(where) {}
 
-  // What is behind the last open part is left in `rest`.
+  // Returns the open parts; `rest` is the text after the last one.
   std::vector<OpenPart> Read(std::string& rest) {
     for (std::size_t at = 0; at < text_.size(); ++at) {
       if (text_[at] == ',') item_ = at + 1;
-      if (text_[at] == '}') Fail("this '}' closes nothing");
+      if (text_[at] == '}') Fail("'}' without '{'");
       if (text_[at] == '{') at = List(at);
       if (text_[at] == '*') Star(at);
     }
@@ -50,13 +52,13 @@ class PatternReader {
 
  private:
   [[noreturn]] void Fail(const std::string& message) const {
-    throw InputError(where_, fmt::format("strategy {}: {}", Quoted(text_), message));
+    throw InputError(where_, "strategy {}: {}", Quoted(text_), message);
   }
 
-  // Returns where the list ends.
+  // Reads a list in braces and returns its end.
   std::size_t List(std::size_t at) {
     const std::size_t close = text_.find('}', at);
-    if (close == std::string::npos) Fail("'{' begins a list that no '}' ends");
+    if (close == std::string::npos) Fail("'{' without '}'");
     std::vector<std::string> values;
     for (std::size_t from = at + 1; from <= close;) {
       const std::size_t end = std::min(text_.find(',', from), close);
@@ -110,10 +112,9 @@ std::vector<PatternStrategy> ExpandStrategy(const std::string& text,
         longer.back().text += part.before + value;
         longer.back().place.parameters[part.name] = value;
       }
-      if (longer.size() <= kMostPatternStrategies) continue;
-      throw InputError(where,
-                       fmt::format("strategy {} stands for more than {} strategies",
-                                   Quoted(text), kMostPatternStrategies));
+      if (longer.size() <= kMaxPatternStrategies) continue;
+      throw InputError(where, "strategy {} stands for more than {} strategies",
+                       Quoted(text), kMaxPatternStrategies);
     }
     all = std::move(longer);
   }

@@ -6,7 +6,6 @@
 #include "src/base/core/input_file.h"
 #include "src/base/core/source_location.h"
 #include "src/base/core/suggest.h"
-#include "src/measure/sweep/sweep_settings.h"
 #include "src/measure/sweep/toml_values.h"
 #include "src/vocabulary/strategy/strategy_text.h"
 
@@ -15,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two names of one strategy would be rendered twice. What "scene" is depends on the
-// scene.
+// Returns whether two values are equal. Different names of one strategy are equal;
+// "scene" depends on the scene.
 bool Same(Axis axis, const std::string& a, const std::string& b) {
   if (a == b) return true;
   if (axis != Axis::kStrategy || a == kSceneStrategyName || b == kSceneStrategyName) {
@@ -25,8 +24,8 @@ bool Same(Axis axis, const std::string& a, const std::string& b) {
   return StrategyNamed(a, {}, {}) == StrategyNamed(b, {}, {});
 }
 
-// What the file says there before a pattern is taken as the pattern's too; anything else
-// that is said twice is a mistake.
+// Adds the place of a strategy of a pattern to an equal strategy listed before the
+// pattern. Returns false for other duplicates, which are errors.
 bool IsJoined(const GridValue& added, GridValue& known) {
   const auto begin = [](const SourceLocation& w) { return std::pair(w.line, w.column); };
   if (added.places.empty() || added.places[0].parameters.empty()) return false;
@@ -41,10 +40,9 @@ void AddValue(const std::string& name, GridValue value, std::vector<GridValue>& 
   for (GridValue& other : values) {
     if (!Same(axis, other.text, value.text)) continue;
     if (IsJoined(value, other)) return;
-    throw InputError(
-        value.where,
-        fmt::format("{} {} is there twice: it is the same as {}, line {}", Name(axis),
-                    Quoted(value.text), Quoted(other.text), other.where.line));
+    throw InputError(value.where, "{} {} is a duplicate: it equals {} in line {}",
+                     Name(axis), Quoted(value.text), Quoted(other.text),
+                     other.where.line);
   }
   values.push_back(std::move(value));
 }
@@ -69,9 +67,9 @@ std::vector<GridValue> ReadValues(const TomlFile& file, const std::string& name,
   }
   if (array->empty()) {
     throw InputError(file.Where(node),
-                     fmt::format("{} has no values; leave the line out if the scene is "
-                                 "to decide",
-                                 name));
+                     "{} has no values; remove the line to use the value of "
+                     "the scene",
+                     name);
   }
   for (const toml::node& item : *array) AddValues(file, name, item, values);
   return values;
@@ -84,29 +82,29 @@ SubGrid ReadSubGrid(const TomlFile& file, const toml::table& table) {
     if (!axis) ThrowUnknown(file.Where(key.source()), "axis", key.str(), AxisNames());
     if (grid.axes.count(*axis) > 0) {
       throw InputError(file.Where(key.source()),
-                       fmt::format("{} and {} are one thing: leave one of them out",
-                                   key.str(), Name(*axis)));
+                       "{} and {} set the same axis; remove one of them", key.str(),
+                       Name(*axis));
     }
     grid.axes[*axis] = ReadValues(file, std::string(key.str()), node);
   }
   return grid;
 }
 
-// A grid whose cells can be rendered: it has scenes, and one thing says how much.
+// Throws InputError unless the grid has scenes and either samples or a time.
 void CheckRenderable(const SubGrid& grid, const fs::path& folder) {
   const auto scenes = grid.axes.find(Axis::kScene);
   if (scenes == grid.axes.end()) {
     throw InputError(grid.where,
-                     "no scene is given; add a line such as scene = \"box.pbrt\"");
+                     "the grid has no scene; add a line such as scene = \"box.pbrt\"");
   }
   for (const GridValue& scene : scenes->second) {
     const fs::path path = folder / scene.text;
     std::error_code error;
     if (fs::is_regular_file(path, error)) continue;
     throw InputError(scene.where,
-                     fmt::format("there is no scene file '{}' (names are relative to "
-                                 "the sweep file)",
-                                 path.string()));
+                     "scene file '{}' does not exist (names are relative to "
+                     "the sweep file)",
+                     path.string());
   }
   const bool target =
       grid.axes.count(Axis::kTargetRelmse) > 0 || grid.axes.count(Axis::kTargetRmse) > 0;
@@ -126,47 +124,36 @@ std::vector<SubGrid> ReadTables(const TomlFile& file, const std::string& key,
   return grids;
 }
 
-// Of the strategies of all grids, each place once.
-std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
-    const std::vector<SubGrid>& grids) {
-  std::map<std::string, std::vector<StrategyPlace>> places;
-  for (const SubGrid& grid : grids) {
-    const auto strategies = grid.axes.find(Axis::kStrategy);
-    if (strategies == grid.axes.end()) continue;
-    for (const GridValue& strategy : strategies->second) {
-      std::vector<StrategyPlace>& known = places[strategy.text];
-      for (const StrategyPlace& place : strategy.places) {
-        if (std::find(known.begin(), known.end(), place) == known.end()) {
-          known.push_back(place);
-        }
-      }
-    }
+// Returns the setting with this key in [settings].
+const Setting& SettingOf(const std::string& key, const SourceLocation& where) {
+  if (SweepAxisOf(key)) {
+    throw InputError(where,
+                     "{} is an axis: put it into [grid], with one "
+                     "value if it is the same for all cells",
+                     key);
   }
-  return places;
+  std::vector<std::string> known;
+  for (const Setting& setting : SettingList()) {
+    if (!setting.Is(kSweepKey)) continue;
+    if (key == setting.name) return setting;
+    known.push_back(setting.name);
+  }
+  ThrowUnknown(where, "setting", key, known);
 }
 
-std::size_t CountAll(const std::vector<SubGrid>& grids) {
-  return ExpandGrid(grids, {}).size();
+SweepSettings ReadSweepSettings(const TomlFile& file, const toml::table& table) {
+  SweepSettings settings;
+  for (const auto& [toml_key, node] : table) {
+    const std::string key(toml_key.str());
+    const Setting& setting = SettingOf(key, file.Where(toml_key.source()));
+    const std::string text = file.Value(key, setting.form, node);
+    ReadAt(file.Where(node), key, [&] { setting.read(settings.render, text); });
+    settings.texts[key] = *setting.text(settings.render);
+  }
+  return settings;
 }
 
 }  // namespace
-
-std::string Sweep::ScenePath(const SweepCell& cell) const {
-  return (fs::path(path).parent_path() / *Get(cell.values, Axis::kScene)).string();
-}
-
-std::vector<Axis> Sweep::UsedAxes() const {
-  std::vector<Axis> used;
-  for (int i = 0; i < kNumAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
-    if (std::any_of(cells.begin(), cells.end(), [&](const SweepCell& c) {
-          return Get(c.values, axis).has_value();
-        })) {
-      used.push_back(axis);
-    }
-  }
-  return used;
-}
 
 Sweep ParseSweep(const std::string& path, const std::string& text) {
   const TomlFile file(path, text);
@@ -184,7 +171,7 @@ Sweep ParseSweep(const std::string& path, const std::string& text) {
       sweep.settings = ReadSweepSettings(file, file.Table(key, node));
     } else if (SweepAxisOf(key)) {
       throw InputError(file.Where(toml_key.source()),
-                       fmt::format("{} is an axis: it belongs below [grid]", key));
+                       "{} is an axis: it belongs below [grid]", key);
     } else {
       ThrowUnknown(file.Where(toml_key.source()), "table", key,
                    {"grid", "include", "exclude", "settings"});
@@ -192,14 +179,14 @@ Sweep ParseSweep(const std::string& path, const std::string& text) {
   }
   if (!file.root().contains("grid")) {
     throw InputError({std::make_shared<const std::string>(path), 1, 1},
-                     "there is no [grid], the table of axes and their values");
+                     "the file has no [grid], the table of axes and their values");
   }
   for (const SubGrid& grid : grids) {
     CheckRenderable(grid, fs::path(path).parent_path());
   }
   sweep.places = PlacesOf(grids);
   sweep.cells = ExpandGrid(grids, exclude);
-  sweep.excluded = CountAll(grids) - sweep.cells.size();
+  sweep.excluded = ExpandGrid(grids, {}).size() - sweep.cells.size();
   return sweep;
 }
 

@@ -1,9 +1,9 @@
-#include "src/base/core/input_file.h"
 #include "src/measure/sweep/sweep_folder.h"
 
 #include <filesystem>
 #include <set>
 
+#include "src/base/core/input_file.h"
 #include "src/base/core/json_text.h"
 #include "src/base/core/suggest.h"
 #include "src/base/image/atomic_file.h"
@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// The name of no file, in a sweep's directory: what is tested is whether one can be made.
+// A temporary file that tests whether the directory is writable.
 constexpr char kProbe[] = "/cells/.probe";
 
 void MakeDirectory(const std::string& path) {
@@ -24,21 +24,12 @@ void MakeDirectory(const std::string& path) {
   if (error) throw InputError("cannot make '" + path + "': " + error.message());
 }
 
-Json ValuesJson(const SweepCell& cell) {
-  Json json = Json::object();
-  for (int i = 0; i < kNumAxes; ++i) {
-    const auto axis = static_cast<Axis>(i);
-    if (const auto& value = Get(cell.values, axis)) json[Key(axis)] = *value;
-  }
-  return json;
-}
-
 std::string TextOr(const Json& json, const std::string& key) {
   const auto found = json.find(key);
   return found == json.end() ? "not set" : Quoted(found->get<std::string>());
 }
 
-// "crop is "0,0,8,8" there and not set here; ..."
+// Returns e.g. "crop is "0,0,8,8" there and not set here; ...".
 std::string Differences(const Json& there, const Json& here) {
   std::set<std::string> keys;
   for (const Json& side : {there, here}) {
@@ -58,7 +49,7 @@ std::string Differences(const Json& there, const Json& here) {
 
 const char* Name(CellState state) {
   constexpr const char* kNames[] = {"missing", "failed", "done"};
-  return kNames[static_cast<int>(state)];
+  return kNames[int(state)];
 }
 
 SweepFolder::SweepFolder(std::string path, const Sweep& sweep)
@@ -95,9 +86,9 @@ CellRecord SweepFolder::Look(const SweepCell& cell) {
       CheckReport(cell, record.report);
     } catch (const Json::exception& problem) {
       throw InputError(
-          fmt::format("'{}' is not a report of a sweep ({}); remove it, and "
-                      "the cell is rendered again",
-                      path, JsonProblem(problem)));
+          "'{}' is not a report of a sweep ({}); remove it to "
+          "render the cell again",
+          path, JsonProblem(problem));
     }
     record.state = CellState::kDone;
   } else if (fs::exists(File(cell, "error.json"), error)) {
@@ -105,7 +96,7 @@ CellRecord SweepFolder::Look(const SweepCell& cell) {
     try {
       record.message = ParseJson(ReadWholeFile(File(cell, "error.json"))).at("message");
     } catch (const Json::exception&) {
-      record.message = "";  // it has failed, and is rendered again
+      record.message = "";  // unreadable; the cell is rendered again
     }
   }
   return record;
@@ -115,15 +106,15 @@ void SweepFolder::CheckReport(const SweepCell& cell, const Json& report) {
   const Json& of = report.at("sweep");
   Json there = of.at("settings"), here = sweep_.settings.texts;
   there.update(of.at("values"));
-  here.update(ValuesJson(cell));
+  here.update(Json(ByKey(cell.values)));
   there["hash of the scene's files"] = report.at("scene_hash");
   here["hash of the scene's files"] = SceneHash(cell);
   const std::string differences = Differences(there, here);
   if (differences.empty()) return;
   throw InputError(
-      fmt::format("'{}' was rendered otherwise: {}; take another --out, or remove that "
-                  "directory, and the cell is rendered again",
-                  path_ + "/cells/" + cell.name, differences));
+      "'{}' was rendered with other settings: {}; use another --out, or remove "
+      "that directory to render the cell again",
+      path_ + "/cells/" + cell.name, differences);
 }
 
 const std::string& SweepFolder::SceneHash(const SweepCell& cell) {
@@ -135,7 +126,7 @@ const std::string& SweepFolder::SceneHash(const SweepCell& cell) {
 
 void SweepFolder::MakeCell(const SweepCell& cell) const {
   const std::string path = path_ + "/cells/" + cell.name;
-  // Not its parents: a sweep's directory that somebody has removed stays removed.
+  // Does not make parents: a removed directory of a sweep stays removed.
   std::error_code error;
   fs::create_directory(path, error);
   if (error) throw InputError("cannot make '" + path + "': " + error.message());
@@ -146,7 +137,7 @@ void SweepFolder::MakeCell(const SweepCell& cell) const {
 
 void SweepFolder::Finish(const SweepCell& cell, Json report) const {
   report["sweep"]["name"] = cell.name;
-  report["sweep"]["values"] = ValuesJson(cell);
+  report["sweep"]["values"] = ByKey(cell.values);
   report["sweep"]["settings"] = sweep_.settings.texts;
   WriteFileAtomically(File(cell, "report.json"), DumpJson(report, 1) + "\n");
   std::error_code ignored;
@@ -176,7 +167,7 @@ std::vector<std::string> SweepFolder::OtherCells() const {
     const std::string name = entry.path().filename().string();
     if (entry.is_directory() && known.count(name) == 0) others.push_back(name);
   }
-  std::sort(others.begin(), others.end());
+  std::ranges::sort(others);
   return others;
 }
 

@@ -15,7 +15,7 @@ enum class CellState { kMissing, kFailed, kDone };
 /// "missing", "failed", "done".
 const char* Name(CellState state);
 
-/// What there is of a cell.
+/// The files of a cell.
 struct CellRecord {
   CellState state = CellState::kMissing;
   nlohmann::json report;  // of kDone
@@ -27,31 +27,31 @@ class SweepFolder {
   /// `sweep` must outlive the object.
   SweepFolder(std::string path, const Sweep& sweep);
 
-  /// Makes the directory and puts a copy of the sweep file into it. Throws InputError,
-  /// also for a scene that would be written over.
+  /// Makes the directory with a copy of the sweep file. Throws InputError, also for a
+  /// scene that would be overwritten.
   void Make() const;
-  /// What a sweep writes, besides the copy.
+  /// Returns the paths that a sweep writes, other than the copy.
   OutputPaths Outputs() const;
-  /// Throws InputError if nothing can be written into the directory (any longer).
+  /// Throws InputError if the directory is not writable.
   void CheckWritable() const;
 
-  /// A finished cell of other settings, or of a scene that has changed since, is an
-  /// InputError that says what differs; so is a file that this program did not write.
+  /// Reads a cell. Throws InputError that states the difference for a finished cell of
+  /// other settings or of a changed scene, and for other files.
   CellRecord Look(const SweepCell& cell);
 
-  /// Makes the directory of a cell that this process has claimed, and removes what a
-  /// killed process may have left half written there.
+  /// Makes the directory of a claimed cell, and removes temporary files of killed
+  /// processes.
   void MakeCell(const SweepCell& cell) const;
-  /// Writes report.json, which makes the cell a finished one; `report` is the render's.
+  /// Writes report.json, which marks the cell as finished; `report`: of the render.
   void Finish(const SweepCell& cell, nlohmann::json report) const;
   void Fail(const SweepCell& cell, const std::string& message) const;
-  /// Of a render that was ended early.
+  /// Removes images of a render that was ended early.
   void RemoveImages(const SweepCell& cell) const;
 
   std::string File(const SweepCell& cell, const std::string& name) const;
   std::string File(const std::string& name) const { return path_ + "/" + name; }
   const std::string& path() const { return path_; }
-  /// Names of directories of cells that the sweep has not.
+  /// Returns names of directories that are not cells of the sweep.
   std::vector<std::string> OtherCells() const;
 
  private:

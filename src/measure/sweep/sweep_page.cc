@@ -1,5 +1,4 @@
-#include "src/measure/sweep/sweep_page.h"
-
+// sweep.json, and what the page of a sweep and `lanelight plot` show.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "src/base/image/exr.h"
+#include "src/measure/compare/linear_image.h"
+#include "src/measure/report/page.h"
 #include "src/measure/sweep/results.h"
 #include "src/measure/sweep/sweep_folder.h"
 #include "src/render/job/machine_json.h"
@@ -20,14 +22,14 @@ namespace {
 using Json = nlohmann::json;
 
 bool AreNumbers(const std::vector<std::string>& values) {
-  return std::all_of(values.begin(), values.end(), [](const std::string& text) {
+  return std::ranges::all_of(values, [](const std::string& text) {
     char* end = nullptr;
     const double x = std::strtod(text.c_str(), &end);
     return !text.empty() && *end == '\0' && std::isfinite(x);
   });
 }
 
-// Values in the order of the grid.
+// Lists values in the order of the grid.
 Json AxisJson(const std::vector<CellGroup>& groups, const std::string& name) {
   std::vector<std::string> values;
   std::set<std::string> seen;
@@ -44,7 +46,7 @@ Json AxisJson(const std::vector<CellGroup>& groups, const std::string& name) {
           {"values", values},   {"unset", unset}};
 }
 
-// Those of the grid but the seed, each open part of strategies before the amounts.
+// Lists axes of the grid but the seed, with open parts of strategies before amounts.
 Json AxesJson(const Sweep& sweep, const std::vector<CellGroup>& groups) {
   std::vector<std::string> names;
   for (const Axis axis : sweep.UsedAxes()) {
@@ -53,7 +55,7 @@ Json AxesJson(const Sweep& sweep, const std::vector<CellGroup>& groups) {
     for (const CellGroup& group : groups) {
       for (const auto& [name, unused] : group.values) {
         if (AxisOfKey(name)) continue;
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
+        if (std::ranges::find(names, name) == names.end()) {
           names.push_back(name);
         }
       }
@@ -62,22 +64,6 @@ Json AxesJson(const Sweep& sweep, const std::vector<CellGroup>& groups) {
   Json axes = Json::array();
   for (const std::string& name : names) axes.push_back(AxisJson(groups, name));
   return axes;
-}
-
-// What the file says of each scene to its name.
-std::map<std::string, std::string> NamesOfScenes(const Sweep& sweep) {
-  std::vector<std::string> texts, paths;
-  std::set<std::string> seen;
-  for (const SweepCell& cell : sweep.cells) {
-    const std::string& text = *Get(cell.values, Axis::kScene);
-    if (!seen.insert(text).second) continue;
-    texts.push_back(text);
-    paths.push_back(sweep.ScenePath(cell));
-  }
-  const std::vector<std::string> names = SceneNames(paths);
-  std::map<std::string, std::string> result;
-  for (std::size_t i = 0; i < texts.size(); ++i) result[texts[i]] = names[i];
-  return result;
 }
 
 Json MachinesJson(const std::vector<Json>& cells) {
@@ -89,7 +75,8 @@ Json MachinesJson(const std::vector<Json>& cells) {
   return ToJson(machines);
 }
 
-// Ten thousand cells fit into a page: stages are numbers of four digits without names.
+// Rounds stages to four digits and omits their names, so that a page can have 10 000
+// cells.
 Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
   Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
                {"message", cell.at("message")}, {"values", cell.at("values")},
@@ -109,10 +96,32 @@ Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
   return json;
 }
 
+constexpr std::size_t kMaxThumbnails = 1000;
+constexpr std::size_t kValuesOfOne = 3 * 160 * 90, kValuesOfAll = 3'000'000;
+
+ReportImage ThumbnailOf(const std::string& name, const std::string& path) {
+  const LinearImage image = LinearOf(ReadExr(path));
+  std::vector<ReportImage> one = {
+      {name, image.width, image.height, 3, image.Interleaved()}};
+  ShrinkImages(one, kValuesOfOne);
+  return std::move(one[0]);
+}
+
 }  // namespace
 
-std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& cells) {
-  return GroupCells(sweep, cells, NamesOfScenes(sweep));
+std::map<std::string, std::string> NamesOfScenes(const Sweep& sweep) {
+  std::vector<std::string> texts, paths;
+  std::set<std::string> seen;
+  for (const SweepCell& cell : sweep.cells) {
+    const std::string& text = *Get(cell.values, Axis::kScene);
+    if (!seen.insert(text).second) continue;
+    texts.push_back(text);
+    paths.push_back(sweep.ScenePath(cell));
+  }
+  const std::vector<std::string> names = SceneNames(paths);
+  std::map<std::string, std::string> result;
+  for (std::size_t i = 0; i < texts.size(); ++i) result[texts[i]] = names[i];
+  return result;
 }
 
 Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
@@ -141,6 +150,23 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
           {"groups", GroupsJson(groups, cells, baseline)},
           {"leaders", LeadersJson(groups, cells, baseline)},
           {"cells", page_cells}};
+}
+
+std::vector<ReportImage> Thumbnails(const Sweep& sweep, const SweepFolder& folder,
+                                    const std::vector<CellGroup>& groups) {
+  std::vector<ReportImage> images;
+  std::set<std::size_t> shown;
+  for (const CellGroup& group : groups) {
+    if (images.size() == kMaxThumbnails) break;
+    if (group.cells.empty() || !shown.insert(group.cells[0]).second) continue;
+    const SweepCell& cell = sweep.cells[group.cells[0]];
+    try {
+      images.push_back(ThumbnailOf(cell.name, folder.File(cell, "image.exr")));
+    } catch (const InputError&) {  // the page says that it is missing
+    }
+  }
+  ShrinkImages(images, kValuesOfAll);
+  return images;
 }
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-// Values of a TOML file, each with the place where it stands.
+// Reads values of a TOML file with their locations.
 #pragma once
 
 #include <memory>
@@ -12,30 +12,33 @@
 
 namespace lanelight {
 
-/// A file while it is read.
+/// A TOML file.
 class TomlFile {
  public:
-  /// Throws InputError where the text is not TOML.
+  /// Parses the text. Throws InputError if it is not TOML.
   TomlFile(const std::string& path, const std::string& text);
 
   const toml::table& root() const { return root_; }
   SourceLocation Where(const toml::source_region& region) const;
   SourceLocation Where(const toml::node& node) const { return Where(node.source()); }
 
-  /// Throws InputError, naming `key`, unless the value is what the name says.
+  /// Returns the table. Throws InputError that names `key` for another type.
   const toml::table& Table(const std::string& key, const toml::node& node) const;
-  /// Of [[key]]: at least one table.
+  /// Returns the tables of [[key]], at least one.
   std::vector<const toml::table*> Tables(const std::string& key,
                                          const toml::node& node) const;
-  /// The value as the text of a setting (src/render/job/setting.h).
+  /// Returns the value as the text of a setting (src/render/job/setting.h).
   std::string Value(const std::string& key, ValueForm form, const toml::node& node) const;
 
  private:
-  std::string Text(const std::string& key, const toml::node& node) const;
-  bool Flag(const std::string& key, const toml::node& node) const;
+  /// Returns the value; throws InputError that asks for `right` for another type.
+  template <class T>
+  const T& As(const std::string& key, const toml::node& node, const char* right) const {
+    if (const auto* value = node.as<T>()) return value->get();
+    Refuse(key, node, right);
+  }
   std::string Window(const std::string& key, const toml::node& node) const;
-  std::int64_t Integer(const std::string& key, const toml::node& node) const;
-  /// An integer will do. Finite.
+  /// Returns a finite number; the file may have an integer.
   double Number(const std::string& key, const toml::node& node) const;
   [[noreturn]] void Refuse(const std::string& key, const toml::node& node,
                            const std::string& right) const;

@@ -38,7 +38,7 @@ def main():
     rows = ",\n".join(f'{{"{name}", {spp}, "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
                       for name, spp, stresses in SCENES)
     out.write_text("// Written by src/measure/throughput/embed_scenes.py.\n"
-                   '#include "src/measure/throughput/bench_scenes.h"\n\nnamespace lanelight {\n\n'
+                   '#include "src/measure/throughput/throughput.h"\n\nnamespace lanelight {\n\n'
                    "const std::vector<BenchScene>& BenchScenes() {\n"
                    f"static const std::vector<BenchScene> scenes = {{\n{rows}}};\n"
                    "return scenes;\n}\n\n}  // namespace lanelight\n")

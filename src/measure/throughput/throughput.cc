@@ -2,21 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 #include "kernels/simd/target.h"
 #include "src/base/core/check.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
-#include "src/measure/throughput/bench_scenes.h"
 #include "src/render/job/job.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 namespace {
 
-// Rounding, and paths that went another way for it, between targets.
+// Returns null for a scene file.
+const BenchScene* FindBenchScene(const std::string& scene) {
+  const auto& known = BenchScenes();
+  const auto found =
+      std::ranges::find_if(known, [&](const BenchScene& s) { return scene == s.name; });
+  return found == known.end() ? nullptr : &*found;
+}
+
+// Relative difference of means between SIMD targets, which round differently.
 constexpr double kSameImage = 5e-3;
 
 double MeanOf(const FilmAccumulator& film) {
@@ -30,7 +36,7 @@ double MeanOf(const FilmAccumulator& film) {
   return sum / (3.0 * film.width() * film.height());
 }
 
-// Renders it once, and returns the mean of the image.
+// Renders the job once and returns the mean of its image.
 double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
   job.spp = row.spp;
   job.settings.threads = row.threads;
@@ -54,7 +60,7 @@ class SceneBench {
     }
   }
 
-  /// Warms caches and checks images.
+  // Fills caches and checks images.
   void Begin(const std::atomic<bool>& stop) {
     double first = 0;
     for (std::size_t i = 0; i < rows_.size() && !stop; ++i) {
@@ -76,11 +82,6 @@ class SceneBench {
     }
   }
 
-  double Worst() const {
-    double worst = 0;
-    for (const ThroughputRow& row : rows_) worst = std::max(worst, row.Spread());
-    return worst;
-  }
   std::vector<ThroughputRow>& rows() { return rows_; }
 
  private:
@@ -101,85 +102,21 @@ class SceneBench {
 
   const ThroughputOptions& options_;
   const std::string scene_;
-  std::vector<Job> jobs_;  // by target: each has trees of its own
+  std::vector<Job> jobs_;  // one for each target, with its own BVHs
   std::vector<ThroughputRow> rows_;
 };
 
-struct GroupOfStages {
-  const char *begins, *group;
-};
-// By how names of stages begin; what is not here is "other".
-constexpr GroupOfStages kGroups[] = {
-    {"generate", "generate"},    {"camera_", "generate"},
-    {"points_", "generate"},     {"antithetic_", "generate"},
-    {"intersect_", "closest"},   {"shadow_", "shadow"},
-    {"surface_", "surface"},     {"shade_", "shade"},
-    {"texture", "shade"},        {"mix", "shade"},
-    {"light_", "lights"},        {"emission_", "lights"},
-    {"escape", "lights"},        {"connect", "lights"},
-    {"accumulate", "film"},      {"film", "film"},
-    {"task set-up", "generate"}, {"seen", "lights seen"}};
-constexpr const char* kGroupNames[] = {"generate",    "closest", "shadow",
-                                       "surface",     "shade",   "lights",
-                                       "lights seen", "film",    "other"};
-
-std::string GroupOf(const std::string& stage) {
-  for (const GroupOfStages& g : kGroups) {
-    if (stage.starts_with(g.begins)) return g.group;
-  }
-  return "other";
-}
-
-// Samples over seconds of either kind.
-Interval RateIn(const ThroughputRow& row, const Interval& seconds) {
-  const double samples = double(row.counts.samples);
-  return {samples / seconds.value, samples / seconds.high, samples / seconds.low};
-}
-
 }  // namespace
 
-Interval ThroughputRow::Seconds() const {
-  return stat::MedianInterval(seconds, kBenchConfidence);
+std::uint64_t BenchSpp(const std::string& scene) {
+  const BenchScene* const found = FindBenchScene(scene);
+  return found == nullptr ? kFileSpp : found->spp;
 }
 
-Interval ThroughputRow::Rate() const { return RateIn(*this, Seconds()); }
-
-Interval ThroughputRow::CpuRate() const {
-  return RateIn(*this, stat::MedianInterval(cpu_seconds, kBenchConfidence));
-}
-
-double ThroughputRow::Waiting() const {
-  const double cpu = std::accumulate(cpu_seconds.begin(), cpu_seconds.end(), 0.0);
-  const double all = cpu + waiting_seconds;
-  return all > 0 ? waiting_seconds / all : 0;
-}
-
-double ThroughputRow::Spread() const {
-  if (seconds.size() < kLeastRepeats) return std::numeric_limits<double>::infinity();
-  const Interval s = Seconds();
-  return (s.high - s.low) / (2 * s.value);
-}
-
-std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
-  std::vector<StageGroup> groups;
-  for (const char* name : kGroupNames) groups.push_back({name});
-  const auto group_of = [&](const StageProfile& s) -> StageGroup& {
-    const std::string name = GroupOf(s.name);
-    return *std::find_if(groups.begin(), groups.end(),
-                         [&](const StageGroup& g) { return name == g.name; });
-  };
-  const double ns = 1e9 / double(row.counts.samples);
-  for (const StageProfile& s : row.counts.stages) {
-    StageGroup& group = group_of(s);
-    group.ns_per_sample += ns * s.seconds;
-    group.items += s.items;
-    group.lane_slots += s.lane_slots;
-  }
-  // What tasks do beside stages has no lanes.
-  for (const StageProfile& s : row.counts.parts) {
-    group_of(s).ns_per_sample += ns * s.seconds;
-  }
-  return groups;
+SceneDescription ReadBenchScene(const std::string& scene) {
+  const BenchScene* const found = FindBenchScene(scene);
+  if (found == nullptr) return ParseScene(scene, {});
+  return ParseSceneText(found->text, scene + ".pbrt", ".");
 }
 
 std::vector<ThroughputRow> MeasureThroughput(
@@ -196,10 +133,12 @@ std::vector<ThroughputRow> MeasureThroughput(
     const Stopwatch watch;
     const double most = options.seconds * double(bench.rows().size());
     for (progress.repeats = 0; !stop; ++progress.repeats) {
-      const bool enough = progress.repeats >= kLeastRepeats;
-      if (enough && (bench.Worst() <= options.within || watch.Seconds() >= most)) break;
+      const bool enough = progress.repeats >= kMinRepeats;
+      if (enough &&
+          (WorstSpread(bench.rows()) <= options.within || watch.Seconds() >= most))
+        break;
       bench.Repeat(stop);
-      progress.worst = bench.Worst();
+      progress.worst = WorstSpread(bench.rows());
       on_progress(progress);
     }
     ++progress.done;

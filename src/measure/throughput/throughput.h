@@ -1,31 +1,54 @@
-// How fast scenes render: the same renders again and again, of all rows in turn, so that
-// a machine that changes its clock slows all of them, until medians are known well.
+// Measures rendering throughput. Rows are rendered in turn, so that a change of the clock
+// rate affects all of them, until the intervals of their medians are narrow.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "src/base/core/machine_info.h"
 #include "src/base/stat/interval.h"
 #include "src/render/job/settings.h"
 #include "src/render/run/run.h"
 
 namespace lanelight {
 
-/// Of all intervals.
+struct SceneDescription;  // src/scene/description/description.h
+
+/// A default scene of `lanelight bench`. Their texts are part of the program
+/// (embed_scenes.py), so that all users measure the same scenes.
+struct BenchScene {
+  const char* name;
+  std::uint64_t spp;     // of a render; fixed, so that measurements can be compared
+  const char* stresses;  // the parts of the renderer that take most of the time
+  const char* text;
+};
+
+/// Returns the scenes in the order in which they are measured.
+const std::vector<BenchScene>& BenchScenes();
+
+/// Returns the default samples per pixel of that scene; kFileSpp for scene files.
+std::uint64_t BenchSpp(const std::string& scene);
+inline constexpr std::uint64_t kFileSpp = 16;
+
+/// Reads the scene of that name, or the scene file. Throws InputError.
+SceneDescription ReadBenchScene(const std::string& scene);
+
+/// Confidence of all intervals.
 inline constexpr double kBenchConfidence = 0.95;
-/// Rows that are measured together need this many repeats for an interval of the median.
-inline constexpr int kLeastRepeats = 6;
+/// Repeats that an interval of the median needs.
+inline constexpr int kMinRepeats = 6;
 
 struct ThroughputOptions {
   std::vector<std::string> scenes;   // files, or names of BenchScenes()
-  RenderSettings settings;           // without spp: BenchSpp()
+  RenderSettings settings;           // BenchSpp() if spp is not set
   std::vector<int> threads;          // one row each
-  std::vector<std::string> targets;  // likewise
-  double within = 0.01;  // half the interval over the median, at which it ends
-  double seconds = 10;   // at most, for each row
+  std::vector<std::string> targets;  // one row each
+  double within = 0.01;              // ends when Spread() of all rows is at most this
+  double seconds = 10;               // upper limit for each row
 };
 
 /// One scene, on one SIMD target, with one number of threads.
@@ -34,25 +57,25 @@ struct ThroughputRow {
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
   std::vector<double> seconds;      // of the repeats
-  std::vector<double> cpu_seconds;  // likewise, of all threads together
-  double waiting_seconds = 0;  // of all repeats: while other programs had the processors
-  RunResult counts;            // of the last one: the same in all, but for times
+  std::vector<double> cpu_seconds;  // of the repeats, sums over all threads
+  double waiting_seconds = 0;       // sum over repeats; other programs had the processors
+  RunResult counts;                 // of the last repeat; all but times are equal in all
   std::size_t bytes_per_path = 0;
   std::uint32_t wavefront = 0;  // paths in flight of a thread
 
-  /// Seconds of a render: the median, and its interval.
+  /// Returns the median of the seconds of a render.
   Interval Seconds() const;
-  /// Samples per second by the wall clock, and per second of processor time.
+  /// Returns samples per second by the wall clock, and per second of processor time.
   Interval Rate() const;
   Interval CpuRate() const;
-  /// Fraction of the time of all threads in which they waited for a processor.
+  /// Returns the fraction of all threads' time in which they waited for a processor.
   double Waiting() const;
-  /// Half the interval over the median.
+  /// Returns half the width of the interval divided by the median; infinite if unknown.
   double Spread() const;
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }
 };
 
-/// What stages of one kind take of a sample, all threads together.
+/// Time that stages of one kind take for a sample, summed over threads.
 struct StageGroup {
   const char* name;
   double ns_per_sample = 0;
@@ -60,22 +83,52 @@ struct StageGroup {
 
   double Lanes() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
-/// "generate", "closest", "shadow", "surface", "shade", "lights", "lights seen" (by the
-/// camera), "film", "other".
+/// Returns one group for each kind of stage, in a fixed order.
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
 
 struct BenchProgress {
   std::string scene;
   std::size_t done = 0, scenes = 0;
   int repeats = 0;
-  double worst = 0;  // of Spread()
+  double worst = 0;  // largest Spread()
 };
 
-/// Rows by scene, then target, then threads. Every image is compared with the first one
-/// of its scene before anything is timed: CheckFailure where they differ. `stop` ends it
-/// early; what has been measured is returned.
+/// Returns the largest Spread(); 0 without rows.
+double WorstSpread(const std::vector<ThroughputRow>& rows);
+
+/// Returns the row with one thread, but the same scene and target; null without one.
+const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
+                                  const ThroughputRow& row);
+
+/// Returns rows by scene, then target, then threads. Before timing, compares every image
+/// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
+/// ends it early and returns the rows measured so far.
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
     const std::function<void(const BenchProgress&)>& on_progress);
 
+/// Returns reasons why these rates depend on other programs: the load of the machine
+/// before the start exceeded its cores, or threads waited for a processor for more than
+/// kMaxWaiting of the time. Empty if the machine was quiet.
+std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
+                                     const MachineInfo& machine);
+inline constexpr double kMaxWaiting = 0.1;
+
+/// Returns sentences on the uncertainty of these rows: whether the machine was busy, and
+/// whether medians are less certain than `within`.
+std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
+                                            double within);
+
+/// Markdown without line breaks in rows, or text of at most `width` columns.
+struct TableStyle {
+  bool markdown = false;
+  std::size_t width = 80;
+};
+
+/// Returns the machine and two tables: rates, and nanoseconds per sample by kind of
+/// stage.
+std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
+                           const TableStyle& style);
+/// Returns one line per row, each with the machine.
+std::string ThroughputCsv(const std::vector<ThroughputRow>& rows);
 }  // namespace lanelight

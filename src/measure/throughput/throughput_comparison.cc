@@ -1,12 +1,14 @@
 #include "src/measure/throughput/throughput_comparison.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
+#include "src/base/core/text_layout.h"
 
 namespace lanelight {
+
 Interval RateRatioOf(const Interval& now, const Interval& before) {
   const double ratio = now.value / before.value;
   const double below =
@@ -18,7 +20,7 @@ Interval RateRatioOf(const Interval& now, const Interval& before) {
 
 namespace {
 
-// Keys of the rows that the other has of the same scene; empty without one.
+// Returns the keys of rows of `other` with the same scene; empty without one.
 std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
   std::string keys;
   for (const KnownRow& candidate : other.rows) {
@@ -32,6 +34,40 @@ void AddBusy(const KnownThroughput& known, const char* when, RateComparison& com
   for (const std::string& reason : known.busy) {
     comparison.busy.push_back(fmt::format("{}, {}", when, reason));
   }
+}
+
+constexpr std::size_t kRowIndent = 8;
+
+std::string IntervalText(const Interval& ratio) {
+  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", ratio.value, ratio.low, ratio.high);
+}
+
+std::string VerdictText(const RateComparison& comparison, double tolerance) {
+  const std::string fast =
+      comparison.rows.empty()
+          ? ""
+          : fmt::format("{:.3g} times as fast (geometric mean of {}); ",
+                        comparison.Mean(), comparison.rows.size());
+  std::string slower;
+  for (const RateRatio& row : comparison.rows) {
+    if (row.Regresses(tolerance)) slower += (slower.empty() ? "" : "; ") + row.row;
+  }
+  switch (comparison.Judge(tolerance)) {
+    case RateComparison::Verdict::kSlower:
+      return fast + "slower: " + slower + ".";
+    case RateComparison::Verdict::kNotSlower:
+      return fast +
+             fmt::format("nothing is slower by more than {:.3g} %.", 100 * tolerance);
+    case RateComparison::Verdict::kNotComparable:
+      break;
+  }
+  std::string why = fmt::format("{}", fmt::join(comparison.busy, "; "));
+  if (why.empty()) {
+    why = comparison.refused.empty()
+              ? "no row is in both measurements"
+              : "rows differ in samples, size, threads, target or strategy";
+  }
+  return "not comparable: " + why + ".";
 }
 
 }  // namespace
@@ -74,6 +110,37 @@ double RateComparison::Mean() const {
   double sum = 0;
   for (const RateRatio& row : rows) sum += std::log(row.ratio.value);
   return rows.empty() ? 1 : std::exp(sum / double(rows.size()));
+}
+
+std::string ComparisonText(const RateComparison& comparison,
+                           const KnownThroughput& before, double tolerance,
+                           std::size_t width) {
+  std::string text = LabelledRow("against", before.machine, width, kRowIndent) +
+                     LabelledRow("", before.program, width, kRowIndent) + "\n";
+  const auto line = [width](const std::string& words) {
+    return Wrapped(words, width, kRowIndent) + "\n";
+  };
+  if (!comparison.rows.empty()) {
+    std::vector<std::vector<std::string>> lines = {
+        {"ratio of rates", "per second", "per processor s", ""}};
+    const bool slow = comparison.Judge(tolerance) == RateComparison::Verdict::kSlower;
+    for (const RateRatio& row : comparison.rows) {
+      lines.push_back({row.row, IntervalText(row.ratio), IntervalText(row.cpu_ratio),
+                       slow && row.Regresses(tolerance) ? "SLOWER" : ""});
+    }
+    text += TextTable(lines, {width, 1, 1});
+  }
+  for (const std::string& row : comparison.refused) text += line("refused: " + row);
+  for (const std::string& row : comparison.only_in_one) {
+    text += line("only in one measurement: " + row);
+  }
+  return text + "\n" + Wrapped(VerdictText(comparison, tolerance), width) + "\n" +
+         Wrapped(
+             "Intervals cover the scatter of each run's repeats, not the influence of "
+             "other "
+             "programs.",
+             width) +
+         "\n";
 }
 
 }  // namespace lanelight

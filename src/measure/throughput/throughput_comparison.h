@@ -1,44 +1,81 @@
-// Two measurements of throughput, of two programs or two machines: which rows are faster.
+// Writes measured throughput as JSON, and compares two measurements.
 #pragma once
 
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
-#include "src/measure/throughput/throughput_json.h"
+#include "src/measure/throughput/throughput.h"
 
 namespace lanelight {
 
+/// Version of the JSON. Increases when a member changes its meaning or is removed.
+inline constexpr int kBenchSchema = 1;
+
+/// Writes machine, program, and all rows with the seconds of their repeats;
+/// docs/bench.md. `within`: ThroughputOptions::within.
+nlohmann::json ToJson(const std::vector<ThroughputRow>& rows, double within);
+
+/// The members of a row that a comparison reads.
+struct KnownRow {
+  std::string scene, target, strategy;
+  int threads = 0, width = 0, height = 0;
+  std::uint64_t spp = 0;
+  Interval rate, cpu_rate;  // samples per second, and per second of processor time
+
+  /// Returns a text that is equal for rows that can be compared. It has those parts of
+  /// the strategy that differ from the default.
+  std::string Key() const;
+};
+struct KnownThroughput {
+  std::string machine, program;
+  std::vector<std::string> busy;  // BusyReasons()
+  std::vector<KnownRow> rows;
+};
+
+/// Reads JSON written by ToJson(). Throws InputError.
+KnownThroughput ReadThroughput(const std::string& path);
+KnownThroughput ThroughputFromJson(const nlohmann::json& json);
+
 struct RateRatio {
   std::string row;     // KnownRow::Key()
-  Interval ratio;      // rate of the new one over that of the old
-  Interval cpu_ratio;  // the same of rates per second of processor time
+  Interval ratio;      // new rate divided by old rate
+  Interval cpu_ratio;  // the same for rates per second of processor time
 
-  /// Slower by more than `tolerance`, beyond doubt.
+  /// Returns whether the new rate is significantly lower, by more than `tolerance`.
   bool Regresses(double tolerance) const {
     return ratio.value < 1 - tolerance && ratio.high < 1;
   }
 };
 
 struct RateComparison {
-  std::vector<RateRatio> rows;  // of both
+  std::vector<RateRatio> rows;  // in both measurements
   std::vector<std::string> only_in_one;
-  /// Rows of scenes in both that differ in samples, size, threads, target or strategy
-  /// from all rows of the other: a sentence each.
+  /// Rows whose scene is in both measurements, but not with the same samples, size,
+  /// threads, target and strategy; one sentence each.
   std::vector<std::string> refused;
-  /// Why either machine was too busy for a comparison; empty if neither was.
+  /// Reasons why a machine was too busy for a comparison.
   std::vector<std::string> busy;
 
   enum class Verdict { kNotSlower, kSlower, kNotComparable };
-  /// Not comparable: either machine was busy, or a row was refused and no other is
+  /// Returns kNotComparable if a machine was busy, or a row was refused and no other is
   /// slower.
   Verdict Judge(double tolerance) const;
-  /// Geometric mean of the ratios; 1 without rows.
+  /// Returns the geometric mean of the ratios; 1 without rows.
   double Mean() const;
 };
 
-/// Ratio of two independent rates: half widths of their logarithms add as their squares.
+/// Returns the ratio of two independent rates: squares of half widths of their logarithms
+/// add.
 Interval RateRatioOf(const Interval& now, const Interval& before);
 
 RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now);
+
+/// Returns a table of ratios and a sentence on rows slower by more than `tolerance`, in
+/// lines of at most `width` columns.
+std::string ComparisonText(const RateComparison& comparison,
+                           const KnownThroughput& before, double tolerance,
+                           std::size_t width);
 
 }  // namespace lanelight

@@ -1,4 +1,4 @@
-#include "src/measure/throughput/throughput_json.h"
+#include "src/measure/throughput/throughput_comparison.h"
 
 #include <nlohmann/json.hpp>
 
@@ -7,28 +7,27 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/version.h"
 #include "src/base/stat/values.h"
-#include "src/measure/throughput/throughput_comparison.h"
-#include "src/measure/throughput/throughput_warnings.h"
 #include "src/render/job/machine_json.h"
 #include "src/vocabulary/strategy/strategy.h"
 #include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Interval, value, low, high)
+
 namespace {
 
 using Json = nlohmann::json;
 
-// The rate over that of as many times one thread; null without a row of one.
+// Returns rate / (threads * rate of one thread); null without a row of one thread.
 Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
                         const ThroughputRow& row) {
   if (row.threads == 1) return IntervalJson(WithoutBounds(1));  // nothing is estimated
-  for (const ThroughputRow& one : rows) {
-    if (one.scene != row.scene || one.target != row.target || one.threads != 1) continue;
-    const Interval ratio = RateRatioOf(row.Rate(), one.Rate());
-    const double n = row.threads;
-    return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
-  }
-  return nullptr;
+  const ThroughputRow* one = OneThreadRow(rows, row);
+  if (one == nullptr) return nullptr;
+  const Interval ratio = RateRatioOf(row.Rate(), one->Rate());
+  const double n = row.threads;
+  return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
 }
 
 Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
@@ -91,15 +90,11 @@ KnownThroughput ThroughputFromJson(const Json& json) {
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
   known.busy = json.at("busy");
-  const auto interval = [](const Json& rate) {
-    return Interval{rate.at("value"), rate.at("low"), rate.at("high")};
-  };
   for (const Json& row : json.at("rows")) {
-    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
-                          row.at("threads"), row.at("resolution").at(0),
-                          row.at("resolution").at(1), row.at("spp"),
-                          interval(row.at("samples_per_second")),
-                          interval(row.at("samples_per_cpu_second"))});
+    known.rows.push_back(
+        {row.at("scene"), row.at("target"), row.at("strategy"), row.at("threads"),
+         row.at("resolution").at(0), row.at("resolution").at(1), row.at("spp"),
+         row.at("samples_per_second"), row.at("samples_per_cpu_second")});
   }
   return known;
 }
@@ -108,14 +103,13 @@ KnownThroughput ReadThroughput(const std::string& path) {
   return FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
     if (!json.contains("rows") || !json.contains("program")) {
-      throw InputError(
-          fmt::format("'{}' is not what `lanelight bench --json` writes", path));
+      throw InputError("'{}' was not written by `lanelight bench --json`", path);
     }
     if (!json.contains("busy")) {
-      throw InputError(fmt::format(
-          "'{}' is of an older version, which chose samples per pixel by the clock: "
-          "measure again with `lanelight bench --json`",
-          path));
+      throw InputError(
+          "'{}' was written by an older version, whose samples per pixel depended on "
+          "time; measure again with `lanelight bench --json`",
+          path);
     }
     return ThroughputFromJson(json);
   });

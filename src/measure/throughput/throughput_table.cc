@@ -1,4 +1,4 @@
-#include "src/measure/throughput/throughput_table.h"
+#include "src/measure/throughput/throughput.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "src/base/core/text_layout.h"
 #include "src/base/core/version.h"
 #include "src/base/stat/values.h"
-#include "src/measure/throughput/throughput_warnings.h"
 #include "src/render/job/machine_json.h"
 
 namespace lanelight {
@@ -27,7 +26,7 @@ std::string MarkdownLine(const Cells& cells) {
   return line + "\n";
 }
 
-// Scene and target name a row.
+// The first two columns, scene and target, are left-aligned.
 std::string Table(const std::vector<Cells>& lines, const TableStyle& style) {
   constexpr std::size_t kNames = 2;
   if (!style.markdown) return TextTable(lines, {style.width, kNames, 0});
@@ -38,14 +37,10 @@ std::string Table(const std::vector<Cells>& lines, const TableStyle& style) {
   return text;
 }
 
-// Of the same scene and target on one thread; empty without one.
+// Returns the rate relative to one thread; empty without such a row.
 std::string Scaling(const std::vector<ThroughputRow>& rows, const ThroughputRow& row) {
-  for (const ThroughputRow& one : rows) {
-    if (one.scene == row.scene && one.target == row.target && one.threads == 1) {
-      return fmt::format("{:.2f}", row.Rate().value / one.Rate().value);
-    }
-  }
-  return "";
+  const ThroughputRow* one = OneThreadRow(rows, row);
+  return one ? fmt::format("{:.2f}", row.Rate().value / one->Rate().value) : "";
 }
 
 double Lanes(const ThroughputRow& row) {
@@ -79,7 +74,7 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
           std::to_string(row.seconds.size())};
 }
 
-// Where the time of a sample goes is the same on several threads, but for the machine.
+// Lists each scene and target once: times per sample hardly depend on threads.
 std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
   std::vector<Cells> lines = {{"ns per sample", "target"}};
   for (const StageGroup& g : StageGroups(rows[0])) lines[0].push_back(g.name);

@@ -11,9 +11,7 @@
 #include <random>
 
 #include "src/base/core/error.h"
-#include "src/measure/compare/comparison_page.h"
-#include "src/measure/compare/comparison_sheet.h"
-#include "src/measure/compare/error_maps.h"
+#include "src/measure/compare/linear_image.h"
 
 namespace lanelight {
 namespace {

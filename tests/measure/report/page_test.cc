@@ -79,7 +79,8 @@ Json OneName(const std::string& name) {
 
 TEST_CASE("The page holds the study that went in", "[report]") {
   const SyntheticStudy synthetic = MakeSyntheticStudy();
-  const std::string page = ReportPage(synthetic.study, synthetic.images);
+  const std::string page =
+      ReportPage(PageKind::kStudy, synthetic.study, synthetic.images);
   CHECK(StudyOf(page) == synthetic.study);
   CHECK(Count(page, "class=\"image-data\"") == int(synthetic.images.size()));
   CHECK(page.substr(0, 15) == "<!doctype html>");
@@ -88,15 +89,18 @@ TEST_CASE("The page holds the study that went in", "[report]") {
 
 TEST_CASE("The page is the same for the same study", "[report]") {
   const SyntheticStudy a = MakeSyntheticStudy(), b = MakeSyntheticStudy();
-  CHECK(ReportPage(a.study, a.images) == ReportPage(b.study, b.images));
+  CHECK(ReportPage(PageKind::kStudy, a.study, a.images) ==
+        ReportPage(PageKind::kStudy, b.study, b.images));
 }
 
 TEST_CASE("No text ends its script or begins a comment", "[report]") {
   for (const std::string& text :
        {std::string(kHostileName), std::string("</SCRIPT >"), std::string("<!--<script>"),
         std::string("\"\\\n\t\x01 ]]>"), std::string("nul\0inside", 10)}) {
-    const std::string plain = ReportPage(OneName("x"), {{"x", 1, 1, 1, {1}}});
-    const std::string page = ReportPage(OneName(text), {{text, 1, 1, 1, {1}}});
+    const std::string plain =
+        ReportPage(PageKind::kStudy, OneName("x"), {{"x", 1, 1, 1, {1}}});
+    const std::string page =
+        ReportPage(PageKind::kStudy, OneName(text), {{text, 1, 1, 1, {1}}});
     CHECK(StudyOf(page) == OneName(text));
     // Whatever the text is, it adds no tag and no comment.
     CHECK(Count(page, "<") == Count(plain, "<"));
@@ -107,7 +111,7 @@ TEST_CASE("No text ends its script or begins a comment", "[report]") {
 }
 
 TEST_CASE("Texts that are not UTF-8 are replaced", "[report]") {
-  const Json found = StudyOf(ReportPage(OneName("a\xff z"), {}));
+  const Json found = StudyOf(ReportPage(PageKind::kStudy, OneName("a\xff z"), {}));
   CHECK(found["scenes"][0]["name"] == "a\xef\xbf\xbd z");
 }
 
@@ -136,7 +140,7 @@ TEST_CASE("Images come back from the page", "[report]") {
     const int count = image.width * image.height * image.channels;
     for (int i = 0; i < count; ++i) image.values.push_back(0.37f * float(i) - 1);
     image.values[0] = std::nanf("");
-    const std::string page = ReportPage(Json::object(), {image});
+    const std::string page = ReportPage(PageKind::kStudy, Json::object(), {image});
     const std::vector<int> bytes = DecodeBase64(Between(
         page, "data-channels=\"" + std::to_string(image.channels) + "\">", "</script>"));
     REQUIRE(int(bytes.size()) == 2 * count);
@@ -149,13 +153,16 @@ TEST_CASE("Images come back from the page", "[report]") {
 }
 
 TEST_CASE("An image of the wrong size is a mistake", "[report]") {
-  CHECK_THROWS_AS(ReportPage(Json::object(), {{"x", 2, 2, 3, {1, 2, 3}}}), CheckFailure);
-  CHECK_THROWS_AS(ReportPage(Json::object(), {{"x", 1, 1, 2, {1, 2}}}), CheckFailure);
+  CHECK_THROWS_AS(
+      ReportPage(PageKind::kStudy, Json::object(), {{"x", 2, 2, 3, {1, 2, 3}}}),
+      CheckFailure);
+  CHECK_THROWS_AS(ReportPage(PageKind::kStudy, Json::object(), {{"x", 1, 1, 2, {1, 2}}}),
+                  CheckFailure);
 }
 
 TEST_CASE("The page names no place in the network", "[report]") {
-  std::string page = ReportPage(Json::object(), {});
-  // The namespace of SVG is not an address that a browser fetches.
+  std::string page = ReportPage(PageKind::kStudy, Json::object(), {});
+  // The name space of SVG, which nobody fetches.
   const std::string space = "http://www.w3.org/2000/svg";
   const std::size_t at = page.find(space);
   REQUIRE(at != std::string::npos);
@@ -172,7 +179,8 @@ TEST_CASE("The page names no place in the network", "[report]") {
 TEST_CASE("The synthetic report can be written", "[report]") {
   const char* path = std::getenv("LANELIGHT_SYNTHETIC_REPORT");
   const SyntheticStudy synthetic = MakeSyntheticStudy();
-  const std::string page = ReportPage(synthetic.study, synthetic.images);
+  const std::string page =
+      ReportPage(PageKind::kStudy, synthetic.study, synthetic.images);
   CHECK(page.size() > 1'000'000);
   if (path == nullptr) return;
   std::ofstream file(path, std::ios::binary);

@@ -41,7 +41,7 @@ TEST_CASE("stress: results are written whole", "[stress]") {
 
 TEST_CASE("The synthetic stress page can be written", "[stress][report]") {
   const char* path = std::getenv("LANELIGHT_SYNTHETIC_STRESS");
-  const std::string page = StressReportPage(ToJson(SyntheticRun()));
+  const std::string page = ReportPage(PageKind::kStress, ToJson(SyntheticRun()));
   CHECK(page.find("<b>odd") == std::string::npos);
   if (path == nullptr) return;
   std::ofstream file(path, std::ios::binary);

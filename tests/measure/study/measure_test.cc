@@ -70,9 +70,9 @@ TEST_CASE("measurements survive the way to JSON and back", "[study]") {
   m.seed = 0xffffffffffffffffu;
   m.relmse = 0.1 + 0.2;
   m.cpu_seconds = 1e-300;
-  const nlohmann::json json = nlohmann::json::parse(ToJson(m).dump());
+  const nlohmann::json json = nlohmann::json::parse(nlohmann::json(m).dump());
   CHECK(json.at("mape").is_null());
-  const Measurement back = MeasurementFromJson(json);
+  const auto back = json.get<Measurement>();
   CHECK(back.seed == m.seed);
   CHECK(back.relmse == m.relmse);
   CHECK(back.cpu_seconds == m.cpu_seconds);

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "src/measure/study/study.h"
-#include "src/measure/study/study_json.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/measure/study/simulated.h"
 

@@ -1,5 +1,5 @@
-// A budget determines the number of samples.
-#include "src/measure/study/schedule.h"
+// How many samples a budget is enough for.
+#include "src/measure/study/scene_runner.h"
 
 #include <catch2/catch.hpp>
 

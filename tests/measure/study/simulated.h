@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "src/measure/study/cell_store.h"
-#include "src/measure/study/errors.h"
 #include "src/measure/study/reference.h"
 #include "tests/reference/random.h"
 

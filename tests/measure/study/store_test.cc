@@ -5,8 +5,8 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
-#include "src/measure/report/shrink.h"
-#include "src/measure/study/study_images.h"
+#include "src/measure/report/page.h"
+#include "src/measure/study/study.h"
 #include "src/render/films/colors.h"
 #include "src/render/wave/profile.h"
 #include "tests/base/image/temporary_folder.h"

@@ -9,7 +9,7 @@
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
-#include "src/measure/study/schedule.h"
+#include "src/measure/study/scene_runner.h"
 #include "src/render/films/colors.h"
 #include "src/render/job/machine_json.h"
 #include "tests/base/image/temporary_folder.h"

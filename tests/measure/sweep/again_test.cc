@@ -63,7 +63,7 @@ TEST_CASE("sweep: another grid in the same directory", "[sweep][cli]") {
   CHECK(Contents(out + "/sweep.toml") == Contents(file));
 }
 
-TEST_CASE("sweep: cells rendered otherwise are refused", "[sweep][cli]") {
+TEST_CASE("sweep: cells of other settings are refused", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out).exit_code == kExitGood);
@@ -78,7 +78,7 @@ TEST_CASE("sweep: cells rendered otherwise are refused", "[sweep][cli]") {
   const ProcessResult scene = Sweep(file, out);
   CHECK(scene.exit_code == kExitBadInput);
   CHECK_THAT(scene.err, Contains("hash of the scene's files") && Contains("/other_"));
-  CHECK_THAT(Sweep(file, out, {"--table-only"}).err, Contains("rendered otherwise"));
+  CHECK_THAT(Sweep(file, out, {"--table-only"}).err, Contains("rendered with other settings"));
   WriteText(out + "/cells/" + DoneCells(out).back() + "/report.json", "{\"half\": ");
   Replace(directory / "other.pbrt", "0.5 0.4 0.2", "0.5 0.4 0.3");
   CHECK_THAT(Sweep(file, out).err, Contains("is not a report of a sweep"));

@@ -10,7 +10,6 @@
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
 #include "src/measure/sweep/results.h"
-#include "src/measure/sweep/sweep_page.h"
 #include "src/render/job/machine_json.h"
 #include "tests/base/image/temporary_folder.h"
 
@@ -131,7 +130,7 @@ std::string SyntheticPage(const Sweep& sweep) {
   }
   std::vector<ReportImage> images;
   for (const auto& [name, image] : pictures) images.push_back(image);
-  return SweepReportPage(SweepJson(sweep, cells, groups), images);
+  return ReportPage(PageKind::kSweep, SweepJson(sweep, cells, groups), images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {

@@ -1,7 +1,6 @@
 // Patterns of strategies in a sweep file.
 #include <catch2/catch.hpp>
 
-#include "src/measure/sweep/strategy_pattern.h"
 #include "src/measure/sweep/sweep_file.h"
 #include "src/vocabulary/strategy/choices.h"
 #include "tests/base/image/temporary_folder.h"
@@ -56,8 +55,8 @@ TEST_CASE("strategy pattern: without open parts it is itself", "[sweep]") {
 
 TEST_CASE("strategy pattern: mistakes are told", "[sweep]") {
   const auto [text, message] = GENERATE(table<std::string, std::string>(
-      {{"points={cmj", "no '}' ends"},
-       {"points=cmj}", "closes nothing"},
+      {{"points={cmj", "'{' without"},
+       {"points=cmj}", "'}' without"},
        {"points={cmj,,halton}", "is empty"},
        {"points={}", "is empty"},
        {"{cmj,halton}", "needs a key"},
@@ -78,8 +77,8 @@ TEST_CASE("strategy pattern: values are strategies of the grid", "[sweep]") {
   CHECK(SweepOf("\"points=*\"", "[[exclude]]\nstrategy = \"points={cmj,halton}\"\n")
             .cells.size() == kNumPoints - 2);
   CHECK_THROWS_WITH(SweepOf("\"roulette=constant:{0.5, 0.50}\""),
-                    Contains("there twice"));
-  CHECK_THROWS_WITH(SweepOf("\"points=*\", \"points=cmj\""), Contains("there twice"));
+                    Contains("is a duplicate"));
+  CHECK_THROWS_WITH(SweepOf("\"points=*\", \"points=cmj\""), Contains("is a duplicate"));
   CHECK_THROWS_WITH(SweepOf("\"roulette=constant:{0.5, 2}\""),
                     Contains("3:13") && Contains("0.001 to 0.999"));
 }

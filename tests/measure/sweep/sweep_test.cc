@@ -141,7 +141,7 @@ TEST_CASE("sweep: a dry run predicts and renders nothing", "[sweep][cli]") {
                         Contains("6 of 6 combinations") && Contains("the rest: "));
   CHECK(directory.Files() == files);
   const ProcessResult few = Sweep(file, out, {"--dry-run", "--pilots", "2"}, options);
-  CHECK_THAT(few.out, Contains("2 of 6 combinations") && Contains("(~) are judged"));
+  CHECK_THAT(few.out, Contains("2 of 6 combinations") && Contains("(~) are estimated"));
   const ProcessResult none = Sweep(file, out, {"--dry-run", "--pilots", "0"}, options);
   CHECK_THAT(none.out, !Contains("the rest: ") && Contains("22 cells"));
   REQUIRE(Sweep(file, out).exit_code == kExitGood);

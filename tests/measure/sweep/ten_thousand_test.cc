@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "src/base/core/input_file.h"
-#include "src/measure/sweep/prediction.h"
 #include "src/measure/sweep/runner.h"
 #include "src/measure/sweep/sweep_folder.h"
 #include "tests/measure/sweep/sweep_folder.h"

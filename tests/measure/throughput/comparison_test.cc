@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "src/base/core/text_layout.h"
+#include "src/measure/throughput/throughput.h"
 #include "src/measure/throughput/throughput_comparison.h"
-#include "src/measure/throughput/throughput_table.h"
 #include "src/vocabulary/strategy/strategy.h"
 
 namespace lanelight::test {

@@ -7,11 +7,8 @@
 
 #include "src/base/core/error.h"
 #include "src/measure/report/page.h"
-#include "src/measure/throughput/bench_scenes.h"
 #include "src/measure/throughput/throughput.h"
 #include "src/measure/throughput/throughput_comparison.h"
-#include "src/measure/throughput/throughput_table.h"
-#include "src/measure/throughput/throughput_warnings.h"
 #include "src/scene/parse/parse.h"
 #include "tests/render/run/render_fixture.h"
 #include "tests/support/test_target.h"
@@ -61,7 +58,7 @@ TEST_CASE("rows are measured six times at least, with the samples asked for",
     CHECK(row.threads == int(i) + 1);
     CHECK(row.spp == 2);
     CHECK(row.counts.samples == 2 * 16 * 16);
-    CHECK(row.seconds.size() >= std::size_t(kLeastRepeats));
+    CHECK(row.seconds.size() >= std::size_t(kMinRepeats));
     const Interval rate = row.Rate();
     CHECK(rate.low <= rate.value);
     CHECK(rate.value <= rate.high);
@@ -139,7 +136,8 @@ TEST_CASE("efficiency is the rate over that of as many times one thread",
 }
 
 TEST_CASE("The page of a bench can be written", "[throughput][report]") {
-  const std::string page = BenchReportPage(ToJson(Measure(SmallBench()), 1e-9));
+  const std::string page =
+      ReportPage(PageKind::kBench, ToJson(Measure(SmallBench()), 1e-9));
   CHECK(page.substr(0, 15) == "<!doctype html>");
   const char* path = std::getenv("LANELIGHT_SYNTHETIC_BENCH");
   if (path == nullptr) return;

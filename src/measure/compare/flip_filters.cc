@@ -1,6 +1,7 @@
-#include "src/measure/compare/convolve.h"
+#include "src/measure/compare/flip_filters.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/base/core/parallel.h"
 
@@ -9,10 +10,17 @@ namespace {
 
 constexpr std::size_t kRowsOfTask = 16;
 
-int Radius(const Kernel& kernel) { return static_cast<int>(kernel.size() / 2); }
+int Radius(const Kernel& kernel) { return int(kernel.size() / 2); }
 
 void AddScaled(const float* in, float weight, int count, float* out) {
   for (int i = 0; i < count; ++i) out[i] += weight * in[i];
+}
+
+// CIE 15: cube root, linear near black.
+double LabCurve(double t) {
+  constexpr double kDelta = 6.0 / 29;
+  return t > kDelta * kDelta * kDelta ? std::cbrt(t)
+                                      : t / (3 * kDelta * kDelta) + 4.0 / 29;
 }
 
 }  // namespace
@@ -21,7 +29,7 @@ Plane ConvolveRows(const Plane& in, int width, int height, const Kernel& kernel)
   const int radius = Radius(kernel);
   Plane out(in.size(), 0.0f);
   ParallelForRange(height, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> row(static_cast<std::size_t>(width) + 2 * radius);
+    std::vector<float> row(std::size_t(width) + 2 * radius);
     for (std::size_t y = begin; y < end; ++y) {
       const float* source = in.data() + y * width;
       std::fill_n(row.begin(), radius, source[0]);
@@ -39,8 +47,8 @@ Plane ConvolveColumns(const Plane& in, int width, int height, const Kernel& kern
   const int radius = Radius(kernel);
   Plane out(in.size(), 0.0f);
   ParallelForRange(height, kRowsOfTask, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      float* target = out.data() + static_cast<std::size_t>(y) * width;
+    for (int y = int(begin); y < int(end); ++y) {
+      float* target = out.data() + std::size_t(y) * width;
       for (int k = -radius; k <= radius; ++k) {
         const std::size_t from = std::clamp(y + k, 0, height - 1);
         AddScaled(in.data() + from * width, kernel[k + radius], width, target);
@@ -48,6 +56,33 @@ Plane ConvolveColumns(const Plane& in, int width, int height, const Kernel& kern
     }
   });
   return out;
+}
+
+OpponentColors::OpponentColors() : relative_(XyzFromSrgb()) {
+  for (Vec3d& row : relative_.row) row = row / (row.x + row.y + row.z);
+  inverse_ = Inverse(relative_);
+}
+
+Vec3d OpponentColors::FromRgb(Vec3d rgb) const {
+  const Vec3d xyz = relative_ * rgb;
+  return {xyz.y, xyz.x - xyz.y, xyz.y - xyz.z};
+}
+
+Vec3d OpponentColors::ToRgb(Vec3d opponent) const {
+  const double y = opponent.x;
+  return inverse_ * Vec3d{y + opponent.y, y, y - opponent.z};
+}
+
+Vec3d OpponentColors::HuntLab(Vec3d rgb) const {
+  const Vec3d xyz = relative_ * rgb;
+  const double x = LabCurve(xyz.x), y = LabCurve(xyz.y), z = LabCurve(xyz.z);
+  const double lightness = 116 * y - 16;
+  return {lightness, 0.01 * lightness * 500 * (x - y), 0.01 * lightness * 200 * (y - z)};
+}
+
+double HyAb(Vec3d a, Vec3d b) {
+  const Vec3d d = a - b;
+  return std::abs(d.x) + std::hypot(d.y, d.z);
 }
 
 }  // namespace lanelight

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "src/measure/throughput/throughput.h"
+
+namespace lanelight {
+namespace {
+
+struct GroupOfStages {
+  const char *begins, *group;
+};
+// Groups by the beginning of a stage's name; all other stages are in "other".
+constexpr GroupOfStages kGroups[] = {
+    {"generate", "generate"},    {"camera_", "generate"},
+    {"points_", "generate"},     {"antithetic_", "generate"},
+    {"intersect_", "closest"},   {"shadow_", "shadow"},
+    {"surface_", "surface"},     {"shade_", "shade"},
+    {"texture", "shade"},        {"mix", "shade"},
+    {"light_", "lights"},        {"emission_", "lights"},
+    {"escape", "lights"},        {"connect", "lights"},
+    {"accumulate", "film"},      {"film", "film"},
+    {"task set-up", "generate"}, {"seen", "lights seen"}};
+constexpr const char* kGroupNames[] = {"generate",    "closest", "shadow",
+                                       "surface",     "shade",   "lights",
+                                       "lights seen", "film",    "other"};
+
+std::string GroupOf(const std::string& stage) {
+  for (const GroupOfStages& g : kGroups) {
+    if (stage.starts_with(g.begins)) return g.group;
+  }
+  return "other";
+}
+
+// Returns samples per second of wall clock or of processor time.
+Interval RateIn(const ThroughputRow& row, const Interval& seconds) {
+  const double samples = double(row.counts.samples);
+  return {samples / seconds.value, samples / seconds.high, samples / seconds.low};
+}
+
+}  // namespace
+
+Interval ThroughputRow::Seconds() const {
+  return stat::MedianInterval(seconds, kBenchConfidence);
+}
+
+Interval ThroughputRow::Rate() const { return RateIn(*this, Seconds()); }
+
+Interval ThroughputRow::CpuRate() const {
+  return RateIn(*this, stat::MedianInterval(cpu_seconds, kBenchConfidence));
+}
+
+double ThroughputRow::Waiting() const {
+  const double cpu = std::accumulate(cpu_seconds.begin(), cpu_seconds.end(), 0.0);
+  const double all = cpu + waiting_seconds;
+  return all > 0 ? waiting_seconds / all : 0;
+}
+
+double ThroughputRow::Spread() const {
+  if (seconds.size() < kMinRepeats) return std::numeric_limits<double>::infinity();
+  const Interval s = Seconds();
+  return (s.high - s.low) / (2 * s.value);
+}
+
+std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
+  std::vector<StageGroup> groups;
+  for (const char* name : kGroupNames) groups.push_back({name});
+  const auto group_of = [&](const StageProfile& s) -> StageGroup& {
+    const std::string name = GroupOf(s.name);
+    return *std::ranges::find_if(groups,
+                                 [&](const StageGroup& g) { return name == g.name; });
+  };
+  const double ns = 1e9 / double(row.counts.samples);
+  for (const StageProfile& s : row.counts.stages) {
+    StageGroup& group = group_of(s);
+    group.ns_per_sample += ns * s.seconds;
+    group.items += s.items;
+    group.lane_slots += s.lane_slots;
+  }
+  // Parts of tasks outside of stages have no lanes.
+  for (const StageProfile& s : row.counts.parts) {
+    group_of(s).ns_per_sample += ns * s.seconds;
+  }
+  return groups;
+}
+
+double WorstSpread(const std::vector<ThroughputRow>& rows) {
+  double worst = 0;
+  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
+  return worst;
+}
+
+const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
+                                  const ThroughputRow& row) {
+  const auto found = std::ranges::find_if(rows, [&](const ThroughputRow& other) {
+    return other.scene == row.scene && other.target == row.target && other.threads == 1;
+  });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
+                                     const MachineInfo& machine) {
+  std::vector<std::string> reasons;
+  if (IsOverloaded(machine)) {
+    reasons.push_back(
+        fmt::format("the load before the start, {:.2f}, exceeds the {:.3g} "
+                    "cores of the machine",
+                    *machine.load, *CoresAtATime(machine)));
+  }
+  double worst = 0;
+  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Waiting());
+  if (worst > kMaxWaiting) {
+    reasons.push_back(fmt::format(
+        "threads waited for a processor up to {:.0f} % of the time", 100 * worst));
+  }
+  return reasons;
+}
+
+std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
+                                            double within) {
+  std::vector<std::string> warnings;
+  if (const auto busy = BusyReasons(rows, ThisMachine()); !busy.empty()) {
+    warnings.push_back(fmt::format(
+        "The machine was busy: {}. Rates per second of processor time say more.",
+        fmt::join(busy, "; ")));
+  }
+  const double worst = WorstSpread(rows);
+  if (worst > within) {
+    warnings.push_back(fmt::format(
+        "Not all medians are known within {:.3g} %: the worst {}. The machine is not "
+        "quiet, or --time is too short.",
+        100 * within,
+        std::isfinite(worst) ? fmt::format("within {:.2g} %", 100 * worst)
+                             : "has no interval"));
+  }
+  return warnings;
+}
+
+}  // namespace lanelight
