@@ -78,18 +78,14 @@ HWY_INLINE void TakeBack(const Wave& wave) {
   }
 }
 
-HWY_INLINE Wavelengths BlockWavelengths(const Wave& wave) {
-  const TileWork& work = wave.work;
-  const VU sample = SplatU(work.first_sample + wave.block->sample);
-  return Wavelengths(TileWavelength(*wave.run, SplatU(work.pixels[0]), sample));
-}
-
 // Converts the complete light of the block to samples.
 template <bool kSigned>
 HWY_INLINE void FinishSamples(Wave& wave) {
   const DI di;
   const bool spectral = kSigned && wave.run->points.by_tile;
-  const Wavelengths wavelengths = BlockWavelengths(wave);
+  const VU sample = SplatU(wave.work.first_sample + wave.block->sample);
+  const Wavelengths wavelengths(
+      TileWavelength(*wave.run, SplatU(wave.work.pixels[0]), sample));
   const Block& block = *wave.block;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
   const std::size_t stride = wave.buffer.stride;

@@ -86,11 +86,6 @@ HWY_INLINE void AdvanceCandidate(const PathColumns& p, std::uint32_t count,
   Advance(p.u_light_1, OnGrid(0.5698402909980532), slots);
 }
 
-// Without scattered rays that find lights, light samples count in full.
-HWY_INLINE MisParameters CandidateMis(const Wave& wave) {
-  return wave.run->features.Has(Feature::kMis) ? wave.run->mis : MisParameters{0, 0, 0};
-}
-
 template <class Bsdf>
 HWY_INLINE V3 Reflected(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
                         V3 wo, V3 wi, const Slots& slots) {
@@ -125,7 +120,9 @@ template <class Bsdf, ShadeKind kKind>
 HWY_NOINLINE void ConsiderKind(Wave& wave) {
   const PathColumns& p = wave.path;
   const SurfaceReader<Bsdf> reader(wave);
-  const MisParameters mis = CandidateMis(wave);
+  // Without scattered rays that find lights, light samples count in full.
+  const MisParameters mis =
+      wave.run->features.Has(Feature::kMis) ? wave.run->mis : MisParameters{0, 0, 0};
   ForEachBatch(
       wave, wave.queue(ShadeQueue(kKind)), [&](const StoreSlots& slots, MF) HWY_ATTR {
         Reservoir reservoir = {Gather(p.worth_sum, slots), Gather(p.u_candidate, slots)};

@@ -119,13 +119,6 @@ struct CurveSpaceLanes {
   }
 };
 
-HWY_INLINE void StoreCurveCoordinates(const PathColumns& path, const StoreSlots& slots,
-                                      VF u, VF v) {
-  if (path.uv_u == nullptr) return;
-  Scatter(u, path.uv_u, slots);
-  Scatter(v, path.uv_v, slots);
-}
-
 // Widths, normals and coordinates across, in the space of the curves.
 struct CurveFaces {
   V3 n, bitangent;
@@ -182,7 +175,10 @@ HWY_INLINE void CurveBatch(const Wave& wave, const StoreSlots& slots) {
       .p = at.p, .n = faces.n, .error = Splat(0), .material = curve.material};
   surface.error = RoundingError(at.p, faces.n, faces.width);
   StoreSurface(path, slots, surface);
-  StoreCurveCoordinates(path, slots, curve.u, hn::Add(faces.aside, Splat(0.5f)));
+  if (path.uv_u != nullptr) {
+    Scatter(curve.u, path.uv_u, slots);
+    Scatter(hn::Add(faces.aside, Splat(0.5f)), path.uv_v, slots);
+  }
   if (path.tg_x == nullptr) return;
   Scatter3(at.tangent, path.tg_x, path.tg_y, path.tg_z, slots);
   if (path.tv_x != nullptr) StoreBitangent(path, slots, faces.bitangent, faces.n);

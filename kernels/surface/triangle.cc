@@ -143,11 +143,6 @@ HWY_NOINLINE void TurnTangents(const Geometry& geometry, const TriangleLanes& tr
   }
 }
 
-// Largest |coordinate| of the edges.
-HWY_INLINE VF SizeOf(V3 e1, V3 e2) {
-  return hn::Max(MaxComponent(Abs(e1)), MaxComponent(Abs(e2)));
-}
-
 // Edges from the first vertex, and the unit normal of the face.
 struct FaceLanes {
   V3 e1, e2, normal;
@@ -200,7 +195,8 @@ HWY_INLINE PlaceLanes PlaceTriangles(const Wave& wave, const StoreSlots& slots,
   } else {
     at.p = FromHalves(Interpolate<false>(tri), Interpolate<true>(tri));
     at.ng = face.normal;
-    at.error = RoundingError(at.p, face.normal, SizeOf(face.e1, face.e2));
+    const VF size = hn::Max(MaxComponent(Abs(face.e1)), MaxComponent(Abs(face.e2)));
+    at.error = RoundingError(at.p, face.normal, size);
   }
   return at;
 }
@@ -252,12 +248,6 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
   Scatter3(tangent, path.tg_x, path.tg_y, path.tg_z, slots);
 }
 
-// Returns whether there is a column beyond point and normal. Each optional column is
-// tested per vector (store-inl.h).
-HWY_INLINE bool WantsDetails(const PathColumns& path) {
-  return path.ns_x != nullptr || path.uv_u != nullptr || path.tg_x != nullptr;
-}
-
 template <bool kInstances>
 HWY_INLINE void StoreCoordinates(const Wave& wave, const StoreSlots& slots,
                                  const TriangleLanes& tri, const FaceLanes& face,
@@ -293,7 +283,9 @@ template <bool kInstances, bool kMoving>
 void SurfaceTriangle(Wave& wave) {
   const Queue& hits =
       FilterPrimitives(wave, wave.queue(QueueId::kSurface), 0, wave.ranges->spheres);
-  if (WantsDetails(wave.path)) {
+  // Optional columns are tested per vector (store-inl.h), unless there is none.
+  const PathColumns& path = wave.path;
+  if (path.ns_x != nullptr || path.uv_u != nullptr || path.tg_x != nullptr) {
     ForEachBatch(wave, hits, [&](const StoreSlots& slots, MF) HWY_ATTR {
       SurfaceBatch<kInstances, kMoving, true>(wave, slots);
     });

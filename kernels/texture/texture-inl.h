@@ -139,11 +139,6 @@ LANELIGHT_INLINE VF RegularAlpha(VF roughness, bool remap) {
   return hn::IfThenElse(hn::Lt(alpha, Splat(0.3f)), rougher, alpha);
 }
 
-/// Between four corners, v00, v01, v10 and v11 of (s, t).
-LANELIGHT_INLINE V3 BetweenCorners(const V3 corner[4], VF s, VF t) {
-  return Lerp(Lerp(corner[0], corner[1], t), Lerp(corner[2], corner[3], t), s);
-}
-
 /// Value of one texture at a point in every lane, filtered where that has a footprint
 /// (levels-inl.h). Errors against real arithmetic come from rounding s = u * su + du to
 /// float: up to |s| * 6e-8 of a repeat, times the slope.
@@ -198,11 +193,10 @@ inline HWY_NOINLINE V3 EvalTexture(const TextureTable& table, int32_t texture,
         // pbrt-v4 shows its parameter "inside" outside of the dots, and the reverse.
         value[i] = IfThenElse(InsideDot(st.s, st.t), operand(1), operand(0));
         break;
-      case TextureKind::kBilinear: {
-        const V3 corners[4] = {operand(0), operand(1), operand(2), operand(3)};
-        value[i] = BetweenCorners(corners, st.s, st.t);
+      case TextureKind::kBilinear:
+        value[i] = Lerp(Lerp(operand(0), operand(1), st.t),
+                        Lerp(operand(2), operand(3), st.t), st.s);
         break;
-      }
       case TextureKind::kMetalExtinction:
         value[i] = Mul(MetalExtinction(operand(0)), operand(2).x);
         break;

@@ -12,8 +12,8 @@ void EvalPoints(const TextureTable& table, const int32_t* ids, const float* u,
   const DF df;
   const DI di;
   for (std::size_t i = 0; i < count; i += hn::Lanes(df)) {
-    const V3 color = EvalTextures(table, hn::LoadU(di, ids + i), hn::LoadU(df, u + i),
-                                  hn::LoadU(df, v + i), Splat3(-1, -2, -3));
+    const UvPoint at = {hn::LoadU(df, u + i), hn::LoadU(df, v + i)};
+    const V3 color = EvalTextures(table, hn::LoadU(di, ids + i), at, Splat3(-1, -2, -3));
     hn::StoreU(color.x, df, rgb + i);
     hn::StoreU(color.y, df, rgb + count + i);
     hn::StoreU(color.z, df, rgb + 2 * count + i);
