@@ -89,7 +89,7 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
                             : fmt::format("; {} more stated no interval.", self.refused);
   for (const SelfFailure& f : analysis.self_failures) {
     text += fmt::format(
-        " Those of {} held in {} of {}: in the others, {:g} % of the pixels had {:.0f} % "
+        " Those of {} held in {} of {}: in the rest, {:g} % of the pixels had {:.0f} % "
         "of "
         "the error, and pixel ({}, {}) was the worst most often.",
         runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstShare,

@@ -78,7 +78,8 @@ TEST_CASE("sweep: cells of other settings are refused", "[sweep][cli]") {
   const ProcessResult scene = Sweep(file, out);
   CHECK(scene.exit_code == kExitBadInput);
   CHECK_THAT(scene.err, Contains("hash of the scene's files") && Contains("/other_"));
-  CHECK_THAT(Sweep(file, out, {"--table-only"}).err, Contains("rendered with other settings"));
+  CHECK_THAT(Sweep(file, out, {"--table-only"}).err,
+             Contains("rendered with other settings"));
   WriteText(out + "/cells/" + DoneCells(out).back() + "/report.json", "{\"half\": ");
   Replace(directory / "other.pbrt", "0.5 0.4 0.2", "0.5 0.4 0.3");
   CHECK_THAT(Sweep(file, out).err, Contains("is not a report of a sweep"));

@@ -80,7 +80,7 @@ TEST_CASE("sweep: a file system without locks needs parts", "[sweep][cli]") {
   options.prepare = ForbidLocks;
   const ProcessResult r = Sweep(file, out, {}, options);
   CHECK(r.exit_code == kExitBadInput);
-  CHECK_THAT(r.err, Contains("has no locks") && Contains("--part I/N"));
+  CHECK_THAT(r.err, Contains("does not support locks") && Contains("--part I/N"));
   CHECK(RenderedBy(Sweep(file, out, {"--part", "1/2"}, options)) == 11);
   CHECK(RenderedBy(Sweep(file, out, {"--part", "2/2"}, options)) == 11);
 }
