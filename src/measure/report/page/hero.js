@@ -37,7 +37,8 @@ function heroSentence(view, { winner }) {
   const level = winner.level.repetitions;
   if (!winner.rank || level < 3) {
     const times = level === 1 ? "1 repetition" : `${level} repetitions`;
-    return [name, ` has the least error for the time, after ${times}; use 3 or more to test that.`];
+    const advice = "use 3 or more to test that.";
+    return [name, ` has the least error for the time, after ${times}; ${advice}`];
   }
   const rivals = rivalsOf(view, winner);
   if (rivals.length === 0) return [name, " gives the least error for the time."];
@@ -45,7 +46,7 @@ function heroSentence(view, { winner }) {
     rivals.length > MOST_RIVALS ? `${rivals.length} others are` : `${someNames(rivals)} ${
       rivals.length === 1 ? "is" : "are"
     }`;
-  return [name, ` is ahead, but ${who} not significantly worse.`];
+  return [name, ` is ahead, but ${who} not certainly behind.`];
 }
 
 function heroNumber(value, bounds, caption) {
