@@ -144,7 +144,7 @@ def without_known_errors_there_is_no_plot(page):
     require(plot(page, "panel-0"), "no plot where there are errors")
     choose(page, "spp", "1")
     require(plot(page, "panel-0") is None, "an empty plot")
-    require("No Relative MSE of these is known" in page.text(), "no word of it")
+    require("Relative MSE was not measured for this selection" in page.text(), "no word of it")
     page.open()
 
 

@@ -1,13 +1,21 @@
-// Who may come in: the rules of the server, apart from its sockets.
+// Access rules of the live server, apart from its sockets: addresses, origins and the
+// secret token.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lanelight::live {
 
-/// The parts of a request that are checked; missing ones are empty.
+/// Returns 128 bits from the system's source of randomness, as 32 hexadecimal digits.
+std::string MakeToken();
+
+/// Returns whether both are the same, in a time that does not depend on their contents.
+bool SameToken(std::string_view a, std::string_view b);
+
+/// The parts of a request that decide access; parts that are missing are empty.
 struct HttpRequest {
   std::string method, target, host, origin;
   bool upgrade = false;  // it asks for a WebSocket

@@ -8,7 +8,7 @@
 #include "src/base/core/version.h"
 #include "src/measure/live/picture.h"
 #include "src/measure/live/state_json.h"
-#include "src/measure/live/token.h"
+#include "src/measure/live/access_check.h"
 #include "src/render/job/output.h"
 
 namespace lanelight::live {

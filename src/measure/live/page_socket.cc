@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "src/measure/live/commands.h"
+#include "src/measure/live/state_json.h"
 
 namespace lanelight::live {
 namespace {

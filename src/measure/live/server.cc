@@ -5,7 +5,7 @@
 
 #include "src/base/core/error.h"
 #include "src/measure/live/page_socket.h"
-#include "src/measure/live/token.h"
+#include "src/measure/live/access_check.h"
 #include "src/measure/report/page.h"
 
 namespace lanelight::live {

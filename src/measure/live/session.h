@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "src/measure/live/commands.h"
 #include "src/measure/live/pass_renderer.h"
 #include "src/measure/live/picture.h"
 #include "src/measure/live/score.h"
+#include "src/measure/live/state_json.h"
 
 namespace lanelight::live {
 

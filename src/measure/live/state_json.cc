@@ -1,5 +1,7 @@
 #include "src/measure/live/state_json.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +9,7 @@
 #include "src/base/core/json_text.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/version.h"
+#include "src/measure/live/picture.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/scene/description/film.h"
 #include "src/vocabulary/strategy/strategy_text.h"
@@ -147,6 +150,29 @@ std::string StateText(const StateOfPage& state, const std::string& command) {
                    {"paused", state.paused},
                    {"slots", slots},
                    {"ratio", RatioJson(state)}});
+}
+
+nlohmann::json ParseMessage(std::string_view text) {
+  if (text.size() > kLongestMessage) {
+    throw InputError(fmt::format("a message of {} bytes; at most {} are taken",
+                                 text.size(), kLongestMessage));
+  }
+  try {
+    nlohmann::json message = ParseJson(text);
+    message.at("do").get_ref<const std::string&>();
+    return message;
+  } catch (const nlohmann::json::exception& error) {
+    throw NotUnderstood(error);
+  }
+}
+
+InputError NotUnderstood(const nlohmann::json::exception& error) {
+  return InputError("the message is not understood: " + JsonProblem(error));
+}
+
+bool ChangesWork(const nlohmann::json& message) {
+  const std::string& what = message.at("do").get_ref<const std::string&>();
+  return what == "camera" || what == "strategy" || what == "pace" || what == "pause";
 }
 
 }  // namespace lanelight::live

@@ -1,14 +1,31 @@
-// What pages are told: the scene and its strategies at first, then how far they are.
+// Messages between the server and a page: JSON objects with a member "do" from the page
+// (Session::Do); the scene, its strategies and the progress from the server.
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
-#include "src/measure/live/commands.h"
+#include "src/base/core/error.h"
 #include "src/measure/live/pass_renderer.h"
 #include "src/measure/live/score.h"
 
 namespace lanelight::live {
+
+inline constexpr int kSlots = 2;  // A and B
+
+/// Bytes of a message, at most.
+inline constexpr std::size_t kLongestMessage = 1u << 14;
+
+/// Reads a JSON object whose member "do" is a text. Throws InputError.
+nlohmann::json ParseMessage(std::string_view text);
+
+/// Returns an InputError that says what is wrong with a message.
+InputError NotUnderstood(const nlohmann::json::exception& error);
+
+/// Returns whether the message may make the work in progress obsolete.
+bool ChangesWork(const nlohmann::json& message);
 
 struct StateOfSlot {
   std::string name, refused;

@@ -1,5 +1,5 @@
-// The parts of a compiled scene that depend on the camera and on the film's size. They
-// are made anew when a page moves the camera. BVHs, lights and textures stay.
+// The parts of a compiled scene that depend on the camera and on the size of the film.
+// They are rebuilt when a page moves the camera; BVH, lights and textures are kept.
 #pragma once
 
 #include "src/measure/live/camera_pose.h"

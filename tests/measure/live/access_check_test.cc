@@ -4,8 +4,6 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/measure/live/token.h"
-
 namespace lanelight::live {
 namespace {
 

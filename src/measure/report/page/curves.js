@@ -88,7 +88,7 @@ function curvesSection(view) {
     el("p.hint",
       "Lower and further left is better. Bands are confidence " +
         "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
-        "for its values, drag to zoom, double-click to see all again; double-click a strategy " +
+        "for its values, drag to zoom, double-click to reset it; double-click a strategy " +
         "to see it alone. Those that are not chosen stay as thin grey lines.",
     ),
   );

@@ -36,8 +36,9 @@ function heroSentence(view, { winner }) {
   const name = el("b", { title: fullName(winner) }, shortName(winner.name));
   const level = winner.level.repetitions;
   if (!winner.rank || level < 3) {
-    const times = level === 1 ? "One repetition" : `${level} repetitions`;
-    return [name, ` is ahead here. ${times} cannot say how sure that is.`];
+    const times = level === 1 ? "1 repetition" : `${level} repetitions`;
+    const advice = "use 3 or more to test that.";
+    return [name, ` has the least error for the time, after ${times}; ${advice}`];
   }
   const rivals = rivalsOf(view, winner);
   if (rivals.length === 0) return [name, " gives the least error for the time."];

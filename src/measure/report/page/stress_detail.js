@@ -119,7 +119,7 @@ function detailSection(view, aCase, target, onChoose) {
       "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
         "lines: where a point would fail. Red rings: points that are not good; " +
         "crosses: refused, with the message. A hollow marker has no error at all. Drag to " +
-        "zoom, double-click to see all again.",
+        "zoom, double-click to reset the zoom.",
     ),
   );
 }

@@ -59,7 +59,7 @@ function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
     : alongPositions(choice);
   const drawn = lines.map((line) => plotted(line, measure, xs));
   if (drawn.every((line) => line.points.length === 0)) {
-    host.replaceChildren(el("p.hint", `No ${label} of these is known.`));
+    host.replaceChildren(el("p.hint", `${label} was not measured for this selection.`));
     return () => host.replaceChildren();
   }
   const xAxis = byTime ? TIME_AXIS : alongAxis(choice.along);
@@ -74,11 +74,20 @@ function measurePlot(view, host, choice, lines, { measure, byTime, include }) {
   });
 }
 
+// Drops repeated rows of a line: a strategy that a grid names twice has two groups of the
+// same cells. Keeps the later one. Each line of the legend keeps its own rows.
+function distinctRows(rows) {
+  const key = ({ line, point }) => `${line.index}:${point.group.cells.join()}`;
+  return [...new Map(rows.map((row) => [key(row), row])).values()];
+}
+
 // Where the axis has no positions: a row with an interval for each value and line.
 function measureRows(view, host, choice, lines, { measure, include }) {
   const { texts, tick } = SWEEP_MEASURES[measure];
-  const rows = lines.flatMap((line) =>
-    line.points.map((point) => ({ line, point, y: intervalOf(point.group, measure) })),
+  const rows = distinctRows(
+    lines.flatMap((line) =>
+      line.points.map((point) => ({ line, point, y: intervalOf(point.group, measure) })),
+    ),
   );
   const log = measure === "efficiency";
   const scale = whiskerScale([...rows.map(({ y }) => y), ...include], log, log ? [1] : [0]);
@@ -133,21 +142,18 @@ function panelFigures(view, choice, panels) {
 }
 
 function intervalNote() {
-  const over =
-    "Bars are 95 % intervals: of means over the seeds where there are several, else what " +
-    "the render itself states of its error. ";
-  const one =
+  const few =
     study.seeds < 2
-      ? "There is one seed: rates and efficiencies have no interval, and need seeds for one. "
+      ? "This sweep has one seed: use 2 or more for intervals of rates and 3 or more for " +
+        "intervals of efficiencies. "
       : study.seeds < 3
-        ? "Efficiencies have intervals from three seeds on. "
+        ? "Use 3 or more seeds for intervals of efficiencies. "
         : "";
   return (
-    over +
-    one +
-    "Efficiency is 1 / (error × processor time), by the errors that renders state of " +
-    "themselves, which see no bias. Point at a marker for its values, drag to zoom, " +
-    "double-click to see all again."
+    "Bars are 95 % confidence intervals over the seeds; with one seed, they are the error " +
+    `estimates of the render. ${few}Efficiency is 1 / (error × processor time). It uses the ` +
+    "error estimates of the renders, which do not include bias. Point at a marker for its " +
+    "values, drag to zoom, double-click to reset the zoom."
   );
 }
 
