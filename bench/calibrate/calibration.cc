@@ -10,9 +10,7 @@
 
 namespace lanelight::bench {
 Calibration::Calibration(const CalibrateOptions& options)
-    : options_(options),
-      strategies_(SplitStrategies(options.strategies)),
-      end_(60 * options.minutes) {
+    : options_(options), strategies_(options.strategies), end_(60 * options.minutes) {
   for (const std::string& text : strategies_) ParseStrategy(text);
 }
 

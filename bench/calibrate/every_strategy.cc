@@ -30,25 +30,24 @@ std::vector<std::string> Words(std::string_view arguments) {
   return words;
 }
 
-// By what they mean, so that none is rendered twice.
+// Strategies of different meaning.
 class List {
  public:
   void Add(const std::string& name) {
     const std::string meaning = ToText(ParseStrategy(name));
     if (std::find(meanings_.begin(), meanings_.end(), meaning) != meanings_.end()) return;
     meanings_.push_back(meaning);
-    text_ += (text_.empty() ? "" : ";") + name;
+    names_.push_back(name);
   }
-  const std::string& text() const { return text_; }
+  const std::vector<std::string>& names() const { return names_; }
 
  private:
-  std::vector<std::string> meanings_;
-  std::string text_;
+  std::vector<std::string> meanings_, names_;
 };
 
 }  // namespace
 
-std::string EveryStrategy() {
+std::vector<std::string> EveryStrategy() {
   List list;
   list.Add(kDefaultName);
   for (const ChoiceInfo& choice : AllChoices()) {
@@ -57,7 +56,7 @@ std::string EveryStrategy() {
     }
   }
   for (const PresetInfo& preset : AllPresets()) list.Add(preset.name);
-  return list.text();
+  return list.names();
 }
 
 }  // namespace lanelight::bench

@@ -44,7 +44,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--spp", options.spp, "Samples per pixel");
   app.add_option("--resolutions", options.resolutions, "Sizes of the images, WxH");
-  app.add_option("--strategies", options.strategies, "List 'A;B;...'");
+  app.add_option("--strategies", options.strategies, "List 'A;B;...'")->delimiter(';');
   app.add_flag("--every-strategy", every, "All choices of all axes, and the presets");
   app.add_option("--target-relmse", options.targets, "Let renders stop by themselves");
   app.add_option("--reference-spp", options.reference_spp,

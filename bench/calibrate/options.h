@@ -18,9 +18,9 @@ inline constexpr double kMostOwnError = 0.1;
 
 struct CalibrateOptions {
   std::vector<std::string> scenes;  // empty: all that there are
-  std::string strategies =
-      "points=independent;points=sobol;points=pmj02;pairs=antithetic,points=independent;"
-      "roulette=adjoint";
+  std::vector<std::string> strategies = {
+      "points=independent", "points=sobol", "points=pmj02",
+      "pairs=antithetic,points=independent", "roulette=adjoint"};
   std::vector<std::string> resolutions = {"48x48", "96x96"};
   std::vector<std::uint64_t> spp = {16, 64, 256, 1024};
   std::uint64_t reference_spp = 0;  // 0: what the time allows

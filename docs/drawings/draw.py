@@ -71,10 +71,8 @@ STREAMS = [
     ("beam-inl.h", "leaf-inl.h", "what is left"),
     ("stream-inl.h", "stream_packet-inl.h", "first"),
     ("stream-inl.h", "stream_single-inl.h", "then"),
-    ("stream_packet-inl.h", "last_blockers-inl.h", "shadow rays"),
-    ("stream_packet-inl.h", "packet_singles-inl.h", "few at a leaf"),
-    ("stream_packet-inl.h", "packet_deferred-inl.h", "too few: later"),
-    ("packet_deferred-inl.h", "stream_spaces-inl.h", ""),
+    ("stream_packet-inl.h", "packet_shadows-inl.h", "shadow rays"),
+    ("stream_packet-inl.h", "stream_spaces-inl.h", "too few: later"),
     ("stream_single-inl.h", "stream_lists-inl.h", "what each is at"),
     ("stream_single-inl.h", "stream_stacks-inl.h", "what comes next"),
     ("stream_stacks-inl.h", "leaf-inl.h", "at leaves"),
@@ -82,7 +80,6 @@ STREAMS = [
     ("stream_lists-inl.h", "stream_spaces-inl.h", "at instances"),
     ("stream_spaces-inl.h", "instance-inl.h", "into its space"),
     ("leaf-inl.h", "triangle-inl.h", "a ray, sixteen triangles"),
-    ("triangle-inl.h", "recheck.h", "too near to tell"),
 ]
 
 # From the command to a kernel, and back: (file, function, calls, of file).

@@ -9,7 +9,7 @@
 //               crosses). Relative to the largest cosine it keeps the warp of grazing
 //               lights; the middle's cosine serves lights that surround the receiver
 //   below       a light wholly below the receiver's plane is not warped
-//   source      Hart et al. 2020 (kernels/warp/bilinear-inl.h)
+//   source      Hart et al. 2020 (kernels/warp/solid_angle-inl.h)
 #ifndef LANELIGHT_LIGHTS_FLAT_INL_H_
 #define LANELIGHT_LIGHTS_FLAT_INL_H_
 

@@ -25,7 +25,7 @@ Layer LayerNamed(const std::string& name);
 /// [{"name", "meaning"}, ...].
 nlohmann::json LayersJson();
 
-/// What a page has received of one renderer.
+/// The state of one renderer that a page has received.
 struct SentPicture {
   std::uint64_t view = 0;  // which one: a number of its own
   Layer layer = Layer::kNone;

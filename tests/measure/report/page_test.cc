@@ -162,7 +162,7 @@ TEST_CASE("An image of the wrong size is a mistake", "[report]") {
 
 TEST_CASE("The page names no place in the network", "[report]") {
   std::string page = ReportPage(PageKind::kStudy, Json::object(), {});
-  // The name space of SVG, which nobody fetches.
+  // The namespace of SVG is no address that a browser fetches.
   const std::string space = "http://www.w3.org/2000/svg";
   const std::size_t at = page.find(space);
   REQUIRE(at != std::string::npos);

@@ -1,4 +1,4 @@
-// How many samples a budget is enough for.
+// A budget determines the number of samples.
 #include "src/measure/study/scene_runner.h"
 
 #include <catch2/catch.hpp>
