@@ -1,5 +1,5 @@
-// The order of children for shadow rays (src/scene/accel/blocker_order.cc), against enumeration and random
-// lines.
+// The order of children for shadow rays (src/scene/accel/blocker_order.cc), against
+// enumeration and random lines.
 #include "src/scene/accel/binary_tree.h"
 
 #include <catch2/catch.hpp>
