@@ -250,7 +250,7 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
       {"[grid]\nscene = 'a.pbrt'\nseed = [[1]]", "3:9", {"seed is an array"}},
       {"[grid]\nscene = 'a.pbrt'\n[[exclude]]\nspp = 4",
        "4:7",
-       {"no cell of the grid has spp \"4\"", "the grid does not have this axis"}},
+       {"no cell of the grid has spp \"4\"", "the grid has no such axis"}},
       {"[grid]\nscene = 'a.pbrt'\nspp = [1, 2]\n[[exclude]]\nspp = 4",
        "5:7",
        {"no cell of the grid has spp \"4\"", "\"1\", \"2\""}},
