@@ -57,8 +57,10 @@ TEST_CASE("a verdict is one sentence of what was found", "[compare]") {
              Contains("more than their noise explains (p "));
   NamedImage plain = Render("plain", 4, 0.05);
   plain.image.names[3] = "spread";
-  CHECK_THAT(verdict(plain),
-             EndsWith("it is unknown whether noise explains it: the first image has no variances"));
+  CHECK_THAT(
+      verdict(plain),
+      EndsWith(
+          "it is unknown whether noise explains it: the first image has no variances"));
   CHECK_THAT(verdict(plain, {.flip = true}), Contains("; FLIP 0."));
   NamedImage invalid = {"bad", MakeImage(kSide, kSide, {"R", "G", "B"})};
   for (float& v : invalid.image.pixels) v = std::nanf("");
