@@ -51,9 +51,10 @@ std::vector<std::string> ChoicesOf(const std::string& strategy) {
   return choices;
 }
 
-PreparedScene Prepare(const std::filesystem::path& file) {
+PreparedScene Prepare(const std::filesystem::path& file, BiasCoverage coverage) {
   SceneDescription description = ParseScene(file.string());
-  description.film.width = description.film.height = kBiasImage;
+  const int side = coverage == BiasCoverage::kEveryChoice ? 64 : 48;
+  description.film.width = description.film.height = side;
   std::fill_n(description.film.crop, 4, 0);
   return PrepareScene(description);
 }
@@ -109,7 +110,7 @@ BiasPower CheckSceneBias(const std::vector<std::filesystem::path>& files,
   BiasPower power;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string name = files[i].stem().string();
-    BiasTest test(Prepare(files[i]), kBase, RoundsOf(name, rounds));
+    BiasTest test(Prepare(files[i], coverage), kBase, RoundsOf(name, rounds));
     const auto strategies = coverage == BiasCoverage::kEveryChoice
                                 ? EveryChoice()
                                 : Rotating(test.scene(), i, files.size());

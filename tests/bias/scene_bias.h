@@ -12,13 +12,12 @@
 
 namespace lanelight::test {
 
-/// Pixels per side of the images.
-inline constexpr int kBiasImage = 64;
-
 /// Which strategies a test renders on each scene.
 enum class BiasCoverage {
-  kRotating,    // path reuse, and combinations in turn: all of them over all scenes
-  kEveryChoice  // every choice of every axis by itself
+  // Images of 48 x 48 pixels; path reuse, and combinations in turn: all over all scenes.
+  kRotating,
+  // Images of 64 x 64 pixels; every choice of every axis by itself.
+  kEveryChoice
 };
 
 /// The smallest bias that some scene would show, for every choice.

@@ -91,6 +91,7 @@ class Page:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.messages = []
         self.resize(1280, 900)
+        self.prefer("light")
 
     def resize(self, width, height, mobile=False):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
@@ -98,8 +99,10 @@ class Page:
             "deviceScaleFactor": 2 if mobile and PICTURES else 1})
 
     def prefer(self, scheme):
+        """Sets the system's colours. It prefers no motion, so scrolling is instant."""
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-            "features": [{"name": "prefers-color-scheme", "value": scheme}]})
+            "features": [{"name": "prefers-color-scheme", "value": scheme},
+                         {"name": "prefers-reduced-motion", "value": "reduce"}]})
 
     def open(self, fragment=""):
         self.driver.get("about:blank")
@@ -120,12 +123,13 @@ class Page:
     def all(self, selector):
         return self.js("return [...document.querySelectorAll(arguments[0])]", selector)
 
-    def settle(self, frames=4, pause_ms=60):
-        """Waits until the page has drawn that many times after a pause."""
+    def settle(self, frames=4):
+        """Waits for that many frames. Observers and debounced painting of a page take at
+        most one frame each."""
         self.driver.execute_async_script(
-            "const done = arguments[2]; let left = arguments[0];"
+            "const done = arguments[1]; let left = arguments[0];"
             "const step = () => left-- > 0 ? requestAnimationFrame(step) : done();"
-            "setTimeout(step, arguments[1]);", frames, pause_ms)
+            "step();", frames)
 
     def show(self, selector):
         self.js("document.querySelector(arguments[0])"
@@ -133,13 +137,24 @@ class Page:
         self.settle()
 
     def scroll_through(self):
-        """Everything that draws itself when it comes near the screen, does."""
-        self.js("document.documentElement.style.scrollBehavior = 'auto'")
-        height, step = self.js("return [document.documentElement.scrollHeight, innerHeight]")
-        for y in range(0, height, step):
-            self.js("scrollTo(0, arguments[0])", y)
-            self.settle(2, 0)
-        self.js("scrollTo(0, 0)")
+        """Scrolls to the end and back, so that everything draws itself that does so when it
+        comes near the screen."""
+        self.driver.execute_async_script("""
+            const done = arguments[0], root = document.documentElement;
+            const frame = () => new Promise(requestAnimationFrame);
+            (async () => {
+              for (let y = 0; y < root.scrollHeight; y += innerHeight) {
+                scrollTo(0, y);
+                await frame(), await frame();
+              }
+              scrollTo(0, 0);
+              for (let i = 0; i < 4; ++i) await frame();
+            })().then(done);""")
+
+    def draw_all(self):
+        """Draws everything at once, as before printing."""
+        self.js("dispatchEvent(new Event('beforeprint'));"
+                "dispatchEvent(new Event('afterprint'))")
         self.settle()
 
     def click(self, selector, index=0):

@@ -1,5 +1,6 @@
 """What all checks of the report share."""
 
+import functools
 import json
 import os
 
@@ -8,8 +9,9 @@ STATES = []  # functions of the page: the ways in which common_checks look at it
 NAMES = []  # texts that could be taken for markup, which some state shows
 
 
+@functools.cache
 def data(page):
-    """The numbers that the page holds."""
+    """Returns the numbers that the page holds."""
     return json.loads(page.js("return document.getElementById('study').textContent"))
 
 

@@ -11,13 +11,25 @@ def states(page):
     for number, enter in enumerate(STATES or [lambda _: None]):
         page.open()
         enter(page)
-        page.settle()
-        page.scroll_through()
+        page.draw_all()
         yield number
 
 
+def require_width(page, width, height, where):
+    page.resize(width, height, mobile=width < 500)
+    page.settle()
+    full = page.js("return document.documentElement.scrollWidth")
+    wide = page.js("""
+        return [...document.querySelectorAll('main *')].filter((e) =>
+          e.getBoundingClientRect().right > innerWidth + 1 &&
+          !e.closest('.scroll') && !e.closest('svg'))
+          .slice(0, 3).map((e) => e.className || e.tagName)""")
+    require(full <= width, "at", width, where, "is", full, "wide:", wide)
+
+
 @check
-def names_are_text_and_what_is_unknown_is_not_told(page):
+def every_state_shows_names_as_text_and_fits_a_phone(page):
+    """Numbers that are unknown are not shown."""
     missing = set(NAMES)
     for number in states(page):
         require(not page.all("main script, main b b, main b i, .tile b"), "markup from a name")
@@ -33,6 +45,8 @@ def names_are_text_and_what_is_unknown_is_not_told(page):
               [...e.attributes].some((a) => /NaN|undefined|null|Infinity/.test(a.value)))
               .slice(0, 3).map((e) => e.outerHTML)""")
         require(not wrong, "state", number, "draws", wrong)
+        require_width(page, 360, 740, f"state {number}")
+        page.resize(1280, 900)
     require(not missing, "is not shown:", missing)
 
 
@@ -40,16 +54,9 @@ def names_are_text_and_what_is_unknown_is_not_told(page):
 def nothing_is_wider_than_the_window(page):
     for width, height in ((360, 740), (390, 844), (1440, 900), (1920, 1080)):
         page.resize(width, height, mobile=width < 500)
-        for number in states(page):
-            full = page.js("return document.documentElement.scrollWidth")
-            wide = page.js("""
-                return [...document.querySelectorAll('main *')].filter((e) =>
-                  e.getBoundingClientRect().right > innerWidth + 1 &&
-                  !e.closest('.scroll') && !e.closest('svg'))
-                  .slice(0, 3).map((e) => e.className || e.tagName)""")
-            require(full <= width, "at", width, "state", number, "is", full, "wide:", wide)
-            if width > 360:  # the narrowest says most
-                break
+        page.open()
+        page.draw_all()
+        require_width(page, width, height, "when opened")
 
 
 @check

@@ -2,6 +2,7 @@
 
 import importlib
 import sys
+import time
 import traceback
 
 import browser
@@ -9,7 +10,8 @@ import checks
 
 
 def run(page, function):
-    """Whether the check has failed."""
+    """Returns whether the check failed."""
+    start = time.monotonic()
     try:
         page.resize(1280, 900)
         page.prefer("light")
@@ -20,7 +22,7 @@ def run(page, function):
         if not isinstance(error, AssertionError):
             traceback.print_exc()
         return True
-    print("ok    ", function.__name__)
+    print(f"ok     {time.monotonic() - start:5.1f} s  {function.__name__}")
     return False
 
 

@@ -27,17 +27,20 @@ def silent(page, where):
     require(not page.console(), where, "\n".join(page.console()))
 
 
-def check_width(page, width):
-    """Every page fits the screen: what is wider scrolls by itself."""
-    wide = page.js("return document.documentElement.scrollWidth")
-    require(wide <= width, page.driver.current_url, "is", wide, "pixels wide")
+def check_widths(page):
+    """Checks that the page fits every screen: what is wider scrolls by itself."""
+    for width, height in WIDTHS.items():
+        page.resize(width, height, mobile=width < 500)
+        page.settle(1)
+        wide = page.js("return document.documentElement.scrollWidth")
+        require(wide <= width, page.driver.current_url, "is", wide, "pixels wide")
 
 
 def check_menu(page):
     require(page.js("return document.querySelector('.wy-nav-side')"
                     ".getBoundingClientRect().right") <= 0, "the menu is open")
     page.click("#menu")
-    page.settle(pause_ms=400)
+    page.settle(25)
     left = page.js("return document.querySelector('.wy-nav-side').getBoundingClientRect().x")
     require(left >= 0, "the menu does not open:", left)
     page.click("#menu")
@@ -56,7 +59,7 @@ def check_search(page):
     page.js("document.getElementById('search').focus()")
     field = page.find("#search")
     field.send_keys("confidence sequence")
-    page.settle(pause_ms=600)
+    page.settle(40)
     titles = page.js("return [...document.querySelectorAll('#found a')].map((a) => a.href)")
     require(any("live.html" in href for href in titles), "not found:", titles)
     page.driver.get(titles[0])
@@ -88,13 +91,12 @@ def main():
         page = browser.Page(driver, str(site / "index.html"), folder / "screenshots")
         pages = sorted(site.rglob("*.html"))
         require(len(pages) > 20, "pages:", len(pages))
+        for path in pages:
+            page.driver.get(path.resolve().as_uri())
+            check_widths(page)
+            silent(page, path)
         for width, height in WIDTHS.items():
             page.resize(width, height, mobile=width < 500)
-            for path in pages:
-                page.url = path.resolve().as_uri()
-                page.open()
-                silent(page, path)
-                check_width(page, width)
             page.url = (site / "index.html").resolve().as_uri()
             page.open()
             page.screenshot(f"front-{width}")
@@ -104,7 +106,7 @@ def main():
                 check_menu(page)
                 check_tables(page)
                 page.click("#menu")
-                page.settle(pause_ms=400)
+                page.settle(25)
                 page.screenshot(f"menu-{width}")
                 page.click("#menu")
             page.screenshot(f"study-{width}")

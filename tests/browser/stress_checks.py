@@ -12,7 +12,7 @@ def case(page, name):
 def choose(page, name):
     page.js("document.querySelector(`.tile[data-case=\"${arguments[0]}\"]`).click()",
             name)
-    page.settle(30)
+    page.settle()
 
 
 SERIES = ("points=cmj", "points=sobol", "roulette=none")
@@ -158,7 +158,6 @@ def targets_change_everything(page):
     tabs = [tab.text for tab in page.all("#scenes a")]
     require(tabs == ["AVX3", "EMU128"], tabs)
     page.click('[data-target="EMU128"]')
-    page.settle(30)
     require("on EMU128" in page.find("#map h2").text, page.find("#map h2").text)
     numbers = points(page, "strategies", "EMU128", "points=sobol", drawn_only=True)
     ys = [(math.log10(p["seconds"]), c[1]) for p, c in zip(numbers, drawn(page, "cost")[1])]

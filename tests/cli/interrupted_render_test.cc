@@ -27,6 +27,24 @@ std::string BytesOf(const std::string& path) {
   return bytes.str();
 }
 
+// A closed room of long paths: a pass over an image of a million pixels takes ten seconds
+// of processor time, and few samples end an interrupted one.
+std::string WriteSlowScene(const TempDirectory& directory) {
+  return WriteText(directory / "room.pbrt", R"(
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 32 "integer yresolution" 24
+Sampler "independent"
+Integrator "path" "integer maxdepth" 1000
+WorldBegin
+LightSource "point" "rgb I" [1 1 1]
+Material "diffuse" "rgb reflectance" [0.99 0.99 0.99]
+Shape "sphere" "float radius" 2
+)");
+}
+constexpr int kSlowWidth = 1200, kSlowHeight = 800;
+const std::string kSlowResolution = fmt::format("{}x{}", kSlowWidth, kSlowHeight);
+constexpr const char* kLongPaths = "roulette=none,decide=none";
+
 ProcessResult InterruptAt(const std::string& trigger, int number,
                           const std::vector<std::string>& arguments) {
   ProcessOptions interrupt;
@@ -39,16 +57,16 @@ ProcessResult InterruptAt(const std::string& trigger, int number,
 
 TEST_CASE("an interruption before the first pass ends keeps the image", "[cli]") {
   TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  const std::string scene = WriteSlowScene(directory), exr = directory / "keep.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", exr, "--spp", "4"}).exit_code ==
           kExitGood);
   const std::string before = BytesOf(exr);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     INFO("signal " << number);
-    // The first pass of so many pixels takes seconds; a tenth of it is done.
-    const ProcessResult r = InterruptAt(
-        "rendering", number,
-        {"render", scene, "-o", exr, "--png", "--spp", "1", "--resolution", "6000x4000"});
+    const ProcessResult r =
+        InterruptAt("rendering", number,
+                    {"render", scene, "-o", exr, "--png", "--spp", "1", "--resolution",
+                     kSlowResolution, "--strategy", kLongPaths});
     INFO(r.err);
     CHECK(r.exit_code == kExitInterrupted);
     CHECK(BytesOf(exr) == before);
@@ -66,12 +84,12 @@ TEST_CASE("an interruption before the first pass ends keeps the image", "[cli]")
 
 TEST_CASE("an interrupted trial run leaves no image", "[cli]") {
   TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  const std::string scene = WriteSlowScene(directory), exr = directory / "keep.exr";
   const std::string json = directory / "r.json";
   const ProcessResult r =
       InterruptAt("trial run", SIGINT,
                   {"render", scene, "-o", exr, "--json", json, "--spp", "64",
-                   "--resolution", "3000x2000", "--strategy", "decide=pilot"});
+                   "--resolution", kSlowResolution, "--strategy", "decide=pilot"});
   INFO(r.err);
   CHECK(r.exit_code == kExitInterrupted);
   CHECK_THAT(r.err, Contains("stopped before its first sample"));
@@ -79,7 +97,7 @@ TEST_CASE("an interrupted trial run leaves no image", "[cli]") {
   CHECK_FALSE(std::filesystem::exists(json));
   const nlohmann::json report = test::ReadJson(directory / "r.partial.json");
   CHECK(report.at("partial") == true);
-  CHECK(report.at("unsampled_pixels") == 3000 * 2000);
+  CHECK(report.at("unsampled_pixels") == kSlowWidth * kSlowHeight);
   CHECK(report.at("error").is_null());
 }
 
@@ -103,13 +121,13 @@ TEST_CASE("an interruption after the first pass leaves an image without holes", 
 
 TEST_CASE("an interrupted advise keeps the image", "[cli]") {
   TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), exr = directory / "keep.exr";
+  const std::string scene = WriteSlowScene(directory), exr = directory / "keep.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", exr, "--spp", "4"}).exit_code ==
           kExitGood);
   const std::string before = BytesOf(exr);
   const ProcessResult r = InterruptAt(
       "rendering", SIGINT,
-      {"advise", scene, "-o", exr, "--time", "1", "--resolution", "6000x4000"});
+      {"advise", scene, "-o", exr, "--time", "1", "--resolution", kSlowResolution});
   INFO(r.err);
   CHECK(r.exit_code == kExitInterrupted);
   CHECK(BytesOf(exr) == before);
@@ -118,17 +136,16 @@ TEST_CASE("an interrupted advise keeps the image", "[cli]") {
 
 TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {
   TempDirectory directory;
-  const std::string scene = WriteSphereScene(directory), out = directory / "out";
-  const std::string sweep =
-      WriteText(directory / "sweep.toml",
-                fmt::format("[grid]\nscene = \"{}\"\nspp = 1\n"
-                            "resolution = \"6000x4000\"\n",
-                            std::filesystem::path(scene).filename().string()));
+  const std::string scene = WriteSlowScene(directory), out = directory / "out";
+  const std::string sweep = WriteText(directory / "sweep.toml",
+                                      fmt::format("[grid]\nscene = 'room.pbrt'\nspp = 1\n"
+                                                  "strategy = '{}'\nresolution = '{}'\n",
+                                                  kLongPaths, kSlowResolution));
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
       {"1 of 1", {"sweep", sweep, "--out", out + "/sweep"}},
       {"study",
-       {"study", scene, "--out", out + "/study", "--resolution", "6000x4000", "--spp",
-        "1", "--strategies", "default;points=independent"}}};
+       {"study", scene, "--out", out + "/study", "--resolution", kSlowResolution, "--spp",
+        "1", "--strategies", "roulette=none;roulette=none,points=independent"}}};
   std::filesystem::create_directory(out);
   for (const auto& [trigger, arguments] : commands) {
     const ProcessResult r = InterruptAt(trigger, SIGINT, arguments);
@@ -144,10 +161,8 @@ TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {
 TEST_CASE("images of a sweep that do not fit on the disk are kept elsewhere", "[cli]") {
   TempDirectory directory, elsewhere;
   const std::string scene = WriteSphereScene(directory), out = directory / "out";
-  const std::string sweep =
-      WriteText(directory / "sweep.toml",
-                fmt::format("[grid]\nscene = \"{}\"\nspp = [1, 2]\n",
-                            std::filesystem::path(scene).filename().string()));
+  const std::string sweep = WriteText(directory / "sweep.toml",
+                                      "[grid]\nscene = 'sphere.pbrt'\nspp = [1, 2]\n");
   REQUIRE(RunLanelight({"sweep", sweep, "--out", out}).exit_code == kExitGood);
   std::map<std::string, std::string> before;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {

@@ -63,21 +63,27 @@ int Connect(std::uint32_t address, std::uint16_t port, std::uint32_t client = 0)
   return -1;
 }
 
-// What comes back until the connection ends, or `most` bytes; `then` is sent after the
-// first of it.
+struct RequestOptions {
+  // The answer is read until it contains this, if it is not empty.
+  std::string last = {};
+  std::string then = {};     // sent after the first bytes of the answer
+  std::uint32_t client = 0;  // address
+};
+
+// Returns what the server sends until it ends the connection.
 std::string Request(const RunningServer& server, const std::string& text,
-                    std::size_t most = 1 << 22, const std::string& then = "",
-                    std::uint32_t client = 0) {
-  const int fd = Connect(INADDR_LOOPBACK, server.port, client);
+                    const RequestOptions& options = {}) {
+  const int fd = Connect(INADDR_LOOPBACK, server.port, options.client);
   REQUIRE(fd >= 0);
   REQUIRE(send(fd, text.data(), text.size(), MSG_NOSIGNAL) ==
           static_cast<ssize_t>(text.size()));
   std::string answer;
   char buffer[4096];
-  while (answer.size() < most) {
-    const ssize_t n = recv(fd, buffer, std::min(sizeof(buffer), most - answer.size()), 0);
+  while (options.last.empty() || answer.find(options.last) == std::string::npos) {
+    const ssize_t n = recv(fd, buffer, sizeof(buffer), 0);
     if (n <= 0) break;
     answer.append(buffer, static_cast<std::size_t>(n));
+    const std::string& then = options.then;
     if (then.empty() || answer.size() > static_cast<std::size_t>(n)) continue;
     REQUIRE(send(fd, then.data(), then.size(), MSG_NOSIGNAL) > 0);
   }
@@ -113,7 +119,8 @@ TEST_CASE("the page comes to who knows the address, with its rules", "[live]") {
 TEST_CASE("a socket opens for its own page alone", "[live]") {
   const RunningServer server;
   const std::string own = "http://" + server.host;
-  const std::string good = Request(server, UpgradeText(server, own), 200);
+  const std::string good =
+      Request(server, UpgradeText(server, own), {.last = "\r\n\r\n"});
   CHECK(good.rfind("HTTP/1.1 101", 0) == 0);
   // The example of RFC 6455.
   CHECK_THAT(good, Catch::Contains("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="));
@@ -128,7 +135,7 @@ TEST_CASE("what is no request ends with its connection alone", "[live]") {
   // A frame of a socket that claims to be of 2^62 bytes.
   const std::string frame("\x82\xff\x40\0\0\0\0\0\0\0\0\0\0\0", 14);
   const std::string hung_up =
-      Request(server, UpgradeText(server, "http://" + server.host), 1 << 22, frame);
+      Request(server, UpgradeText(server, "http://" + server.host), {.then = frame});
   CHECK_THAT(hung_up, Catch::Contains("101"));
   CHECK(Request(server, GetText(server.path, server.host)).rfind("HTTP/1.1 200", 0) == 0);
 }
@@ -149,8 +156,8 @@ TEST_CASE("one client cannot keep others out", "[live]") {
   }
   CHECK(refused == 2 * kMostConnections - kMostFromOne);
   // 127.0.0.2 of the same machine.
-  const std::string page = Request(server, GetText(server.path, server.host), 1 << 22, "",
-                                   INADDR_LOOPBACK + 1);
+  const std::string page =
+      Request(server, GetText(server.path, server.host), {.client = INADDR_LOOPBACK + 1});
   CHECK(page.rfind("HTTP/1.1 200", 0) == 0);
   for (const int fd : open) close(fd);
 }
@@ -177,8 +184,10 @@ TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
 TEST_CASE("pages are told goodbye", "[live]") {
   RunningServer server;
   std::string all;
-  std::thread reader(
-      [&] { all = Request(server, UpgradeText(server, "http://" + server.host)); });
+  std::thread reader([&] {
+    all = Request(server, UpgradeText(server, "http://" + server.host),
+                  {.last = "\"goodbye\""});
+  });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   server.Stop();
   reader.join();

@@ -7,7 +7,7 @@
 
 namespace lanelight {
 
-inline constexpr int kSyntheticWidth = 192, kSyntheticHeight = 144;
+inline constexpr int kSyntheticWidth = 96, kSyntheticHeight = 72;
 
 /// A lit ball in a room, without noise.
 ReportImage SyntheticReference(const std::string& name);

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSide = 16;  // pixels of a tile
+constexpr int kSide = 8;  // pixels of a tile
 
 Json Around(double value, double relative) {
   const double width = std::abs(value) * relative;

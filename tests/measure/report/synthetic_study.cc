@@ -91,7 +91,7 @@ Json CompleteScene(std::vector<ReportImage>& images) {
 Json SparseScene(std::vector<ReportImage>& images) {
   Json scene = BareScene("one \"repetition\" & <more>");
   scene["counts"] = Json::array({4});
-  scene["crop"] = {8, 0, 100, 100};
+  scene["crop"] = {8, 0, 50, 50};
   scene["reference"] = {{"source", "file"},
                         {"files", {"/data/some/reference.exr"}},
                         {"strategy", nullptr},
