@@ -10,7 +10,7 @@
 #include "kernels/stages.h"
 #include "src/base/image/wavelengths.h"
 #include "src/scene/compile/spectrum_rows.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -235,27 +235,24 @@ void CheckSample(const Finished& f, const Variant& v, std::uint32_t i) {
 }  // namespace
 
 TEST_CASE("invalid samples are counted by kind and written as zero", "[accumulate]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Variant& v : kVariants) {
-      CAPTURE(target, v.sign, v.aov, v.numbers);
-      Finished f(v);
-      f.Run();
-      std::uint64_t counts[4] = {};
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        ++counts[static_cast<int>(VerdictOf(f.kind(i), v))];
-        CheckSample(f, v, i);
-      }
-      CHECK(f.bad().nan == counts[1]);
-      CHECK(f.bad().infinite == counts[2]);
-      CHECK(f.bad().negative == counts[3]);
-      CHECK((counts[1] > 10 && counts[2] > 20 && (counts[3] > 5) == !v.sign));
-      CHECK(VerdictOf(f.kind(kPaths - 1), v) == Verdict::kNan);
-      CHECK(f.AllSlotsFree());
-      CHECK(f.OthersUntouched());
+  const EachTarget target;
+  for (const Variant& v : kVariants) {
+    CAPTURE(v.sign, v.aov, v.numbers);
+    Finished f(v);
+    f.Run();
+    std::uint64_t counts[4] = {};
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      ++counts[static_cast<int>(VerdictOf(f.kind(i), v))];
+      CheckSample(f, v, i);
     }
+    CHECK(f.bad().nan == counts[1]);
+    CHECK(f.bad().infinite == counts[2]);
+    CHECK(f.bad().negative == counts[3]);
+    CHECK((counts[1] > 10 && counts[2] > 20 && (counts[3] > 5) == !v.sign));
+    CHECK(VerdictOf(f.kind(kPaths - 1), v) == Verdict::kNan);
+    CHECK(f.AllSlotsFree());
+    CHECK(f.OthersUntouched());
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a film that keeps spectra is given radiance before exposure, and the triple",
@@ -263,43 +260,39 @@ TEST_CASE("a film that keeps spectra is given radiance before exposure, and the 
   const FeatureSet features = {Feature::kSpectral, Feature::kSpectralFilm,
                                Feature::kFiltered};
   constexpr std::uint32_t kCount = 100;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    CompiledScene scene;
-    scene.spectra = SpectrumRows().Take();
-    WaveFixture fixture(scene, kCapacity);
-    std::vector<float> samples(std::size_t{kStride} * 7, kUntouched);
-    AlignedVector<float> wavelength(kCapacity);
-    fixture.wave.buffer = {samples.data(), kStride};
-    fixture.run.exposure = kExposure;
-    fixture.run.planes = SamplePlanes(features);
-    PathColumns& p = fixture.wave.path;
-    p.wavelength = wavelength.data();
-    p.first_bsdf = nullptr;
-    Queue& done = fixture.wave.queue(QueueId::kDone);
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      done.items[i] = p.output[i] = i;
-      p.l_r[i] = i == 7 ? kNan : 1.0f;
-      p.l_g[i] = 2, p.l_b[i] = 4;
-      p.weight[i] = i % 2 ? -0.5f : 1.0f;
-      // A third of the numbers for each wavelength that glass may leave.
-      const float number = (i % 3 + (i + 0.5f) / kTriples) / 3;
-      wavelength[i] = i % 5 == 0 ? -number : number;
-    }
-    done.size = kCount;
-    fixture.Run(AccumulateStage, features);
-    for (std::uint32_t i = 0; i < kCount; ++i) {
-      CAPTURE(i);
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const float radiance = float(1u << k) * (i % 2 ? -0.5f : 1.0f);
-        CHECK(samples[(3 + k) * kStride + i] == (i == 7 ? 0 : radiance));
-      }
-      CHECK(samples[6 * kStride + i] == float(i));
-    }
-    CHECK(fixture.wave.health.nan == 1);
+  const EachTarget target;
+  CompiledScene scene;
+  scene.spectra = SpectrumRows().Take();
+  WaveFixture fixture(scene, kCapacity);
+  std::vector<float> samples(std::size_t{kStride} * 7, kUntouched);
+  AlignedVector<float> wavelength(kCapacity);
+  fixture.wave.buffer = {samples.data(), kStride};
+  fixture.run.exposure = kExposure;
+  fixture.run.planes = SamplePlanes(features);
+  PathColumns& p = fixture.wave.path;
+  p.wavelength = wavelength.data();
+  p.first_bsdf = nullptr;
+  Queue& done = fixture.wave.queue(QueueId::kDone);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    done.items[i] = p.output[i] = i;
+    p.l_r[i] = i == 7 ? kNan : 1.0f;
+    p.l_g[i] = 2, p.l_b[i] = 4;
+    p.weight[i] = i % 2 ? -0.5f : 1.0f;
+    // A third of the numbers for each wavelength that glass may leave.
+    const float number = (i % 3 + (i + 0.5f) / kTriples) / 3;
+    wavelength[i] = i % 5 == 0 ? -number : number;
   }
-  ForceTarget("");
+  done.size = kCount;
+  fixture.Run(AccumulateStage, features);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    CAPTURE(i);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const float radiance = float(1u << k) * (i % 2 ? -0.5f : 1.0f);
+      CHECK(samples[(3 + k) * kStride + i] == (i == 7 ? 0 : radiance));
+    }
+    CHECK(samples[6 * kStride + i] == float(i));
+  }
+  CHECK(fixture.wave.health.nan == 1);
 }
 
 }  // namespace lanelight

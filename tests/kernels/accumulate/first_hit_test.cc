@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/stages.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -110,44 +110,37 @@ TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
                                  {Feature::kTextures},
                                  {Feature::kTextures, Feature::kVertexNormals},
                                  {Feature::kTextures, Feature::kTexturedColor1}};
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const FeatureSet& features : variants) {
-      CAPTURE(target, features.Has(Feature::kTextures));
-      WaveFixture f(scene, kHitPaths);
-      FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
-      if (!features.Has(Feature::kTexturedColor1)) f.wave.path.color1_r = nullptr;
-      f.Run(AovStage, features);
-      for (std::uint32_t i = 0; i < kHitPaths; ++i) {
-        CheckHit(f.wave.path, scene.materials, i, features);
-      }
+  const EachTarget target;
+  for (const FeatureSet& features : variants) {
+    CAPTURE(features.Has(Feature::kTextures));
+    WaveFixture f(scene, kHitPaths);
+    FillHits(f, static_cast<std::uint32_t>(scene.materials.size()));
+    if (!features.Has(Feature::kTexturedColor1)) f.wave.path.color1_r = nullptr;
+    f.Run(AovStage, features);
+    for (std::uint32_t i = 0; i < kHitPaths; ++i) {
+      CheckHit(f.wave.path, scene.materials, i, features);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("connect: the queued paths gain what their shadow rays carry", "[accumulate]") {
   const CompiledScene scene;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    WaveFixture f(scene, kHitPaths);
-    PathColumns& p = f.wave.path;
-    Queue& shadow = f.wave.queue(QueueId::kShadow);
-    for (std::uint32_t i = 0; i < kHitPaths; ++i) {
-      p.l_r[i] = i, p.l_g[i] = 2 * i, p.l_b[i] = 3 * i;
-      p.sh_r[i] = 1, p.sh_g[i] = 0.5f, p.sh_b[i] = i;
-      if (i % 4 != 2) shadow.items[shadow.size++] = i;
-    }
-    f.Run(ConnectStage, {});
-    for (std::uint32_t i = 0; i < kHitPaths; ++i) {
-      const float lit = i % 4 != 2;
-      CHECK(p.l_r[i] == i + lit);
-      CHECK(p.l_g[i] == 2 * i + 0.5f * lit);
-      CHECK(p.l_b[i] == 3 * i + i * lit);
-    }
+  const EachTarget target;
+  WaveFixture f(scene, kHitPaths);
+  PathColumns& p = f.wave.path;
+  Queue& shadow = f.wave.queue(QueueId::kShadow);
+  for (std::uint32_t i = 0; i < kHitPaths; ++i) {
+    p.l_r[i] = i, p.l_g[i] = 2 * i, p.l_b[i] = 3 * i;
+    p.sh_r[i] = 1, p.sh_g[i] = 0.5f, p.sh_b[i] = i;
+    if (i % 4 != 2) shadow.items[shadow.size++] = i;
   }
-  ForceTarget("");
+  f.Run(ConnectStage, {});
+  for (std::uint32_t i = 0; i < kHitPaths; ++i) {
+    const float lit = i % 4 != 2;
+    CHECK(p.l_r[i] == i + lit);
+    CHECK(p.l_g[i] == 2 * i + 0.5f * lit);
+    CHECK(p.l_b[i] == 3 * i + i * lit);
+  }
 }
 
 }  // namespace lanelight

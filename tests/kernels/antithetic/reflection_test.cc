@@ -5,7 +5,7 @@
 
 #include "kernels/stages.h"
 #include "src/scene/prepare/parameters.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -94,27 +94,23 @@ TEST_CASE("antithetic: odd samples are reflected, in the paired dimensions alone
           "[pairs]") {
   const std::pair<const char*, char> choices[] = {
       {"all", 'a'}, {"pixel", 'p'}, {"light", 'l'}, {"bsdf", 'b'}, {"first-bounce", 'f'}};
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const auto& [choice, letter] : choices) {
-      PairedPaths paths;
-      paths.Run(choice);
-      const PathColumns& p = paths.fixture.wave.path;
-      for (std::size_t c = 0; c < std::size(kColumns); ++c) {
-        const Column& column = kColumns[c];
-        const bool paired =
-            std::string(column.paired_by).find(letter) != std::string::npos;
-        for (std::uint32_t i = 0; i < kPaths; ++i) {
-          CAPTURE(target, choice, c, i, p.sample[i], p.depth[i]);
-          const bool odd = p.sample[i] % 2 == 1 && !PairedPaths::Left(i);
-          const bool at_depth = letter != 'f' || p.depth[i] == 0;
-          const Change change = paired && odd && at_depth ? column.change : Change::kNone;
-          REQUIRE((p.*column.column)[i] == Expected(paths.before[c][i], change));
-        }
+  const EachTarget target;
+  for (const auto& [choice, letter] : choices) {
+    PairedPaths paths;
+    paths.Run(choice);
+    const PathColumns& p = paths.fixture.wave.path;
+    for (std::size_t c = 0; c < std::size(kColumns); ++c) {
+      const Column& column = kColumns[c];
+      const bool paired = std::string(column.paired_by).find(letter) != std::string::npos;
+      for (std::uint32_t i = 0; i < kPaths; ++i) {
+        CAPTURE(choice, c, i, p.sample[i], p.depth[i]);
+        const bool odd = p.sample[i] % 2 == 1 && !PairedPaths::Left(i);
+        const bool at_depth = letter != 'f' || p.depth[i] == 0;
+        const Change change = paired && odd && at_depth ? column.change : Change::kNone;
+        REQUIRE((p.*column.column)[i] == Expected(paths.before[c][i], change));
       }
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

@@ -26,7 +26,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "src/scene/prepare/parameters.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -69,40 +69,32 @@ double VeachWeight(double exponent, double mine, double other) {
 }  // namespace
 
 TEST_CASE("the weights of both techniques add up to one", "[directions]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (double exponent : {1.0, 2.0}) {
-      CAPTURE(target, exponent);
-      const Weights w(exponent == 1 ? "directions=mis:balance" : "directions=mis:power");
-      for (int i = 0; i < kPairs; ++i) {
-        const double p = w.light_pdf[i], q = w.bsdf_pdf[i];
-        INFO("densities " << p << " and " << q);
-        // A delta light is found by light samples alone; what is seen after a specular
-        // event, by hits alone.
-        const double of_light = p == 0 ? 1 : q == 0 ? 1 : VeachWeight(exponent, p, q);
-        const double of_hit = q == 0 ? 1 : p == 0 ? 1 : VeachWeight(exponent, q, p);
-        REQUIRE(w.light[i] == Approx(of_light).epsilon(1e-6).margin(kLeast));
-        REQUIRE(w.emission[i] == Approx(of_hit).epsilon(1e-6).margin(kLeast));
-        if (p > 0 && q > 0)
-          REQUIRE(w.light[i] + w.emission[i] == Approx(1).epsilon(1e-6));
-      }
+  const EachTarget target;
+  for (double exponent : {1.0, 2.0}) {
+    CAPTURE(exponent);
+    const Weights w(exponent == 1 ? "directions=mis:balance" : "directions=mis:power");
+    for (int i = 0; i < kPairs; ++i) {
+      const double p = w.light_pdf[i], q = w.bsdf_pdf[i];
+      INFO("densities " << p << " and " << q);
+      // A delta light is found by light samples alone; what is seen after a specular
+      // event, by hits alone.
+      const double of_light = p == 0 ? 1 : q == 0 ? 1 : VeachWeight(exponent, p, q);
+      const double of_hit = q == 0 ? 1 : p == 0 ? 1 : VeachWeight(exponent, q, p);
+      REQUIRE(w.light[i] == Approx(of_light).epsilon(1e-6).margin(kLeast));
+      REQUIRE(w.emission[i] == Approx(of_hit).epsilon(1e-6).margin(kLeast));
+      if (p > 0 && q > 0) REQUIRE(w.light[i] + w.emission[i] == Approx(1).epsilon(1e-6));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("directions=light leaves nothing to hits, and everything to samples",
           "[directions]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    const Weights w("directions=light");
-    for (int i = 0; i < kPairs; ++i) {
-      REQUIRE(w.light[i] == 1);
-      REQUIRE(w.emission[i] == (w.bsdf_pdf[i] == 0 ? 1 : 0));
-    }
+  const EachTarget target;
+  const Weights w("directions=light");
+  for (int i = 0; i < kPairs; ++i) {
+    REQUIRE(w.light[i] == 1);
+    REQUIRE(w.emission[i] == (w.bsdf_pdf[i] == 0 ? 1 : 0));
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

@@ -6,15 +6,14 @@
 #include <numbers>
 
 #include "kernels/stages.h"
-#include "src/base/stat/hypothesis.h"
-#include "tests/kernels/shade/probe_batch.h"
+#include "tests/kernels/shade/moments.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {
 
 constexpr std::uint32_t kPaths = (1 << 14) - 3;  // never a multiple of a vector
-constexpr int kMoments = 4;
 const FeatureSet kFeatures = {Feature::kUniformDirections, Feature::kScatters};
 
 // In the order of ShadeKind.
@@ -92,56 +91,12 @@ struct Bounces {
   }
 };
 
-double Moment(int which, Vec3d w) {
-  const double shapes[] = {1, w.z, w.z * w.z, w.x + 0.5 * w.y * w.z};
-  return shapes[which];
-}
-
-struct Sums {
-  double n = 0, sum[kMoments][3] = {}, squares[kMoments][3] = {};
-  void Add(Rgb weight, Vec3d wi) {
-    n += 1;
-    for (int m = 0; m < kMoments; ++m) {
-      for (int c = 0; c < 3; ++c) {
-        const double v = weight[c] == 0 ? 0 : weight[c] * Moment(m, wi);
-        sum[m][c] += v, squares[m][c] += v * v;
-      }
-    }
-  }
-  stat::MeanEstimate Estimate(int m, int c) const {
-    const double mean = sum[m][c] / n;
-    return {mean, std::max(0., squares[m][c] / n - mean * mean) / (n - 1), n - 1};
-  }
-};
-
-Sums Reference(const TestMaterial& material, Vec3d wo) {
-  reference::Random random(89);
-  Sums sums;
-  for (std::uint32_t i = 0; i < 1 << 15; ++i) {
-    const auto sample = reference::SampleBsdf(material.local, wo, random);
-    sums.Add(sample ? sample->weight : Rgb{}, sample ? sample->wi : Vec3d{0, 0, 1});
-  }
-  return sums;
-}
-
 Sums SumsOf(const Bounces& bounces, double factor) {
   Sums sums;
   for (std::uint32_t i = 0; i < kPaths; ++i) {
     sums.Add(bounces.Beta(i) * factor, bounces.Wi(i));
   }
   return sums;
-}
-
-// Tables and single precision: differences of 0.002 do not count.
-double LowestP(const Sums& a, const Sums& b) {
-  double lowest = 1;
-  for (int m = 0; m < kMoments; ++m) {
-    for (int c = 0; c < 3; ++c) {
-      const double p = stat::WelchPValue(a.Estimate(m, c), b.Estimate(m, c), 2e-3);
-      lowest = std::min(lowest, p);
-    }
-  }
-  return lowest;
 }
 
 std::vector<const TestMaterial*> Materials() {
@@ -155,90 +110,89 @@ std::vector<const TestMaterial*> Materials() {
 }  // namespace
 
 TEST_CASE("uniform: throughput times density is f cos, path by path", "[directions]") {
-  ForEachTarget([](const std::string& target) {
-    for (const TestMaterial* m : Materials()) {
-      if (IsWalk(m->kind)) continue;
-      for (Vec3d wo : TestDirections(target)) {
-        const Bounces bounces(*m, wo);
-        reference::Random random(97);
-        double worst = 0, mean = 0;
-        for (std::uint32_t i = 0; i < kPaths; ++i) {
-          const Vec3d wi = Normalize(bounces.Wi(i));
-          const Rgb want = reference::EvaluateCos(m->local, Normalize(wo), wi, random);
-          for (int c = 0; c < 3; ++c) {
-            const double got = bounces.Beta(i)[c] * Density(m->kind);
-            const double error = std::abs(got - want[c]) / (std::abs(want[c]) + 1e-4);
-            worst = std::max(worst, error);
-            mean += error / (3. * kPaths);
-          }
+  const EachTarget target;
+  for (const TestMaterial* m : Materials()) {
+    if (IsWalk(m->kind)) continue;
+    for (Vec3d wo : TestDirections(target.name())) {
+      const Bounces bounces(*m, wo);
+      reference::Random random(97);
+      double worst = 0, mean = 0;
+      for (std::uint32_t i = 0; i < kPaths; ++i) {
+        const Vec3d wi = Normalize(bounces.Wi(i));
+        const Rgb want = reference::EvaluateCos(m->local, Normalize(wo), wi, random);
+        for (int c = 0; c < 3; ++c) {
+          const double got = bounces.Beta(i)[c] * Density(m->kind);
+          const double error = std::abs(got - want[c]) / (std::abs(want[c]) + 1e-4);
+          worst = std::max(worst, error);
+          mean += error / (3. * kPaths);
         }
-        INFO(target << ", " << m->name << ", wo.z = " << wo.z);
-        // The worst is near total reflection, where what gets through is one minus a
-        // reflectance close to one: off by rounding errors of one.
-        CHECK(worst < 5e-3);
-        CHECK(mean < 2e-5);
       }
+      INFO(m->name << ", wo.z = " << wo.z);
+      // The worst is near total reflection, where what gets through is one minus a
+      // reflectance close to one: off by rounding errors of one.
+      CHECK(worst < 5e-3);
+      CHECK(mean < 2e-5);
     }
-  });
+  }
 }
 
 TEST_CASE("uniform: directions are even, on the side of wo or on both", "[directions]") {
   const auto materials = Materials();
   const double n = kPaths;
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial* m : materials) {
-      if (HasSpecularLobe(m->kind)) continue;
-      const Vec3d wo = Normalize(Vec3d{0.3, -0.2, -0.8});
-      const Bounces bounces(*m, wo);
-      Vec3d sum;
-      double squares = 0, above = 0;
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        const Vec3d wi = bounces.Wi(i);
-        sum += Vec3d{wi.x, wi.y, std::abs(wi.z)};
-        squares += wi.z * wi.z;
-        above += wi.z > 0;
-      }
-      INFO(target << ", " << m->name);
-      // Means of coordinates that are uniform in height: variances 1/3, 1/3, 1/12 and,
-      // of the square of the height, 4/45. Five standard errors.
-      CHECK(std::abs(sum.x / n) < 5 * std::sqrt(1 / 3. / n));
-      CHECK(std::abs(sum.y / n) < 5 * std::sqrt(1 / 3. / n));
-      CHECK(std::abs(sum.z / n - 0.5) < 5 * std::sqrt(1 / 12. / n));
-      CHECK(std::abs(squares / n - 1 / 3.) < 5 * std::sqrt(4 / 45. / n));
-      if (Transmits(m->kind)) {
-        CHECK(std::abs(above / n - 0.5) < 5 * std::sqrt(0.25 / n));
-      } else {
-        CHECK(above == 0);
-      }
+  const EachTarget target;
+  for (const TestMaterial* m : materials) {
+    if (HasSpecularLobe(m->kind)) continue;
+    const Vec3d wo = Normalize(Vec3d{0.3, -0.2, -0.8});
+    const Bounces bounces(*m, wo);
+    Vec3d sum;
+    double squares = 0, above = 0;
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      const Vec3d wi = bounces.Wi(i);
+      sum += Vec3d{wi.x, wi.y, std::abs(wi.z)};
+      squares += wi.z * wi.z;
+      above += wi.z > 0;
     }
-  });
+    INFO(m->name);
+    // Means of coordinates that are uniform in height: variances 1/3, 1/3, 1/12 and,
+    // of the square of the height, 4/45. Five standard errors.
+    CHECK(std::abs(sum.x / n) < 5 * std::sqrt(1 / 3. / n));
+    CHECK(std::abs(sum.y / n) < 5 * std::sqrt(1 / 3. / n));
+    CHECK(std::abs(sum.z / n - 0.5) < 5 * std::sqrt(1 / 12. / n));
+    CHECK(std::abs(squares / n - 1 / 3.) < 5 * std::sqrt(4 / 45. / n));
+    if (Transmits(m->kind)) {
+      CHECK(std::abs(above / n - 0.5) < 5 * std::sqrt(0.25 / n));
+    } else {
+      CHECK(above == 0);
+    }
+  }
 }
 
 TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
           "[directions][stat]") {
   const auto materials = Materials();
-  std::vector<std::vector<Sums>> reference;
-  for (const TestMaterial* m : materials) {
+  static std::vector<std::vector<Sums>> reference;  // the same for all targets
+  for (std::size_t i = reference.size(); i < materials.size(); ++i) {
     reference.emplace_back();
-    for (Vec3d wo : TestDirections()) reference.back().push_back(Reference(*m, wo));
+    for (Vec3d wo : TestDirections()) {
+      reference.back().push_back(ReferenceSums(*materials[i], wo));
+    }
   }
   const int tests = static_cast<int>(materials.size() * TestDirections().size() *
                                      AvailableTargets().size()) *
                     kMoments * 3;
   const double level = stat::SidakLevel(1e-3, tests);
   double least_wrong = 0;
-  ForEachTarget([&](const std::string& target) {
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-      double wrong = 1;
-      for (std::size_t d = 0; d < TestDirections().size(); ++d) {
-        const Bounces bounces(*materials[i], TestDirections()[d]);
-        INFO(target << ", " << materials[i]->name << ", direction " << d);
-        CHECK(LowestP(SumsOf(bounces, 1), reference[i][d]) > level);
-        wrong = std::min(wrong, LowestP(SumsOf(bounces, 1.5), reference[i][d]));
-      }
-      least_wrong = std::max(least_wrong, wrong);
+  const EachTarget target;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    double wrong = 1;
+    for (std::size_t d = 0; d < TestDirections().size(); ++d) {
+      const Bounces bounces(*materials[i], TestDirections()[d]);
+      INFO(materials[i]->name << ", direction " << d);
+      CHECK(LowestP(SumsOf(bounces, 1), reference[i][d]) > level);
+      wrong = std::min(wrong, LowestP(SumsOf(bounces, 1.5), reference[i][d]));
     }
-  });
+    least_wrong = std::max(least_wrong, wrong);
+  }
   // A weight that is off by half is found in every material; the density of the sphere in
   // place of the hemisphere's would be off by two.
   CHECK(least_wrong < 1e-6);

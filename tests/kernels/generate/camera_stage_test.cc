@@ -9,7 +9,7 @@
 
 #include "kernels/stages.h"
 #include "src/scene/compile/camera.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -125,26 +125,23 @@ Position OnFilm(const Shot& shot, std::uint32_t i, const Filter& box) {
 
 TEST_CASE("camera rays without a lens are the reference's", "[generate]") {
   const Filter box = BoxFilter(0.5, 1.25);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const View& view : kViews) {
-      if (view.lens_radius > 0) continue;
-      CAPTURE(target, view.name);
-      const Shot shot(view, box);
-      reference::Random unused(1);
-      double origin = 0, direction = 0;
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        const Position at = OnFilm(shot, i, box);
-        const reference::Ray ray =
-            reference::CameraRay(shot.camera, shot.film, at.x, at.y, unused);
-        origin = std::max(origin, Length(shot.Origin(i) - ray.o));
-        direction = std::max(direction, Length(shot.Direction(i) - ray.d));
-      }
-      CHECK(origin < 2e-6);
-      CHECK(direction < 1e-6);
+  const EachTarget target;
+  for (const View& view : kViews) {
+    if (view.lens_radius > 0) continue;
+    CAPTURE(view.name);
+    const Shot shot(view, box);
+    reference::Random unused(1);
+    double origin = 0, direction = 0;
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      const Position at = OnFilm(shot, i, box);
+      const reference::Ray ray =
+          reference::CameraRay(shot.camera, shot.film, at.x, at.y, unused);
+      origin = std::max(origin, Length(shot.Origin(i) - ray.o));
+      direction = std::max(direction, Length(shot.Direction(i) - ray.d));
     }
+    CHECK(origin < 2e-6);
+    CHECK(direction < 1e-6);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("rays through a lens start on it, evenly, and meet in focus", "[generate]") {
@@ -152,115 +149,103 @@ TEST_CASE("rays through a lens start on it, evenly, and meet in focus", "[genera
   const View& view = kViews[2];
   View pinhole = view;
   pinhole.lens_radius = 0;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    const Shot shot(view, box);
-    const Camera sharp = Describe(pinhole);
-    reference::Random unused(1);
-    double off_focus = 0, off_lens = 0;
-    double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
-      const Position at = OnFilm(shot, i, box);
-      const reference::Ray ray =
-          reference::CameraRay(sharp, shot.film, at.x, at.y, unused);
-      const Vec3d local = sharp.world_from_camera.Inverse().Vector(ray.d);
-      const Vec3d focus = local * (6 / local.z);
-      const Vec3d o = shot.LocalOrigin(i), d = shot.LocalDirection(i);
-      off_focus = std::max(off_focus, Length(o + d * ((6 - o.z) / d.z) - focus));
-      off_lens = std::max(off_lens, std::hypot(o.x, o.y) - view.lens_radius);
-      CHECK(std::abs(o.z) < 1e-5);
-      const double lx = o.x / view.lens_radius, ly = o.y / view.lens_radius;
-      x += lx, y += ly, xx += lx * lx, yy += ly * ly, xy += lx * ly;
-    }
-    CHECK(off_focus < 2e-5);
-    CHECK(off_lens < 1e-5);
-    // Moments of the uniform unit disk: E[x^2] = 1/4, E[x^4] = 1/8, E[x^2 y^2] = 1/24.
-    // Five standard errors.
-    const double n = kPaths;
-    CHECK(std::abs(x / n) < 5 * std::sqrt(0.25 / n));
-    CHECK(std::abs(y / n) < 5 * std::sqrt(0.25 / n));
-    CHECK(std::abs(xx / n - 0.25) < 5 * std::sqrt(1 / 16. / n));
-    CHECK(std::abs(yy / n - 0.25) < 5 * std::sqrt(1 / 16. / n));
-    CHECK(std::abs(xy / n) < 5 * std::sqrt(1 / 24. / n));
+  const EachTarget target;
+  const Shot shot(view, box);
+  const Camera sharp = Describe(pinhole);
+  reference::Random unused(1);
+  double off_focus = 0, off_lens = 0;
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    const Position at = OnFilm(shot, i, box);
+    const reference::Ray ray = reference::CameraRay(sharp, shot.film, at.x, at.y, unused);
+    const Vec3d local = sharp.world_from_camera.Inverse().Vector(ray.d);
+    const Vec3d focus = local * (6 / local.z);
+    const Vec3d o = shot.LocalOrigin(i), d = shot.LocalDirection(i);
+    off_focus = std::max(off_focus, Length(o + d * ((6 - o.z) / d.z) - focus));
+    off_lens = std::max(off_lens, std::hypot(o.x, o.y) - view.lens_radius);
+    CHECK(std::abs(o.z) < 1e-5);
+    const double lx = o.x / view.lens_radius, ly = o.y / view.lens_radius;
+    x += lx, y += ly, xx += lx * lx, yy += ly * ly, xy += lx * ly;
   }
-  ForceTarget("");
+  CHECK(off_focus < 2e-5);
+  CHECK(off_lens < 1e-5);
+  // Moments of the uniform unit disk: E[x^2] = 1/4, E[x^4] = 1/8, E[x^2 y^2] = 1/24.
+  // Five standard errors.
+  const double n = kPaths;
+  CHECK(std::abs(x / n) < 5 * std::sqrt(0.25 / n));
+  CHECK(std::abs(y / n) < 5 * std::sqrt(0.25 / n));
+  CHECK(std::abs(xx / n - 0.25) < 5 * std::sqrt(1 / 16. / n));
+  CHECK(std::abs(yy / n - 0.25) < 5 * std::sqrt(1 / 16. / n));
+  CHECK(std::abs(xy / n) < 5 * std::sqrt(1 / 24. / n));
 }
 
 TEST_CASE("film positions follow the filter, with its sign as weight", "[generate]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (FilterKind kind : {FilterKind::kTriangle, FilterKind::kGaussian,
-                            FilterKind::kMitchell, FilterKind::kLanczos}) {
-      CAPTURE(target, static_cast<int>(kind));
-      Filter filter = BoxFilter(2, 1.5);
-      filter.kind = kind;
-      const View& view = kViews[3];  // of an orthographic camera: linear in the position
-      const Shot shot(view, filter);
-      const PathColumns& p = shot.fixture.wave.path;
-      // Estimates of the integrals of (f / integral of f) times 1, x^2, y^2.
-      double estimate[3] = {}, squares[3] = {}, exact[3] = {1, 0, 0};
-      const double per_pixel = 2.0 / kHeight;  // the shorter side spans two units
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        const Vec3d o = shot.LocalOrigin(i);
-        const double dx = o.x / per_pixel + kWidth / 2. - (i % kWidth + 0.5);
-        const double dy = kHeight / 2. - o.y / per_pixel - (i / kWidth + 0.5);
-        REQUIRE(std::abs(dx) <= filter.x_radius + 1e-4);
-        REQUIRE(std::abs(dy) <= filter.y_radius + 1e-4);
-        const double values[3] = {1, dx * dx, dy * dy};
-        for (int k = 0; k < 3; ++k) {
-          const double v = values[k] * p.weight[i];
-          estimate[k] += v / kPaths, squares[k] += v * v / kPaths;
-        }
-      }
-      for (int axis = 1; axis <= 2; ++axis) {
-        const double radius = axis == 1 ? filter.x_radius : filter.y_radius;
-        double sum = 0, norm = 0;
-        for (int i = 0; i < 4000; ++i) {
-          const double t = radius * (2 * (i + 0.5) / 4000 - 1);
-          const double f = EvaluateFilter(filter, radius, t);
-          norm += f, sum += f * t * t;
-        }
-        exact[axis] = sum / norm;
-      }
+  const EachTarget target;
+  for (FilterKind kind : {FilterKind::kTriangle, FilterKind::kGaussian,
+                          FilterKind::kMitchell, FilterKind::kLanczos}) {
+    CAPTURE(static_cast<int>(kind));
+    Filter filter = BoxFilter(2, 1.5);
+    filter.kind = kind;
+    const View& view = kViews[3];  // of an orthographic camera: linear in the position
+    const Shot shot(view, filter);
+    const PathColumns& p = shot.fixture.wave.path;
+    // Estimates of the integrals of (f / integral of f) times 1, x^2, y^2.
+    double estimate[3] = {}, squares[3] = {}, exact[3] = {1, 0, 0};
+    const double per_pixel = 2.0 / kHeight;  // the shorter side spans two units
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      const Vec3d o = shot.LocalOrigin(i);
+      const double dx = o.x / per_pixel + kWidth / 2. - (i % kWidth + 0.5);
+      const double dy = kHeight / 2. - o.y / per_pixel - (i / kWidth + 0.5);
+      REQUIRE(std::abs(dx) <= filter.x_radius + 1e-4);
+      REQUIRE(std::abs(dy) <= filter.y_radius + 1e-4);
+      const double values[3] = {1, dx * dx, dy * dy};
       for (int k = 0; k < 3; ++k) {
-        const double variance = squares[k] - estimate[k] * estimate[k];
-        INFO("integral " << k);
-        // Five standard errors, and the width of the filter's tables.
-        CHECK(std::abs(estimate[k] - exact[k]) <=
-              5 * std::sqrt(std::max(variance, 0.0) / kPaths) + 2e-3);
+        const double v = values[k] * p.weight[i];
+        estimate[k] += v / kPaths, squares[k] += v * v / kPaths;
       }
     }
+    for (int axis = 1; axis <= 2; ++axis) {
+      const double radius = axis == 1 ? filter.x_radius : filter.y_radius;
+      double sum = 0, norm = 0;
+      for (int i = 0; i < 4000; ++i) {
+        const double t = radius * (2 * (i + 0.5) / 4000 - 1);
+        const double f = EvaluateFilter(filter, radius, t);
+        norm += f, sum += f * t * t;
+      }
+      exact[axis] = sum / norm;
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double variance = squares[k] - estimate[k] * estimate[k];
+      INFO("integral " << k);
+      // Five standard errors, and the width of the filter's tables.
+      CHECK(std::abs(estimate[k] - exact[k]) <=
+            5 * std::sqrt(std::max(variance, 0.0) / kPaths) + 2e-3);
+    }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a path begins with nothing gathered and its whole throughput", "[generate]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Shot shot(kViews[0], BoxFilter(0.5, 0.5));
-    const PathColumns& p = shot.fixture.wave.path;
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
-      for (const float* one : {p.beta_r, p.beta_g, p.beta_b, p.eta_scale}) {
-        REQUIRE(one[i] == 1);
-      }
-      for (const float* zero : {p.l_r, p.l_g, p.l_b, p.bsdf_pdf, p.aov_albedo_r,
-                                p.aov_albedo_g, p.aov_albedo_b, p.aov_n_x, p.aov_n_y,
-                                p.aov_n_z, p.aov_depth, p.gb_hit, p.gb_p_x, p.gb_dz_1}) {
-        REQUIRE(zero[i] == 0);
-      }
-      for (const std::uint32_t* none : {p.first_bsdf, p.first_light, p.choices}) {
-        REQUIRE(none[i] == 0);
-      }
-      REQUIRE(p.t[i] == std::numeric_limits<float>::infinity());
-      REQUIRE(p.prim[i] == kNoPrimitive);
+  const EachTarget target;
+  Shot shot(kViews[0], BoxFilter(0.5, 0.5));
+  const PathColumns& p = shot.fixture.wave.path;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    for (const float* one : {p.beta_r, p.beta_g, p.beta_b, p.eta_scale}) {
+      REQUIRE(one[i] == 1);
     }
-    const Queue& active = shot.fixture.wave.queue(QueueId::kActive);
-    REQUIRE(active.size == kPaths);
-    for (std::uint32_t i = 0; i < kPaths; ++i) REQUIRE(active.items[i] == i);
+    for (const float* zero :
+         {p.l_r, p.l_g, p.l_b, p.bsdf_pdf, p.aov_albedo_r, p.aov_albedo_g, p.aov_albedo_b,
+          p.aov_n_x, p.aov_n_y, p.aov_n_z, p.aov_depth, p.gb_hit, p.gb_p_x, p.gb_dz_1}) {
+      REQUIRE(zero[i] == 0);
+    }
+    for (const std::uint32_t* none : {p.first_bsdf, p.first_light, p.choices}) {
+      REQUIRE(none[i] == 0);
+    }
+    REQUIRE(p.t[i] == std::numeric_limits<float>::infinity());
+    REQUIRE(p.prim[i] == kNoPrimitive);
   }
-  ForceTarget("");
+  const Queue& active = shot.fixture.wave.queue(QueueId::kActive);
+  REQUIRE(active.size == kPaths);
+  for (std::uint32_t i = 0; i < kPaths; ++i) REQUIRE(active.items[i] == i);
 }
 
 }  // namespace lanelight

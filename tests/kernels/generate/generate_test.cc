@@ -7,7 +7,7 @@
 
 #include "kernels/stages.h"
 #include "src/scene/prepare/tables.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -127,23 +127,20 @@ constexpr Task kTasks[] = {
 }  // namespace
 
 TEST_CASE("generate: every sample of every pixel is started once", "[generate]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Task& task : kTasks) {
-      CAPTURE(target, task.capacity, task.samples, task.together, task.splits);
-      Starter starter(task);
-      int idle = 0;
-      while (!starter.Done() && idle < 2) {
-        const bool any = starter.Step();
-        idle = any ? 0 : idle + 1;
-        starter.End(!any);
-      }
-      CHECK(starter.Done());
-      CHECK(starter.started() == std::size_t{task.pixels} * task.samples);
-      CHECK_FALSE(starter.Step());
+  const EachTarget target;
+  for (const Task& task : kTasks) {
+    CAPTURE(task.capacity, task.samples, task.together, task.splits);
+    Starter starter(task);
+    int idle = 0;
+    while (!starter.Done() && idle < 2) {
+      const bool any = starter.Step();
+      idle = any ? 0 : idle + 1;
+      starter.End(!any);
     }
+    CHECK(starter.Done());
+    CHECK(starter.started() == std::size_t{task.pixels} * task.samples);
+    CHECK_FALSE(starter.Step());
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

@@ -5,7 +5,7 @@
 #include "src/base/core/check.h"
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -73,48 +73,40 @@ void CheckShares(const Geometry& g, const std::vector<StageOn>& closest,
 }  // namespace
 
 TEST_CASE("a cut-out keeps its share of the hits", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Geometry triangles, spheres, disks;
-    AddLayers(triangles.triangles,
-              [](float z) { return MakeTriangle({-2, -2, z}, {2, -2, z}, {0, 3, z}); });
-    CheckShares(triangles, {IntersectTrianglesStage}, {ShadowTrianglesStage});
-    AddLayers(disks.disks, [](float z) { return MakeDisk({0, 0, z}, {0, 0, 1}, 2); });
-    CheckShares(disks, {IntersectDisksStage}, {ShadowDisksStage});
-    AddLayers(spheres.spheres,
-              [](float z) { return MakeSphere({0, 0, 100 + 5 * z}, 100 + 2.5f * z); });
-    CheckShares(spheres, {IntersectSpheresStage}, {ShadowSpheresStage});
-  }
-  ForceTarget("");
+  const EachTarget target;
+  Geometry triangles, spheres, disks;
+  AddLayers(triangles.triangles,
+            [](float z) { return MakeTriangle({-2, -2, z}, {2, -2, z}, {0, 3, z}); });
+  CheckShares(triangles, {IntersectTrianglesStage}, {ShadowTrianglesStage});
+  AddLayers(disks.disks, [](float z) { return MakeDisk({0, 0, z}, {0, 0, 1}, 2); });
+  CheckShares(disks, {IntersectDisksStage}, {ShadowDisksStage});
+  AddLayers(spheres.spheres,
+            [](float z) { return MakeSphere({0, 0, 100 + 5 * z}, 100 + 2.5f * z); });
+  CheckShares(spheres, {IntersectSpheresStage}, {ShadowSpheresStage});
 }
 
 TEST_CASE("a sphere whose near side is cut out is met on its far side", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Geometry g;
-    g.spheres = {MakeSphere({0, 0, 0}, 1)};
-    g.spheres[0].flags = kAlphaTested;
-    for (const std::uint32_t few : {0u, 16u}) {
-      CompiledScene scene = MakeScene(g, {.few_round = few});
-      SetAlpha(scene, 0.5f);
-      Random random(52);
-      int near = 0, far = 0, none = 0;
-      for (const KernelHit& hit : TraceClosest(scene, Downwards(random, 2000),
-                                               {IntersectSpheresStage}, kAlpha)) {
-        if (std::isinf(hit.t)) {
-          ++none;
-        } else {
-          ++(hit.t < 3 ? near : far);
-        }
+  const EachTarget target;
+  Geometry g;
+  g.spheres = {MakeSphere({0, 0, 0}, 1)};
+  g.spheres[0].flags = kAlphaTested;
+  for (const std::uint32_t few : {0u, 16u}) {
+    CompiledScene scene = MakeScene(g, {.few_round = few});
+    SetAlpha(scene, 0.5f);
+    Random random(52);
+    int near = 0, far = 0, none = 0;
+    for (const KernelHit& hit :
+         TraceClosest(scene, Downwards(random, 2000), {IntersectSpheresStage}, kAlpha)) {
+      if (std::isinf(hit.t)) {
+        ++none;
+      } else {
+        ++(hit.t < 3 ? near : far);
       }
-      CHECK(std::abs(near - 1000) < 150);
-      CHECK(std::abs(far - 500) < 130);
-      CHECK(std::abs(none - 500) < 130);
     }
+    CHECK(std::abs(near - 1000) < 150);
+    CHECK(std::abs(far - 500) < 130);
+    CHECK(std::abs(none - 500) < 130);
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

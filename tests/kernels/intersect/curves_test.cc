@@ -6,6 +6,7 @@
 #include "src/scene/accel/curve_pieces.h"
 #include "tests/kernels/intersect/trace.h"
 #include "tests/reference/curves.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -163,22 +164,19 @@ TEST_CASE("curves are hit where the reference hits them", "[intersect][curves]")
   const CurveSet set = RandomCurves(60, 1);
   const CompiledScene scene = MakeScene(set.Records());
   const std::vector<TestRay> rays = RaysAtCurves(set, 20000, 2);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<KernelHit> hits = TraceStrands(scene, rays);
-    int hit = 0, close = 0, wrong = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      hit += !std::isinf(hits[i].t);
-      if (AgreesOnCurve(hits[i], CurveTruth(set, rays[i], 1))) continue;
-      ++close;
-      wrong += !IsOnEdge(set, rays[i], hits[i]);
-    }
-    INFO(target << ": " << hit << " hits, " << close << " decided by roundings");
-    CHECK(hit > 8000);
-    CHECK(close < 100);
-    CHECK(wrong == 0);
+  const EachTarget target;
+  const std::vector<KernelHit> hits = TraceStrands(scene, rays);
+  int hit = 0, close = 0, wrong = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hit += !std::isinf(hits[i].t);
+    if (AgreesOnCurve(hits[i], CurveTruth(set, rays[i], 1))) continue;
+    ++close;
+    wrong += !IsOnEdge(set, rays[i], hits[i]);
   }
-  ForceTarget("");
+  INFO(hit << " hits, " << close << " decided by roundings");
+  CHECK(hit > 8000);
+  CHECK(close < 100);
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("shadow rays are blocked by curves as others hit them", "[intersect][curves]") {
@@ -285,59 +283,55 @@ TEST_CASE("surfaces of curves are those of the reference", "[surface][curves]") 
     scene.geometry.curves[i].material = i;
   }
   const std::vector<TestRay> rays = RaysAtCurves(set, 20000, 7);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
-    fixture.SetRays(rays);
-    fixture.Run(IntersectCurvesStage, {});
-    const PathColumns& p = fixture.wave.path;
-    Queue& surface = fixture.wave.queue(QueueId::kSurface);
-    surface.size = 0;
-    for (std::uint32_t i = 0; i < rays.size(); ++i) {
-      if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
-    }
-    fixture.Run(SurfaceCurveStage, {});
-    CHECK(surface.size > 8000);
-    double worst_p = 0, worst_n = 0, worst_v = 0, worst_u = 0, worst_tangent = 0;
-    int wrong = 0;
-    for (std::uint32_t k = 0; k < surface.size; ++k) {
-      const std::uint32_t i = surface.items[k];
-      const Curve& curve = set.curves[p.prim[i]];
-      reference::Hit hit;
-      hit.t = p.t[i];
-      hit.b1 = p.b1[i];
-      const reference::Ray ray = {VecCast<double>(rays[i].o),
-                                  Normalize(VecCast<double>(rays[i].d))};
-      const auto want = reference::DescribeCurve(curve, ray, hit);
-      wrong += p.material[i] != p.prim[i];
-      const Vec3d tg = {p.tg_x[i], p.tg_y[i], p.tg_z[i]};
-      const Vec3d tv = {p.tv_x[i], p.tv_y[i], p.tv_z[i]};
-      const Vec3d ng = VecCast<double>(fixture.Ng(i));
-      worst_p = std::max(worst_p, Length(VecCast<double>(fixture.P(i)) - want.p));
-      worst_u = std::max(worst_u, std::abs(p.uv_u[i] - want.u));
-      worst_tangent = std::max(worst_tangent, Length(tg - want.dpdu));
-      wrong += ng != VecCast<double>(fixture.Ns(i));
-      // A tangent along the ray, or one that vanishes, leaves the side open.
-      const Vec3d along = Normalize(want.dpdu);
-      const bool ribbon = curve.type == CurveType::kRibbon;
-      if (!ribbon && std::abs(Dot(along, ray.d)) > 0.99) continue;
-      if (ribbon && std::abs(Dot(along, want.ng)) > 0.01) continue;
-      if (Length(want.dpdu) < 0.01 || Length(want.dpdv) < 2e-5) continue;
-      worst_n = std::max(worst_n, Length(ng - want.ng));
-      worst_v = std::max(worst_v, std::abs(p.uv_v[i] - want.v));
-      const double width = Length(want.dpdv);
-      wrong += !(Length(tv - want.dpdv) < 0.05 * width + 1e-6);
-      wrong += !(p.p_error[i] > 0 && p.p_error[i] < 2e-6);
-    }
-    INFO(target);
-    CHECK(wrong == 0);
-    CHECK(worst_p < 1e-6);
-    CHECK(worst_u == 0);
-    CHECK(worst_tangent < 1e-5);
-    CHECK(worst_n < 0.05);
-    CHECK(worst_v < 0.02);
+  const EachTarget target;
+  WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
+  fixture.SetRays(rays);
+  fixture.Run(IntersectCurvesStage, {});
+  const PathColumns& p = fixture.wave.path;
+  Queue& surface = fixture.wave.queue(QueueId::kSurface);
+  surface.size = 0;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
   }
-  ForceTarget("");
+  fixture.Run(SurfaceCurveStage, {});
+  CHECK(surface.size > 8000);
+  double worst_p = 0, worst_n = 0, worst_v = 0, worst_u = 0, worst_tangent = 0;
+  int wrong = 0;
+  for (std::uint32_t k = 0; k < surface.size; ++k) {
+    const std::uint32_t i = surface.items[k];
+    const Curve& curve = set.curves[p.prim[i]];
+    reference::Hit hit;
+    hit.t = p.t[i];
+    hit.b1 = p.b1[i];
+    const reference::Ray ray = {VecCast<double>(rays[i].o),
+                                Normalize(VecCast<double>(rays[i].d))};
+    const auto want = reference::DescribeCurve(curve, ray, hit);
+    wrong += p.material[i] != p.prim[i];
+    const Vec3d tg = {p.tg_x[i], p.tg_y[i], p.tg_z[i]};
+    const Vec3d tv = {p.tv_x[i], p.tv_y[i], p.tv_z[i]};
+    const Vec3d ng = VecCast<double>(fixture.Ng(i));
+    worst_p = std::max(worst_p, Length(VecCast<double>(fixture.P(i)) - want.p));
+    worst_u = std::max(worst_u, std::abs(p.uv_u[i] - want.u));
+    worst_tangent = std::max(worst_tangent, Length(tg - want.dpdu));
+    wrong += ng != VecCast<double>(fixture.Ns(i));
+    // A tangent along the ray, or one that vanishes, leaves the side open.
+    const Vec3d along = Normalize(want.dpdu);
+    const bool ribbon = curve.type == CurveType::kRibbon;
+    if (!ribbon && std::abs(Dot(along, ray.d)) > 0.99) continue;
+    if (ribbon && std::abs(Dot(along, want.ng)) > 0.01) continue;
+    if (Length(want.dpdu) < 0.01 || Length(want.dpdv) < 2e-5) continue;
+    worst_n = std::max(worst_n, Length(ng - want.ng));
+    worst_v = std::max(worst_v, std::abs(p.uv_v[i] - want.v));
+    const double width = Length(want.dpdv);
+    wrong += !(Length(tv - want.dpdv) < 0.05 * width + 1e-6);
+    wrong += !(p.p_error[i] > 0 && p.p_error[i] < 2e-6);
+  }
+  CHECK(wrong == 0);
+  CHECK(worst_p < 1e-6);
+  CHECK(worst_u == 0);
+  CHECK(worst_tangent < 1e-5);
+  CHECK(worst_n < 0.05);
+  CHECK(worst_v < 0.02);
 }
 
 TEST_CASE("rays that leave a straight curve do not meet it", "[surface][curves]") {

@@ -7,7 +7,7 @@
 #include "src/base/core/transform.h"
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -77,47 +77,43 @@ InstancedAndFlat MakePair(Random& random, int instances) {
 }  // namespace
 
 TEST_CASE("instances give the hits of the flattened scene", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(41);
-    for (const int instances : {1, 9, 40}) {
-      const InstancedAndFlat pair = MakePair(random, instances);
-      const CompiledScene instanced = MakeScene(pair.instanced),
-                          flat = MakeScene(pair.flat);
-      std::vector<TestRay> rays;
-      for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
-      const std::vector<StageOn> stages = {IntersectTrianglesStage};
-      const auto a = TraceClosest(instanced, rays, stages, kInstanced);
-      const auto b = TraceClosest(flat, rays, stages);
-      int differ = 0, hits = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        hits += !std::isinf(b[i].t);
-        if (std::isinf(a[i].t) != std::isinf(b[i].t)) {
-          ++differ;  // a ray along an edge may fall on either side after rounding
-          continue;
-        }
-        if (std::isinf(a[i].t)) continue;
-        const bool same =
-            a[i].prim == pair.prim[b[i].prim] && a[i].inst == pair.inst[b[i].prim];
-        differ += !same;
-        if (!same) continue;
-        CAPTURE(i, a[i].prim, a[i].inst);
-        REQUIRE(std::abs(a[i].t - b[i].t) < 1e-4);
-        REQUIRE(std::abs(a[i].b1 - b[i].b1) < 1e-3);
+  const EachTarget target;
+  Random random(41);
+  for (const int instances : {1, 9, 40}) {
+    const InstancedAndFlat pair = MakePair(random, instances);
+    const CompiledScene instanced = MakeScene(pair.instanced),
+                        flat = MakeScene(pair.flat);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
+    const std::vector<StageOn> stages = {IntersectTrianglesStage};
+    const auto a = TraceClosest(instanced, rays, stages, kInstanced);
+    const auto b = TraceClosest(flat, rays, stages);
+    int differ = 0, hits = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      hits += !std::isinf(b[i].t);
+      if (std::isinf(a[i].t) != std::isinf(b[i].t)) {
+        ++differ;  // a ray along an edge may fall on either side after rounding
+        continue;
       }
-      CHECK(hits > 3 * instances);
-      CHECK(differ <= 1);
-      // Any hit agrees with closest hit.
-      std::vector<std::uint32_t> open;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        rays[i].t_max = 1.5f;
-        if (!(a[i].t < rays[i].t_max)) open.push_back(i);
-      }
-      CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage}, kInstanced) == open);
+      if (std::isinf(a[i].t)) continue;
+      const bool same =
+          a[i].prim == pair.prim[b[i].prim] && a[i].inst == pair.inst[b[i].prim];
+      differ += !same;
+      if (!same) continue;
+      CAPTURE(i, a[i].prim, a[i].inst);
+      REQUIRE(std::abs(a[i].t - b[i].t) < 1e-4);
+      REQUIRE(std::abs(a[i].b1 - b[i].b1) < 1e-3);
     }
+    CHECK(hits > 3 * instances);
+    CHECK(differ <= 1);
+    // Any hit agrees with closest hit.
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      rays[i].t_max = 1.5f;
+      if (!(a[i].t < rays[i].t_max)) open.push_back(i);
+    }
+    CHECK(Unoccluded(instanced, rays, {ShadowTrianglesStage}, kInstanced) == open);
   }
-  ForceTarget("");
 }
 
 namespace {
@@ -173,35 +169,32 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
   }
   FeatureSet cut_out = kInstanced;
   cut_out.Add(Feature::kAlpha);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const FeatureSet& features : {kInstanced, cut_out}) {
-      CAPTURE(target, features.Has(Feature::kAlpha));
-      const std::vector<StageOn> closest = {IntersectTrianglesStage};
-      const auto together = TraceClosest(scene, rays, closest, features);
-      const auto hits =
-          std::ranges::count_if(together, [](const auto& h) { return !std::isinf(h.t); });
-      CHECK(hits > 500);
-      CHECK(std::ranges::none_of(together,
-                                 [&](const auto& h) { return copies.contains(h.inst); }));
-      std::vector<std::uint32_t> expected;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        if (std::isinf(together[i].t)) expected.push_back(i);
+  const EachTarget target;
+  for (const FeatureSet& features : {kInstanced, cut_out}) {
+    CAPTURE(features.Has(Feature::kAlpha));
+    const std::vector<StageOn> closest = {IntersectTrianglesStage};
+    const auto together = TraceClosest(scene, rays, closest, features);
+    const auto hits =
+        std::ranges::count_if(together, [](const auto& h) { return !std::isinf(h.t); });
+    CHECK(hits > 500);
+    CHECK(std::ranges::none_of(together,
+                               [&](const auto& h) { return copies.contains(h.inst); }));
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      if (std::isinf(together[i].t)) expected.push_back(i);
+    }
+    CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}, features) == expected);
+    for (const std::size_t company : {1, 6, 37}) {
+      std::vector<KernelHit> apart;
+      for (std::size_t at = 0; at < rays.size(); at += company) {
+        const std::size_t end = std::min(rays.size(), at + company);
+        const auto part = TraceClosest(scene, {rays.begin() + at, rays.begin() + end},
+                                       closest, features);
+        apart.insert(apart.end(), part.begin(), part.end());
       }
-      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}, features) == expected);
-      for (const std::size_t company : {1, 6, 37}) {
-        std::vector<KernelHit> apart;
-        for (std::size_t at = 0; at < rays.size(); at += company) {
-          const std::size_t end = std::min(rays.size(), at + company);
-          const auto part = TraceClosest(scene, {rays.begin() + at, rays.begin() + end},
-                                         closest, features);
-          apart.insert(apart.end(), part.begin(), part.end());
-        }
-        CHECK(apart == together);
-      }
+      CHECK(apart == together);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
@@ -227,16 +220,12 @@ TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
                       Normalize(Vec3f{0.02f, 0.03f, -1} + width * random.Point(1))});
     }
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    for (const KernelHit& hit :
-         TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
-      REQUIRE(hit.prim == 0);
-      REQUIRE(hit.inst == 0);
-    }
+  const EachTarget target;
+  for (const KernelHit& hit :
+       TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
+    REQUIRE(hit.prim == 0);
+    REQUIRE(hit.inst == 0);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a ray that leaves the range of numbers meets no instance", "[intersect]") {
@@ -252,83 +241,71 @@ TEST_CASE("a ray that leaves the range of numbers meets no instance", "[intersec
     rays.push_back({{NAN, 0, 0}, random.Direction()});
     rays.push_back({random.Point(1), {0, NAN, 1}});
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    for (const KernelHit& hit :
-         TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
-      REQUIRE(std::isinf(hit.t));
-    }
+  const EachTarget target;
+  for (const KernelHit& hit :
+       TraceClosest(scene, rays, {IntersectTrianglesStage}, kInstanced)) {
+    REQUIRE(std::isinf(hit.t));
   }
-  ForceTarget("");
 }
 
 TEST_CASE("surfaces of instances lie on the flattened triangles", "[surface]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(42);
-    const InstancedAndFlat pair = MakePair(random, 12);
-    const CompiledScene scene = MakeScene(pair.instanced);
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
-    WaveFixture f(scene, 800);
-    f.SetRays(rays);
-    f.Run(IntersectTrianglesStage, kInstanced);
-    Queue& queue = f.wave.queue(QueueId::kSurface);
-    const PathColumns& p = f.wave.path;
-    for (std::uint32_t i = 0; i < 800; ++i) {
-      if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
-    }
-    f.Run(SurfaceTriangleStage, kInstanced);
-    Queue& shadow = f.wave.queue(QueueId::kShadow);
-    for (std::uint32_t k = 0; k < queue.size; ++k) {
-      const std::uint32_t i = queue.items[k];
-      const std::uint32_t none = kWorldInstance;
-      std::size_t at = 0;
-      while (pair.prim[at] != p.prim[i] || pair.inst[at] != p.inst[i]) ++at;
-      const TriangleRecord& tri = pair.flat.triangles[at];
-      const auto vertex = [&](int v) {
-        return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
-      };
-      const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
-      // A mirrored instance keeps the side of the object's normal, as in pbrt.
-      const bool mirrored = p.inst[i] != none && p.inst[i] % 3 == 0;
-      REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 1e-4);
-      REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 2e-6);
-      const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
-      REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
-      // Leaving the surface does not meet it within a short way.
-      const Vec3f d = random.Direction();
-      if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
-      p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 1e-5f;
-      shadow.items[shadow.size++] = i;
-    }
-    const std::uint32_t before = shadow.size;
-    REQUIRE(before > 100);
-    f.Run(ShadowTrianglesStage, kInstanced);
-    CHECK(shadow.size == before);
+  const EachTarget target;
+  Random random(42);
+  const InstancedAndFlat pair = MakePair(random, 12);
+  const CompiledScene scene = MakeScene(pair.instanced);
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 800; ++i) rays.push_back({random.Point(2), random.Direction()});
+  WaveFixture f(scene, 800);
+  f.SetRays(rays);
+  f.Run(IntersectTrianglesStage, kInstanced);
+  Queue& queue = f.wave.queue(QueueId::kSurface);
+  const PathColumns& p = f.wave.path;
+  for (std::uint32_t i = 0; i < 800; ++i) {
+    if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
   }
-  ForceTarget("");
+  f.Run(SurfaceTriangleStage, kInstanced);
+  Queue& shadow = f.wave.queue(QueueId::kShadow);
+  for (std::uint32_t k = 0; k < queue.size; ++k) {
+    const std::uint32_t i = queue.items[k];
+    const std::uint32_t none = kWorldInstance;
+    std::size_t at = 0;
+    while (pair.prim[at] != p.prim[i] || pair.inst[at] != p.inst[i]) ++at;
+    const TriangleRecord& tri = pair.flat.triangles[at];
+    const auto vertex = [&](int v) {
+      return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
+    };
+    const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
+    // A mirrored instance keeps the side of the object's normal, as in pbrt.
+    const bool mirrored = p.inst[i] != none && p.inst[i] % 3 == 0;
+    REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 1e-4);
+    REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 2e-6);
+    const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
+    REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
+    // Leaving the surface does not meet it within a short way.
+    const Vec3f d = random.Direction();
+    if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
+    p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 1e-5f;
+    shadow.items[shadow.size++] = i;
+  }
+  const std::uint32_t before = shadow.size;
+  REQUIRE(before > 100);
+  f.Run(ShadowTrianglesStage, kInstanced);
+  CHECK(shadow.size == before);
 }
 
 TEST_CASE("coincident instances tie to the smaller index", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Geometry g;
-    g.triangles = {MakeTriangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1})};
-    g.groups = {{0, 0}, {0, 1}};
-    for (int i = 0; i < 20; ++i) {
-      g.instances.push_back(MakeInstance(Transform()));
-      g.instance_group.push_back(1);
-    }
-    const auto hits = TraceClosest(MakeScene(g), {{{0, 0, 0}, {0, 0, 1}}},
-                                   {IntersectTrianglesStage}, kInstanced);
-    CHECK(hits[0].t == 1);
-    CHECK(hits[0].inst == 0);
+  const EachTarget target;
+  Geometry g;
+  g.triangles = {MakeTriangle({-1, -1, 1}, {1, -1, 1}, {0, 1, 1})};
+  g.groups = {{0, 0}, {0, 1}};
+  for (int i = 0; i < 20; ++i) {
+    g.instances.push_back(MakeInstance(Transform()));
+    g.instance_group.push_back(1);
   }
-  ForceTarget("");
+  const auto hits = TraceClosest(MakeScene(g), {{{0, 0, 0}, {0, 0, 1}}},
+                                 {IntersectTrianglesStage}, kInstanced);
+  CHECK(hits[0].t == 1);
+  CHECK(hits[0].inst == 0);
 }
 
 }  // namespace lanelight

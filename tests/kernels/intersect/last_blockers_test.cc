@@ -6,7 +6,7 @@
 
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -45,35 +45,31 @@ std::vector<TestRay> RaysToWalls(Random& random, int count) {
 }  // namespace
 
 TEST_CASE("what blocked one shadow ray need not block another", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(21);
-    const CompiledScene scene = MakeScene(Walls(random));
-    std::vector<TestRay> rays = RaysToWalls(random, 3000);
-    // Some start on the wall that they meet: they are blocked by what is behind it only.
-    const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
-    for (std::size_t i = 0; i < rays.size(); i += 7) {
-      if (std::isfinite(first[i].t)) rays[i].from = first[i].prim;
-    }
-    std::vector<std::uint32_t> open;
-    std::size_t ends = 0;
-    for (std::uint32_t i = 0; i < rays.size(); ++i) {
-      const Vec3d o = brute::ToDouble(rays[i].o), d = brute::ToDouble(rays[i].d);
-      bool blocked = false;
-      for (std::uint32_t id = 0; id < 4; ++id) {
-        const auto hit = brute::Solve(scene.geometry.triangles[id], o, d);
-        blocked = blocked || (hit && hit->t > 0 && hit->t < rays[i].t_max &&
-                              hit->inside >= 0 && id != rays[i].from);
-      }
-      ends += !blocked;
-      if (!blocked) open.push_back(i);
-    }
-    REQUIRE(ends > 500);
-    REQUIRE(ends < 2000);
-    CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == open);
+  const EachTarget target;
+  Random random(21);
+  const CompiledScene scene = MakeScene(Walls(random));
+  std::vector<TestRay> rays = RaysToWalls(random, 3000);
+  // Some start on the wall that they meet: they are blocked by what is behind it only.
+  const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
+  for (std::size_t i = 0; i < rays.size(); i += 7) {
+    if (std::isfinite(first[i].t)) rays[i].from = first[i].prim;
   }
-  ForceTarget("");
+  std::vector<std::uint32_t> open;
+  std::size_t ends = 0;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    const Vec3d o = brute::ToDouble(rays[i].o), d = brute::ToDouble(rays[i].d);
+    bool blocked = false;
+    for (std::uint32_t id = 0; id < 4; ++id) {
+      const auto hit = brute::Solve(scene.geometry.triangles[id], o, d);
+      blocked = blocked || (hit && hit->t > 0 && hit->t < rays[i].t_max &&
+                            hit->inside >= 0 && id != rays[i].from);
+    }
+    ends += !blocked;
+    if (!blocked) open.push_back(i);
+  }
+  REQUIRE(ends > 500);
+  REQUIRE(ends < 2000);
+  CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == open);
 }
 
 }  // namespace lanelight

@@ -6,7 +6,7 @@
 #include "kernels/stages.h"
 #include "src/base/core/motion.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -125,49 +125,45 @@ WaveFixture Trace(const CompiledScene& scene, const std::vector<TestRay>& rays,
 
 TEST_CASE("rays meet moving instances where they are at their time",
           "[intersect][motion]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(51);
-    for (const std::uint32_t instances : {1u, 9u, 40u}) {
-      const MovingScene moving(random, instances);
-      const CompiledScene scene = MakeScene(moving.geometry);
-      const std::vector<TestRay> rays = RaysOf(random, 400);
-      std::vector<Frozen> frozen;
-      for (const float time : kTimes) frozen.emplace_back(moving, time);
-      const WaveFixture f = Trace(scene, rays, 0, rays.size());
-      const PathColumns& p = f.wave.path;
-      int differ = 0, on_moving = 0;
-      std::vector<std::uint32_t> open;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        const Frozen& all = frozen[i % kTimes.size()];
-        const brute::Hit hit =
-            brute::Closest(all.triangles, ToDouble(rays[i].o), ToDouble(rays[i].d));
-        if (std::isinf(p.t[i])) open.push_back(i);
-        const bool missed = std::isinf(hit.t);
-        if (missed || std::isinf(p.t[i])) {
-          differ += missed != std::isinf(p.t[i]);
-          continue;
-        }
-        if (p.prim[i] != all.prim[hit.prim] || p.inst[i] != all.inst[hit.prim]) {
-          ++differ;
-          continue;
-        }
-        on_moving += p.inst[i] < moving.moving;
-        CAPTURE(i, p.prim[i], p.inst[i]);
-        REQUIRE(std::abs(double{p.t[i]} - hit.t) < 1e-4);
-        REQUIRE(std::abs(double{p.b1[i]} - hit.b1) < 1e-3);
+  const EachTarget target;
+  Random random(51);
+  for (const std::uint32_t instances : {1u, 9u, 40u}) {
+    const MovingScene moving(random, instances);
+    const CompiledScene scene = MakeScene(moving.geometry);
+    const std::vector<TestRay> rays = RaysOf(random, 400);
+    std::vector<Frozen> frozen;
+    for (const float time : kTimes) frozen.emplace_back(moving, time);
+    const WaveFixture f = Trace(scene, rays, 0, rays.size());
+    const PathColumns& p = f.wave.path;
+    int differ = 0, on_moving = 0;
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      const Frozen& all = frozen[i % kTimes.size()];
+      const brute::Hit hit =
+          brute::Closest(all.triangles, ToDouble(rays[i].o), ToDouble(rays[i].d));
+      if (std::isinf(p.t[i])) open.push_back(i);
+      const bool missed = std::isinf(hit.t);
+      if (missed || std::isinf(p.t[i])) {
+        differ += missed != std::isinf(p.t[i]);
+        continue;
       }
-      if (instances > 1) CHECK(on_moving > static_cast<int>(instances));
-      CHECK(differ <= 2);  // along edges, after rounding
-      WaveFixture shadows(scene, static_cast<std::uint32_t>(rays.size()));
-      shadows.SetShadowRays(rays);
-      shadows.Run(ShadowTrianglesStage, kMoving);
-      const Queue& queue = shadows.wave.queue(QueueId::kShadow);
-      CHECK(std::vector<std::uint32_t>(queue.items, queue.items + queue.size) == open);
+      if (p.prim[i] != all.prim[hit.prim] || p.inst[i] != all.inst[hit.prim]) {
+        ++differ;
+        continue;
+      }
+      on_moving += p.inst[i] < moving.moving;
+      CAPTURE(i, p.prim[i], p.inst[i]);
+      REQUIRE(std::abs(double{p.t[i]} - hit.t) < 1e-4);
+      REQUIRE(std::abs(double{p.b1[i]} - hit.b1) < 1e-3);
     }
+    if (instances > 1) CHECK(on_moving > static_cast<int>(instances));
+    CHECK(differ <= 2);  // along edges, after rounding
+    WaveFixture shadows(scene, static_cast<std::uint32_t>(rays.size()));
+    shadows.SetShadowRays(rays);
+    shadows.Run(ShadowTrianglesStage, kMoving);
+    const Queue& queue = shadows.wave.queue(QueueId::kShadow);
+    CHECK(std::vector<std::uint32_t>(queue.items, queue.items + queue.size) == open);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a hit on a moving instance does not depend on the company of its ray",
@@ -176,71 +172,63 @@ TEST_CASE("a hit on a moving instance does not depend on the company of its ray"
   const MovingScene moving(random, 60);
   const CompiledScene scene = MakeScene(moving.geometry);
   const std::vector<TestRay> rays = RaysOf(random, 300);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    const WaveFixture together = Trace(scene, rays, 0, rays.size());
-    const PathColumns& a = together.wave.path;
-    for (const std::size_t company : {1, 6, 37}) {
-      for (std::size_t at = 0; at < rays.size(); at += company) {
-        const std::size_t end = std::min(rays.size(), at + company);
-        const WaveFixture apart = Trace(scene, rays, at, end);
-        const PathColumns& b = apart.wave.path;
-        for (std::size_t i = at; i < end; ++i) {
-          REQUIRE(a.t[i] == b.t[i - at]);
-          if (std::isinf(a.t[i])) continue;
-          REQUIRE(a.prim[i] == b.prim[i - at]);
-          REQUIRE(a.inst[i] == b.inst[i - at]);
-          REQUIRE(a.b1[i] == b.b1[i - at]);
-          REQUIRE(a.b2[i] == b.b2[i - at]);
-        }
+  const EachTarget target;
+  const WaveFixture together = Trace(scene, rays, 0, rays.size());
+  const PathColumns& a = together.wave.path;
+  for (const std::size_t company : {1, 6, 37}) {
+    for (std::size_t at = 0; at < rays.size(); at += company) {
+      const std::size_t end = std::min(rays.size(), at + company);
+      const WaveFixture apart = Trace(scene, rays, at, end);
+      const PathColumns& b = apart.wave.path;
+      for (std::size_t i = at; i < end; ++i) {
+        REQUIRE(a.t[i] == b.t[i - at]);
+        if (std::isinf(a.t[i])) continue;
+        REQUIRE(a.prim[i] == b.prim[i - at]);
+        REQUIRE(a.inst[i] == b.inst[i - at]);
+        REQUIRE(a.b1[i] == b.b1[i - at]);
+        REQUIRE(a.b2[i] == b.b2[i - at]);
       }
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("surfaces of moving instances lie where these are", "[surface][motion]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(53);
-    const MovingScene moving(random, 12);
-    const CompiledScene scene = MakeScene(moving.geometry);
-    const std::vector<TestRay> rays = RaysOf(random, 500);
-    WaveFixture f = Trace(scene, rays, 0, rays.size());
-    Queue &queue = f.wave.queue(QueueId::kSurface),
-          &shadow = f.wave.queue(QueueId::kShadow);
-    const PathColumns& p = f.wave.path;
-    for (std::uint32_t i = 0; i < rays.size(); ++i) {
-      if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
-    }
-    f.Run(SurfaceTriangleStage, kMoving);
-    for (std::uint32_t k = 0; k < queue.size; ++k) {
-      const std::uint32_t i = queue.items[k];
-      const TriangleRecord tri = moving.At(p.prim[i], p.inst[i], TimeOf(i));
-      const auto vertex = [&](int v) {
-        return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
-      };
-      const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
-      const bool mirrored = p.inst[i] != kWorldInstance && p.inst[i] % 3 == 0;
-      CAPTURE(i, p.inst[i]);
-      REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 2e-4);
-      REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 4e-6);
-      const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
-      REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
-      // Leaving the surface does not meet it within a short way.
-      const Vec3f d = random.Direction();
-      if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
-      p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 2e-5f;
-      shadow.items[shadow.size++] = i;
-    }
-    const std::uint32_t before = shadow.size;
-    REQUIRE(before > 100);
-    f.Run(ShadowTrianglesStage, kMoving);
-    CHECK(shadow.size == before);
+  const EachTarget target;
+  Random random(53);
+  const MovingScene moving(random, 12);
+  const CompiledScene scene = MakeScene(moving.geometry);
+  const std::vector<TestRay> rays = RaysOf(random, 500);
+  WaveFixture f = Trace(scene, rays, 0, rays.size());
+  Queue &queue = f.wave.queue(QueueId::kSurface),
+        &shadow = f.wave.queue(QueueId::kShadow);
+  const PathColumns& p = f.wave.path;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (!std::isinf(p.t[i])) queue.items[queue.size++] = i;
   }
-  ForceTarget("");
+  f.Run(SurfaceTriangleStage, kMoving);
+  for (std::uint32_t k = 0; k < queue.size; ++k) {
+    const std::uint32_t i = queue.items[k];
+    const TriangleRecord tri = moving.At(p.prim[i], p.inst[i], TimeOf(i));
+    const auto vertex = [&](int v) {
+      return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
+    };
+    const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
+    const bool mirrored = p.inst[i] != kWorldInstance && p.inst[i] % 3 == 0;
+    CAPTURE(i, p.inst[i]);
+    REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 2e-4);
+    REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 4e-6);
+    const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
+    REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
+    // Leaving the surface does not meet it within a short way.
+    const Vec3f d = random.Direction();
+    if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
+    p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 2e-5f;
+    shadow.items[shadow.size++] = i;
+  }
+  const std::uint32_t before = shadow.size;
+  REQUIRE(before > 100);
+  f.Run(ShadowTrianglesStage, kMoving);
+  CHECK(shadow.size == before);
 }
 
 }  // namespace lanelight

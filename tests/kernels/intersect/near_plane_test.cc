@@ -4,7 +4,7 @@
 
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -75,39 +75,35 @@ Geometry Sheets(Random& random, int n) {
 }  // namespace
 
 TEST_CASE("which side of a triangle a ray starts on is decided exactly", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(31);
-    // Each triangle in turn, or a stream: packets of similar rays, or single ones.
-    for (const std::uint32_t few : {0u, kFewTriangles}) {
-      const Geometry g = Sheets(random, few == 0 ? 400 : 100);
-      const CompiledScene scene = MakeScene(g, {.few_triangles = few});
-      for (const int similar : {1, 64}) {
-        CAPTURE(few, similar);
-        const std::vector<NearRay> starts = Starts(g, random, similar);
-        std::vector<TestRay> rays;
-        for (const NearRay& start : starts) rays.push_back(start.ray);
-        const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage});
-        std::vector<char> open(rays.size(), 0);
-        for (const std::uint32_t i : Unoccluded(scene, rays, {ShadowTrianglesStage})) {
-          open[i] = 1;
-        }
-        int wrong = 0, wrong_shadow = 0, ahead = 0;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-          ahead += starts[i].ahead;
-          const bool hit = hits[i].t < rays[i].t_max;
-          wrong += hit != starts[i].ahead || (hit && hits[i].prim != starts[i].prim);
-          wrong_shadow += (open[i] == 0) != starts[i].ahead;
-        }
-        CHECK(wrong == 0);
-        CHECK(wrong_shadow == 0);
-        CHECK(ahead > 1000);
-        CHECK(ahead < static_cast<int>(rays.size()) - 1000);
+  const EachTarget target;
+  Random random(31);
+  // Each triangle in turn, or a stream: packets of similar rays, or single ones.
+  for (const std::uint32_t few : {0u, kFewTriangles}) {
+    const Geometry g = Sheets(random, few == 0 ? 400 : 100);
+    const CompiledScene scene = MakeScene(g, {.few_triangles = few});
+    for (const int similar : {1, 64}) {
+      CAPTURE(few, similar);
+      const std::vector<NearRay> starts = Starts(g, random, similar);
+      std::vector<TestRay> rays;
+      for (const NearRay& start : starts) rays.push_back(start.ray);
+      const auto hits = TraceClosest(scene, rays, {IntersectTrianglesStage});
+      std::vector<char> open(rays.size(), 0);
+      for (const std::uint32_t i : Unoccluded(scene, rays, {ShadowTrianglesStage})) {
+        open[i] = 1;
       }
+      int wrong = 0, wrong_shadow = 0, ahead = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ahead += starts[i].ahead;
+        const bool hit = hits[i].t < rays[i].t_max;
+        wrong += hit != starts[i].ahead || (hit && hits[i].prim != starts[i].prim);
+        wrong_shadow += (open[i] == 0) != starts[i].ahead;
+      }
+      CHECK(wrong == 0);
+      CHECK(wrong_shadow == 0);
+      CHECK(ahead > 1000);
+      CHECK(ahead < static_cast<int>(rays.size()) - 1000);
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

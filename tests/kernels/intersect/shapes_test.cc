@@ -3,7 +3,7 @@
 
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -79,86 +79,74 @@ const std::vector<StageOn> kShadow = {ShadowSpheresStage, ShadowDisksStage,
 }  // namespace
 
 TEST_CASE("round shapes and planes agree with double precision", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(31);
-    for (const int n : {3, 16, 200}) {
-      const Geometry g = Mixture(random, n);
-      const CompiledScene scene = MakeScene(g);
-      std::vector<TestRay> rays;
-      for (int i = 0; i < 700; ++i) rays.push_back({random.Point(1), random.Direction()});
-      const auto hits = TraceClosest(scene, rays, kClosest);
-      CHECK(hits == TraceClosest(MakeScene(g, {.few_round = 0}), rays, kClosest));
-      CHECK(hits == TraceClosest(MakeScene(g, {.few_round = 1000}), rays, kClosest));
-      int compared = 0;
-      std::vector<std::uint32_t> open;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        const Truth truth = FindTruth(scene.geometry, rays[i]);
-        if (i % 2 == 0) rays[i].t_max = 0.4f;
-        if (!(hits[i].t < rays[i].t_max)) open.push_back(i);
-        if (!truth.clear) continue;
-        ++compared;
-        CAPTURE(n, i, truth.prim, truth.t, hits[i].t, hits[i].prim);
-        REQUIRE(std::isinf(truth.t) == std::isinf(hits[i].t));
-        if (std::isinf(truth.t)) continue;
-        REQUIRE(hits[i].prim == truth.prim);
-        REQUIRE(std::abs(hits[i].t - truth.t) < 1e-5 * (1 + truth.t));
-        REQUIRE(hits[i].inst == kWorldInstance);
-      }
-      CHECK(compared > (n < 100 ? 300 : 10));
-      CHECK(Unoccluded(scene, rays, kShadow) == open);
-      CHECK(Unoccluded(MakeScene(g, {.few_round = 0}), rays, kShadow) == open);
+  const EachTarget target;
+  Random random(31);
+  for (const int n : {3, 16, 200}) {
+    const Geometry g = Mixture(random, n);
+    const CompiledScene scene = MakeScene(g);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 700; ++i) rays.push_back({random.Point(1), random.Direction()});
+    const auto hits = TraceClosest(scene, rays, kClosest);
+    CHECK(hits == TraceClosest(MakeScene(g, {.few_round = 0}), rays, kClosest));
+    CHECK(hits == TraceClosest(MakeScene(g, {.few_round = 1000}), rays, kClosest));
+    int compared = 0;
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      const Truth truth = FindTruth(scene.geometry, rays[i]);
+      if (i % 2 == 0) rays[i].t_max = 0.4f;
+      if (!(hits[i].t < rays[i].t_max)) open.push_back(i);
+      if (!truth.clear) continue;
+      ++compared;
+      CAPTURE(n, i, truth.prim, truth.t, hits[i].t, hits[i].prim);
+      REQUIRE(std::isinf(truth.t) == std::isinf(hits[i].t));
+      if (std::isinf(truth.t)) continue;
+      REQUIRE(hits[i].prim == truth.prim);
+      REQUIRE(std::abs(hits[i].t - truth.t) < 1e-5 * (1 + truth.t));
+      REQUIRE(hits[i].inst == kWorldInstance);
     }
+    CHECK(compared > (n < 100 ? 300 : 10));
+    CHECK(Unoccluded(scene, rays, kShadow) == open);
+    CHECK(Unoccluded(MakeScene(g, {.few_round = 0}), rays, kShadow) == open);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("distant and huge spheres have accurate roots", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(32);
-    Geometry g;
-    g.spheres = {MakeSphere({0, 0, 3000}, 1), MakeSphere({0, -1e5f, 0}, 1e5f)};
-    const CompiledScene scene = MakeScene(std::move(g));
-    std::vector<TestRay> rays;
-    for (int i = 0; i < 400; ++i) {
-      const Vec3f o = {random(-1, 1), random(1, 2), random(-1, 1)};
-      const Vec3f goal = i % 2 ? Vec3f{0, 0, 3000} + 0.7f * random.Direction()
-                               : Vec3f{random(-5, 5), 0, random(-5, 5)};
-      rays.push_back({o, Normalize(goal - o)});
-    }
-    const auto hits = TraceClosest(scene, rays, {IntersectSpheresStage});
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto roots = brute::Roots(scene.geometry.spheres[i % 2 ? 0 : 1],
-                                      ToDouble(rays[i].o), ToDouble(rays[i].d));
-      CAPTURE(i, hits[i].t);
-      REQUIRE(roots.size() == 2);
-      // A relative error of the distance of 1e-5 where the textbook formula loses 1e-1.
-      REQUIRE(hits[i].t == Approx(roots[0]).epsilon(i % 2 ? 1e-5 : 3e-2));
-    }
+  const EachTarget target;
+  Random random(32);
+  Geometry g;
+  g.spheres = {MakeSphere({0, 0, 3000}, 1), MakeSphere({0, -1e5f, 0}, 1e5f)};
+  const CompiledScene scene = MakeScene(std::move(g));
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3f o = {random(-1, 1), random(1, 2), random(-1, 1)};
+    const Vec3f goal = i % 2 ? Vec3f{0, 0, 3000} + 0.7f * random.Direction()
+                             : Vec3f{random(-5, 5), 0, random(-5, 5)};
+    rays.push_back({o, Normalize(goal - o)});
   }
-  ForceTarget("");
+  const auto hits = TraceClosest(scene, rays, {IntersectSpheresStage});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto roots = brute::Roots(scene.geometry.spheres[i % 2 ? 0 : 1],
+                                    ToDouble(rays[i].o), ToDouble(rays[i].d));
+    CAPTURE(i, hits[i].t);
+    REQUIRE(roots.size() == 2);
+    // A relative error of the distance of 1e-5 where the textbook formula loses 1e-1.
+    REQUIRE(hits[i].t == Approx(roots[0]).epsilon(i % 2 ? 1e-5 : 3e-2));
+  }
 }
 
 TEST_CASE("a ray along a plane or disk does not meet it", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Geometry g;
-    g.disks = {MakeDisk({0, 0, 0}, {0, 0, 1}, 1)};
-    g.planes = {MakePlane({0, 0, 0}, {0, 0, 1})};
-    g.spheres = {MakeSphere({0, 0, 0}, 0)};  // a point
-    const CompiledScene scene = MakeScene(std::move(g));
-    const std::vector<TestRay> rays = {
-        {{-2, 0, 0}, {1, 0, 0}}, {{-2, 0, 1e-3f}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
-    for (const KernelHit& hit : TraceClosest(scene, rays, kClosest)) {
-      CHECK(std::isinf(hit.t));
-    }
-    CHECK(Unoccluded(scene, rays, kShadow).size() == rays.size());
+  const EachTarget target;
+  Geometry g;
+  g.disks = {MakeDisk({0, 0, 0}, {0, 0, 1}, 1)};
+  g.planes = {MakePlane({0, 0, 0}, {0, 0, 1})};
+  g.spheres = {MakeSphere({0, 0, 0}, 0)};  // a point
+  const CompiledScene scene = MakeScene(std::move(g));
+  const std::vector<TestRay> rays = {
+      {{-2, 0, 0}, {1, 0, 0}}, {{-2, 0, 1e-3f}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 1}}};
+  for (const KernelHit& hit : TraceClosest(scene, rays, kClosest)) {
+    CHECK(std::isinf(hit.t));
   }
-  ForceTarget("");
+  CHECK(Unoccluded(scene, rays, kShadow).size() == rays.size());
 }
 
 }  // namespace lanelight

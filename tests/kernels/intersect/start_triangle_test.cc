@@ -6,7 +6,7 @@
 #include "tests/kernels/intersect/trace.h"
 #include "tests/render/wave/task_fixture.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -95,36 +95,32 @@ void CheckShadow(Wave& wave) {
 }  // namespace
 
 TEST_CASE("a ray leaves out the triangle that it starts on", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(21);
-    for (int n : {36, 700}) {
-      CAPTURE(n);
-      const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
-      std::vector<TestRay> rays = Rays(random);
-      const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        // Every third ray names a triangle that it may not even meet.
-        rays[i].from = i % 3 == 0 ? static_cast<std::uint32_t>(i) % n : first[i].prim;
-      }
-      const auto second = TraceClosest(scene, rays, {IntersectTrianglesStage});
-      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
-      int compared = 0;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        const StartTruth truth = Nearest(scene, rays[i], rays[i].from);
-        if (!truth.clear) continue;
-        ++compared;
-        CAPTURE(i);
-        REQUIRE(std::isinf(second[i].t) == std::isinf(truth.hit.t));
-        if (!std::isinf(truth.hit.t)) REQUIRE(second[i].prim == truth.hit.prim);
-        const bool is_open = std::binary_search(open.begin(), open.end(), i);
-        REQUIRE(is_open == std::isinf(truth.hit.t));
-      }
-      CHECK(compared > static_cast<int>(rays.size()) / 2);
+  const EachTarget target;
+  Random random(21);
+  for (int n : {36, 700}) {
+    CAPTURE(n);
+    const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
+    std::vector<TestRay> rays = Rays(random);
+    const auto first = TraceClosest(scene, rays, {IntersectTrianglesStage});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      // Every third ray names a triangle that it may not even meet.
+      rays[i].from = i % 3 == 0 ? static_cast<std::uint32_t>(i) % n : first[i].prim;
     }
+    const auto second = TraceClosest(scene, rays, {IntersectTrianglesStage});
+    const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
+    int compared = 0;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      const StartTruth truth = Nearest(scene, rays[i], rays[i].from);
+      if (!truth.clear) continue;
+      ++compared;
+      CAPTURE(i);
+      REQUIRE(std::isinf(second[i].t) == std::isinf(truth.hit.t));
+      if (!std::isinf(truth.hit.t)) REQUIRE(second[i].prim == truth.hit.prim);
+      const bool is_open = std::binary_search(open.begin(), open.end(), i);
+      REQUIRE(is_open == std::isinf(truth.hit.t));
+    }
+    CHECK(compared > static_cast<int>(rays.size()) / 2);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a bound from another shape is no reason to leave out a triangle",

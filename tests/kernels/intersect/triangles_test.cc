@@ -5,7 +5,7 @@
 
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -54,70 +54,58 @@ void CompareWithBruteForce(const CompiledScene& scene, const std::vector<TestRay
 }  // namespace
 
 TEST_CASE("closest triangle hits agree with brute force", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(7);
-    for (int n : {1, 2, 36, 64, 65, 700}) {
-      CAPTURE(n);
-      const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
-      CompareWithBruteForce(scene, RandomRays(random, 500, 2), 1e-5, 1e-5);
-    }
-    const CompiledScene mixed = MakeScene(brute::Mixed(random, 200, 0.3f));
-    CompareWithBruteForce(mixed, RandomRays(random, 500, 1), 1e-5, 1e-5);
+  const EachTarget target;
+  Random random(7);
+  for (int n : {1, 2, 36, 64, 65, 700}) {
+    CAPTURE(n);
+    const CompiledScene scene = MakeScene(brute::Soup(random, n, 1, 0.6f));
+    CompareWithBruteForce(scene, RandomRays(random, 500, 2), 1e-5, 1e-5);
   }
-  ForceTarget("");
+  const CompiledScene mixed = MakeScene(brute::Mixed(random, 200, 0.3f));
+  CompareWithBruteForce(mixed, RandomRays(random, 500, 1), 1e-5, 1e-5);
 }
 
 TEST_CASE("any-hit keeps exactly the rays without a nearer hit", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(8);
-    for (const Geometry& geometry :
-         {brute::Soup(random, 36, 1, 0.4f), brute::Soup(random, 300, 1, 0.4f),
-          brute::Mixed(random, 200, 0.3f)}) {
-      const CompiledScene scene = MakeScene(geometry);
-      std::vector<TestRay> rays = RandomRays(random, 1000, 1);
-      const auto hits = Trace(scene, rays);
-      std::vector<std::uint32_t> expected;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        // Ends before, exactly at, and beyond the nearest hit; the end is exclusive.
-        if (!std::isinf(hits[i].t)) {
-          rays[i].t_max = i % 3 == 0   ? hits[i].t
-                          : i % 3 == 1 ? std::nextafter(hits[i].t, 1e30f)
-                                       : 0.5f * hits[i].t;
-        }
-        if (std::isinf(hits[i].t) || i % 3 != 1) expected.push_back(i);
+  const EachTarget target;
+  Random random(8);
+  for (const Geometry& geometry :
+       {brute::Soup(random, 36, 1, 0.4f), brute::Soup(random, 300, 1, 0.4f),
+        brute::Mixed(random, 200, 0.3f)}) {
+    const CompiledScene scene = MakeScene(geometry);
+    std::vector<TestRay> rays = RandomRays(random, 1000, 1);
+    const auto hits = Trace(scene, rays);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      // Ends before, exactly at, and beyond the nearest hit; the end is exclusive.
+      if (!std::isinf(hits[i].t)) {
+        rays[i].t_max = i % 3 == 0   ? hits[i].t
+                        : i % 3 == 1 ? std::nextafter(hits[i].t, 1e30f)
+                                     : 0.5f * hits[i].t;
       }
-      CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == expected);
+      if (std::isinf(hits[i].t) || i % 3 != 1) expected.push_back(i);
     }
+    CHECK(Unoccluded(scene, rays, {ShadowTrianglesStage}) == expected);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("trees and the plain loop report the same bits", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(9);
-    const auto check = [&](const Geometry& geometry) {
-      const auto rays = RandomRays(random, 2000, 1.5f);
-      const auto plain = Trace(MakeScene(geometry), rays);
-      for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
-        for (const int leaf : {SmallLeaf::kLanes, TriangleLeaf::kLanes}) {
-          const AccelOptions options = {
-              .few_triangles = 0, .quality = quality, .leaf_triangles = leaf};
-          CHECK(Trace(MakeScene(geometry, options), rays) == plain);
-        }
+  const EachTarget target;
+  Random random(9);
+  const auto check = [&](const Geometry& geometry) {
+    const auto rays = RandomRays(random, 2000, 1.5f);
+    const auto plain = Trace(MakeScene(geometry), rays);
+    for (const auto quality : {BuildQuality::kHigh, BuildQuality::kFast}) {
+      for (const int leaf : {SmallLeaf::kLanes, TriangleLeaf::kLanes}) {
+        const AccelOptions options = {
+            .few_triangles = 0, .quality = quality, .leaf_triangles = leaf};
+        CHECK(Trace(MakeScene(geometry, options), rays) == plain);
       }
-    };
-    for (float edge : {0.02f, 0.5f, 2.0f}) {
-      check(brute::Soup(random, 64, 1, edge));
     }
-    check(brute::SphereMesh(8, 8, {}, 1));  // vertices are shared
+  };
+  for (float edge : {0.02f, 0.5f, 2.0f}) {
+    check(brute::Soup(random, 64, 1, edge));
   }
-  ForceTarget("");
+  check(brute::SphereMesh(8, 8, {}, 1));  // vertices are shared
 }
 
 TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
@@ -142,32 +130,29 @@ TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
           {{1.5f, 0.1f, 0.2f}, Normalize(Vec3f{-1, 0, 0} + width * random.Point(1))});
     }
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Geometry& geometry : cases) {
-      const CompiledScene scene = MakeScene(geometry, {.few_triangles = 0});
-      const auto together = Trace(scene, rays);
-      const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
-      CAPTURE(target, geometry.triangles.size());
-      CHECK(std::count_if(together.begin(), together.end(),
-                          [](const KernelHit& hit) { return !std::isinf(hit.t); }) > 50);
-      std::vector<std::uint32_t> expected;
-      for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        if (std::isinf(together[i].t)) expected.push_back(i);
+  const EachTarget target;
+  for (const Geometry& geometry : cases) {
+    const CompiledScene scene = MakeScene(geometry, {.few_triangles = 0});
+    const auto together = Trace(scene, rays);
+    const auto open = Unoccluded(scene, rays, {ShadowTrianglesStage});
+    CAPTURE(geometry.triangles.size());
+    CHECK(std::count_if(together.begin(), together.end(),
+                        [](const KernelHit& hit) { return !std::isinf(hit.t); }) > 50);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      if (std::isinf(together[i].t)) expected.push_back(i);
+    }
+    CHECK(open == expected);
+    for (const std::size_t company : {1, 5, 37}) {
+      std::vector<KernelHit> apart;
+      for (std::size_t at = 0; at < rays.size(); at += company) {
+        const std::size_t end = std::min(rays.size(), at + company);
+        const auto part = Trace(scene, {rays.begin() + at, rays.begin() + end});
+        apart.insert(apart.end(), part.begin(), part.end());
       }
-      CHECK(open == expected);
-      for (const std::size_t company : {1, 5, 37}) {
-        std::vector<KernelHit> apart;
-        for (std::size_t at = 0; at < rays.size(); at += company) {
-          const std::size_t end = std::min(rays.size(), at + company);
-          const auto part = Trace(scene, {rays.begin() + at, rays.begin() + end});
-          apart.insert(apart.end(), part.begin(), part.end());
-        }
-        CHECK(apart == together);
-      }
+      CHECK(apart == together);
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

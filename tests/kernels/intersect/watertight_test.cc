@@ -7,7 +7,7 @@
 
 #include "tests/kernels/intersect/trace.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -71,21 +71,13 @@ int LeaksOfAll(int count_per_mesh) {
 }  // namespace
 
 TEST_CASE("no ray leaks through the edges of a closed mesh", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    CHECK(LeaksOfAll(12000) == 0);
-  }
-  ForceTarget("");
+  const EachTarget target;
+  CHECK(LeaksOfAll(12000) == 0);
 }
 
 TEST_CASE("no ray leaks in ten million tries", "[intersect][slow]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    CHECK(LeaksOfAll(2000000) == 0);
-  }
-  ForceTarget("");
+  const EachTarget target;
+  CHECK(LeaksOfAll(2000000) == 0);
 }
 
 TEST_CASE("a hole in the mesh is seen", "[intersect]") {
@@ -97,82 +89,72 @@ TEST_CASE("a hole in the mesh is seen", "[intersect]") {
 }
 
 TEST_CASE("hits do not depend on order, company or wavefront size", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(23);
-    for (const int n : {50, 2000}) {
-      // Coplanar overlapping triangles in a few planes: many ties and near ties.
-      Geometry g = brute::Soup(random, n, 1, 0.3f);
-      for (auto& tri : g.triangles) {
-        const int axis = static_cast<int>(random.engine()() % 3);
-        const float plane = 0.25f * static_cast<float>(random.engine()() % 5);
-        for (auto& p : tri.p) p[axis] = plane;
-      }
-      const CompiledScene scene = MakeScene(g);
-      std::vector<TestRay> rays;
-      for (int i = 0; i < 640; ++i) rays.push_back({random.Point(1), random.Direction()});
-      const std::vector<StageOn> stages = {IntersectTrianglesStage};
-      const auto together = TraceClosest(scene, rays, stages);
-      // In chunks of every size up to 64.
-      std::vector<KernelHit> chunked;
-      for (std::size_t at = 0, size = 1; at < rays.size();
-           at += size, size = size % 64 + 1) {
-        const std::size_t end = std::min(rays.size(), at + size);
-        const auto part =
-            TraceClosest(scene, {rays.begin() + at, rays.begin() + end}, stages);
-        chunked.insert(chunked.end(), part.begin(), part.end());
-        if (end == rays.size()) break;
-      }
-      CHECK(chunked == together);
-      // Shuffled.
-      std::vector<std::size_t> order(rays.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::shuffle(order.begin(), order.end(), random.engine());
-      std::vector<TestRay> shuffled;
-      for (const std::size_t i : order) shuffled.push_back(rays[i]);
-      const auto mixed = TraceClosest(scene, shuffled, stages);
-      bool same = true;
-      for (std::size_t k = 0; k < order.size(); ++k)
-        same &= mixed[k] == together[order[k]];
-      CHECK(same);
-      // Triangles in reverse: the same distances, so no box hides a nearer hit.
-      Geometry reversed = g;
-      std::reverse(reversed.triangles.begin(), reversed.triangles.end());
-      const auto backwards = TraceClosest(MakeScene(reversed), rays, stages);
-      bool same_t = true;
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        same_t &= backwards[i].t == together[i].t;
-      CHECK(same_t);
+  const EachTarget target;
+  Random random(23);
+  for (const int n : {50, 2000}) {
+    // Coplanar overlapping triangles in a few planes: many ties and near ties.
+    Geometry g = brute::Soup(random, n, 1, 0.3f);
+    for (auto& tri : g.triangles) {
+      const int axis = static_cast<int>(random.engine()() % 3);
+      const float plane = 0.25f * static_cast<float>(random.engine()() % 5);
+      for (auto& p : tri.p) p[axis] = plane;
     }
+    const CompiledScene scene = MakeScene(g);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 640; ++i) rays.push_back({random.Point(1), random.Direction()});
+    const std::vector<StageOn> stages = {IntersectTrianglesStage};
+    const auto together = TraceClosest(scene, rays, stages);
+    // In chunks of every size up to 64.
+    std::vector<KernelHit> chunked;
+    for (std::size_t at = 0, size = 1; at < rays.size();
+         at += size, size = size % 64 + 1) {
+      const std::size_t end = std::min(rays.size(), at + size);
+      const auto part =
+          TraceClosest(scene, {rays.begin() + at, rays.begin() + end}, stages);
+      chunked.insert(chunked.end(), part.begin(), part.end());
+      if (end == rays.size()) break;
+    }
+    CHECK(chunked == together);
+    // Shuffled.
+    std::vector<std::size_t> order(rays.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), random.engine());
+    std::vector<TestRay> shuffled;
+    for (const std::size_t i : order) shuffled.push_back(rays[i]);
+    const auto mixed = TraceClosest(scene, shuffled, stages);
+    bool same = true;
+    for (std::size_t k = 0; k < order.size(); ++k) same &= mixed[k] == together[order[k]];
+    CHECK(same);
+    // Triangles in reverse: the same distances, so no box hides a nearer hit.
+    Geometry reversed = g;
+    std::reverse(reversed.triangles.begin(), reversed.triangles.end());
+    const auto backwards = TraceClosest(MakeScene(reversed), rays, stages);
+    bool same_t = true;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      same_t &= backwards[i].t == together[i].t;
+    CHECK(same_t);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("ties go to the smaller primitive", "[intersect]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    for (const int copies : {3, 200}) {
-      Random random(24);
-      Geometry g;
-      const TriangleRecord tri = MakeTriangle({-1, -1, 2}, {1, -1, 2.5f}, {0, 1, 2});
-      for (int i = 0; i < copies; ++i) g.triangles.push_back(tri);
-      g.triangles.front() = MakeTriangle({9, 9, 9}, {9, 9, 8}, {9, 8, 9});
-      for (const std::uint32_t few : {0u, 64u}) {
-        const CompiledScene scene = MakeScene(g, {.few_triangles = few});
-        std::vector<TestRay> rays;
-        for (int i = 0; i < 100; ++i) {
-          rays.push_back({{random(-0.1f, 0.1f), random(-0.3f, 0.1f), 0}, {0, 0, 1}});
-        }
-        for (const KernelHit& hit :
-             TraceClosest(scene, rays, {IntersectTrianglesStage})) {
-          CHECK(hit.prim == 1);
-        }
+  const EachTarget target;
+  for (const int copies : {3, 200}) {
+    Random random(24);
+    Geometry g;
+    const TriangleRecord tri = MakeTriangle({-1, -1, 2}, {1, -1, 2.5f}, {0, 1, 2});
+    for (int i = 0; i < copies; ++i) g.triangles.push_back(tri);
+    g.triangles.front() = MakeTriangle({9, 9, 9}, {9, 9, 8}, {9, 8, 9});
+    for (const std::uint32_t few : {0u, 64u}) {
+      const CompiledScene scene = MakeScene(g, {.few_triangles = few});
+      std::vector<TestRay> rays;
+      for (int i = 0; i < 100; ++i) {
+        rays.push_back({{random(-0.1f, 0.1f), random(-0.3f, 0.1f), 0}, {0, 0, 1}});
+      }
+      for (const KernelHit& hit : TraceClosest(scene, rays, {IntersectTrianglesStage})) {
+        CHECK(hit.prim == 1);
       }
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

@@ -8,7 +8,7 @@
 #include "kernels/stages.h"
 #include "src/render/plan/plan_features.h"
 #include "tests/kernels/control/control_scenes.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -145,21 +145,18 @@ SceneDescription Unshadowed() {
 }  // namespace
 
 TEST_CASE("a candidate is kept with its share of what all would add", "[light]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const bool weighs : {false, true}) {
-      const Candidates all = Known();
-      INFO(target << (weighs ? ", weighted" : ""));
-      Vertices vertices(weighs);
-      vertices.Run(all);
-      CheckKept(vertices, all, weighs);
-      const Candidates backwards(all.rbegin(), all.rend());
-      Vertices reversed(weighs);
-      reversed.Run(backwards);
-      CheckKept(reversed, backwards, weighs);
-    }
+  const EachTarget target;
+  for (const bool weighs : {false, true}) {
+    const Candidates all = Known();
+    CAPTURE(weighs);
+    Vertices vertices(weighs);
+    vertices.Run(all);
+    CheckKept(vertices, all, weighs);
+    const Candidates backwards(all.rbegin(), all.rend());
+    Vertices reversed(weighs);
+    reversed.Run(backwards);
+    CheckKept(reversed, backwards, weighs);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("where no candidate could add light none is traced", "[light]") {

@@ -10,7 +10,7 @@
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/lights/pictured_samples.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -86,46 +86,40 @@ TEST_CASE("samples on pictured shapes are as dense as rays to them know",
   const std::vector<PicturedShape> shapes = PicturedShapes();
   const double level =
       stat::SidakLevel(1e-6, int(2 * shapes.size() * AvailableTargets().size()));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const PicturedShape& shape : shapes) {
-      CAPTURE(target, shape.name);
-      REQUIRE(shape.places.size() == 2);
-      for (const Vec3d from : shape.places) CHECK(DensityPValue(shape, from) > level);
-      // Another density is rejected.
-      CHECK(DensityPValue(shape, shape.places[0], 1.15) < 1e-6);
-    }
+  const EachTarget target;
+  for (const PicturedShape& shape : shapes) {
+    CAPTURE(shape.name);
+    REQUIRE(shape.places.size() == 2);
+    for (const Vec3d from : shape.places) CHECK(DensityPValue(shape, from) > level);
+    // Another density is rejected.
+    CHECK(DensityPValue(shape, shape.places[0], 1.15) < 1e-6);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a sample on a pictured shape and the ray to it say the same", "[lights]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const PicturedShape& shape : PicturedShapes()) {
-      for (const Vec3d from : shape.places) {
-        CAPTURE(target, shape.name, from.x, from.y, from.z);
-        const PictureSamples samples(shape, from);
-        const std::vector<Vec3d> directions = samples.Directions();
-        const auto pdf = DensitiesAlong(samples.scene(), from, directions);
-        const auto seen = SeenAlong(samples.scene(), from, directions, kSurePdf);
-        const PictureTruth truth(shape);
-        int off = 0;  // at the outline, where one sees what the other does not
-        for (std::uint32_t i = 0; i < kPictureSamples; ++i) {
-          const Rgb sampled = samples.Radiance(i);
-          const Rgb want = truth.Along(from, directions[i]);
-          const auto is = [](double a, double b) { return a == Approx(b).epsilon(2e-3); };
-          bool same = is(samples.Pdf(i), pdf[i]);
-          for (int c = 0; c < 3; ++c) {
-            same &= is(sampled[c], want[c]) && is(seen[i][c], want[c]);
-          }
-          off += !same;
+  const EachTarget target;
+  for (const PicturedShape& shape : PicturedShapes()) {
+    for (const Vec3d from : shape.places) {
+      CAPTURE(shape.name, from.x, from.y, from.z);
+      const PictureSamples samples(shape, from);
+      const std::vector<Vec3d> directions = samples.Directions();
+      const auto pdf = DensitiesAlong(samples.scene(), from, directions);
+      const auto seen = SeenAlong(samples.scene(), from, directions, kSurePdf);
+      const PictureTruth truth(shape);
+      int off = 0;  // at the outline, where one sees what the other does not
+      for (std::uint32_t i = 0; i < kPictureSamples; ++i) {
+        const Rgb sampled = samples.Radiance(i);
+        const Rgb want = truth.Along(from, directions[i]);
+        const auto is = [](double a, double b) { return a == Approx(b).epsilon(2e-3); };
+        bool same = is(samples.Pdf(i), pdf[i]);
+        for (int c = 0; c < 3; ++c) {
+          same &= is(sampled[c], want[c]) && is(seen[i][c], want[c]);
         }
-        CHECK(off < int(kPictureSamples) / 200);
+        off += !same;
       }
+      CHECK(off < int(kPictureSamples) / 200);
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight::test

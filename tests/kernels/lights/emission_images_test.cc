@@ -8,7 +8,7 @@
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/lights/image_strategies.h"
 #include "tests/kernels/lights/pictures.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -73,62 +73,57 @@ TEST_CASE("samples on emitting shapes have the image of their point", "[lights]"
   const std::vector<Texture> images = {picture};
   const reference::Textures textures(images);
   const PreparedScene scene = PrepareScene(description);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    WaveFixture fixture(scene.Parts(), kImagePaths);
-    fixture.run.features = scene.compiled->features;
-    PathColumns& p = fixture.wave.path;
-    p.light_pmf = nullptr;
-    std::mt19937 engine(7);
-    std::uniform_real_distribution<float> place(-2, 2), unit(0, 1);
-    for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      p.p_x[i] = place(engine), p.p_y[i] = place(engine), p.p_z[i] = place(engine);
-      p.p_error[i] = 1e-6f;
-      p.u_light_0[i] = unit(engine), p.u_light_1[i] = unit(engine);
-      p.ls_light[i] =
-          engine() % static_cast<std::uint32_t>(scene.compiled->lights.lights.size());
-    }
-    fixture.QueueAll(QueueId::kLit, kImagePaths);
-    for (const StageOn stage : {SampleTriangleLightStage, SampleRectangleLightStage,
-                                SampleSphereLightStage, SampleDiskLightStage}) {
-      fixture.Run(stage, scene.compiled->features);
-    }
-    const std::vector<float> before(p.ls_r, p.ls_r + kImagePaths);
-    fixture.Run(EmissionImageSamplesStage, scene.compiled->features);
-    std::uint32_t checked = 0;
-    for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      const Vec3d from = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.compiled->scale +
-                         scene.compiled->center;
-      const reference::Ray ray = {from, Normalize(Vec3d{p.ls_x[i], p.ls_y[i], p.ls_z[i]}),
-                                  kNone};
-      if (!(before[i] > 0)) continue;
-      // The emitter that lies where the sample ends.
-      double nearest = 1e-4;
-      Rgb want;
-      for (int k = 0; k < static_cast<int>(geometry.primitives().size()); ++k) {
-        const reference::Primitive& shape = geometry.primitives()[std::size_t(k)];
-        reference::Hit hits[2];
-        const int count = reference::IntersectPrimitive(shape, ray, false, hits);
-        for (int h = 0; h < count && shape.area_light != kNone; ++h) {
-          const double off =
-              std::abs(hits[h].t - p.ls_distance[i] / scene.compiled->scale);
-          if (off > nearest) continue;
-          nearest = off;
-          hits[h].primitive = k;
-          const reference::SurfacePoint at = geometry.Describe(ray, hits[h]);
-          const AreaLight& light = description.area_lights[std::size_t(shape.area_light)];
-          want = light.image_path.empty() ? Rgb{1, 1, 1} : textures.Eval(0, at.u, at.v);
-        }
-      }
-      if (nearest == 1e-4) continue;  // grazing: rays end in front of the light
-      INFO("path " << i << ", light " << p.ls_light[i]);
-      CHECK(p.ls_r[i] / before[i] == Approx(want.x).epsilon(5e-3).margin(2e-3));
-      ++checked;
-    }
-    CHECK(checked > kImagePaths / 2);
+  const EachTarget target;
+  WaveFixture fixture(scene.Parts(), kImagePaths);
+  fixture.run.features = scene.compiled->features;
+  PathColumns& p = fixture.wave.path;
+  p.light_pmf = nullptr;
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<float> place(-2, 2), unit(0, 1);
+  for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+    p.p_x[i] = place(engine), p.p_y[i] = place(engine), p.p_z[i] = place(engine);
+    p.p_error[i] = 1e-6f;
+    p.u_light_0[i] = unit(engine), p.u_light_1[i] = unit(engine);
+    p.ls_light[i] =
+        engine() % static_cast<std::uint32_t>(scene.compiled->lights.lights.size());
   }
-  ForceTarget("");
+  fixture.QueueAll(QueueId::kLit, kImagePaths);
+  for (const StageOn stage : {SampleTriangleLightStage, SampleRectangleLightStage,
+                              SampleSphereLightStage, SampleDiskLightStage}) {
+    fixture.Run(stage, scene.compiled->features);
+  }
+  const std::vector<float> before(p.ls_r, p.ls_r + kImagePaths);
+  fixture.Run(EmissionImageSamplesStage, scene.compiled->features);
+  std::uint32_t checked = 0;
+  for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+    const Vec3d from = Vec3d{p.p_x[i], p.p_y[i], p.p_z[i]} / scene.compiled->scale +
+                       scene.compiled->center;
+    const reference::Ray ray = {from, Normalize(Vec3d{p.ls_x[i], p.ls_y[i], p.ls_z[i]}),
+                                kNone};
+    if (!(before[i] > 0)) continue;
+    // The emitter that lies where the sample ends.
+    double nearest = 1e-4;
+    Rgb want;
+    for (int k = 0; k < static_cast<int>(geometry.primitives().size()); ++k) {
+      const reference::Primitive& shape = geometry.primitives()[std::size_t(k)];
+      reference::Hit hits[2];
+      const int count = reference::IntersectPrimitive(shape, ray, false, hits);
+      for (int h = 0; h < count && shape.area_light != kNone; ++h) {
+        const double off = std::abs(hits[h].t - p.ls_distance[i] / scene.compiled->scale);
+        if (off > nearest) continue;
+        nearest = off;
+        hits[h].primitive = k;
+        const reference::SurfacePoint at = geometry.Describe(ray, hits[h]);
+        const AreaLight& light = description.area_lights[std::size_t(shape.area_light)];
+        want = light.image_path.empty() ? Rgb{1, 1, 1} : textures.Eval(0, at.u, at.v);
+      }
+    }
+    if (nearest == 1e-4) continue;  // grazing: rays end in front of the light
+    INFO("path " << i << ", light " << p.ls_light[i]);
+    CHECK(p.ls_r[i] / before[i] == Approx(want.x).epsilon(5e-3).margin(2e-3));
+    ++checked;
+  }
+  CHECK(checked > kImagePaths / 2);
 }
 
 }  // namespace lanelight::test

@@ -8,7 +8,7 @@
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/lights/light_truth.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -145,94 +145,85 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
   const LightScene all;
   LightScene more;
   more.AddOthers(80);  // without a look at which primitives emit
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Variant& variant : kVariants) {
-      for (const LightScene* lights : {&all, static_cast<const LightScene*>(&more)}) {
-        CAPTURE(target, variant.strategy, variant.tree);
-        Hits hits(*lights, variant);
-        hits.fixture.QueueAll(QueueId::kHit, kHits);
-        hits.fixture.Run(EmissionTriangleStage, hits.features());
-        hits.fixture.Run(EmissionRectangleStage, hits.features());
-        hits.fixture.Run(EmissionSphereStage, hits.features());
-        hits.fixture.Run(EmissionDiskStage, hits.features());
-        for (std::uint32_t i = 0; i < kHits; ++i) CheckHit(hits, i);
-      }
+  const EachTarget target;
+  for (const Variant& variant : kVariants) {
+    for (const LightScene* lights : {&all, static_cast<const LightScene*>(&more)}) {
+      CAPTURE(variant.strategy, variant.tree);
+      Hits hits(*lights, variant);
+      hits.fixture.QueueAll(QueueId::kHit, kHits);
+      hits.fixture.Run(EmissionTriangleStage, hits.features());
+      hits.fixture.Run(EmissionRectangleStage, hits.features());
+      hits.fixture.Run(EmissionSphereStage, hits.features());
+      hits.fixture.Run(EmissionDiskStage, hits.features());
+      for (std::uint32_t i = 0; i < kHits; ++i) CheckHit(hits, i);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]") {
   const LightScene all;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Variant& variant : kVariants) {
-      if (variant.tree) continue;  // environments are chosen beside the tree
-      CAPTURE(target, variant.strategy);
-      Hits hits(all, variant);
-      hits.fixture.QueueAll(QueueId::kMiss, kHits);
-      hits.fixture.Run(EscapeStage, hits.features());
-      for (std::uint32_t i = 0; i < kHits; ++i) {
-        Vec3d sum;
-        bool sure = true;
-        for (const NamedLight& light : all.lights) {
-          const auto shape = static_cast<LightShape>(light.record.shape);
-          if (shape != LightShape::kInfiniteConstant &&
-              shape != LightShape::kInfiniteImage) {
-            continue;
-          }
-          const SeenLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
-          sure &= seen.met;
-          sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
+  const EachTarget target;
+  for (const Variant& variant : kVariants) {
+    if (variant.tree) continue;  // environments are chosen beside the tree
+    CAPTURE(variant.strategy);
+    Hits hits(all, variant);
+    hits.fixture.QueueAll(QueueId::kMiss, kHits);
+    hits.fixture.Run(EscapeStage, hits.features());
+    for (std::uint32_t i = 0; i < kHits; ++i) {
+      Vec3d sum;
+      bool sure = true;
+      for (const NamedLight& light : all.lights) {
+        const auto shape = static_cast<LightShape>(light.record.shape);
+        if (shape != LightShape::kInfiniteConstant &&
+            shape != LightShape::kInfiniteImage) {
+          continue;
         }
-        INFO("path " << i);
-        if (sure) hits.CheckGained(i, sum, 1e-5);
+        const SeenLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
+        sure &= seen.met;
+        sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
       }
+      INFO("path " << i);
+      if (sure) hits.CheckGained(i, sum, 1e-5);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("the table selects lights as often as their probability says", "[lights]") {
   constexpr std::uint32_t kSteps = 1 << 16;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const char* selection : {"power", "uniform"}) {
-      CAPTURE(target, selection);
-      LightScene lights;
-      lights.AddOthers(21);
-      CompiledScene& scene = lights.scene;
-      const std::size_t n = scene.lights.lights.size();
-      for (std::size_t i = 0; i < n; ++i) {
-        scene.lights.power.push_back(1 + double(i * i % 13));
-      }
-      Strategy strategy;
-      ApplyStrategy(std::string("light-selection=") + selection, {}, strategy);
-      lights.chances = MakeLightChances(scene, strategy);
-      WaveFixture fixture(lights.Parts(), kSteps);
-      PathColumns& p = fixture.wave.path;
-      for (std::uint32_t i = 0; i < kSteps; ++i) p.u_select[i] = (i + 0.5f) / kSteps;
-      fixture.QueueAll(QueueId::kLit, kSteps);
-      fixture.Run(SelectLightStage, {});
-      std::vector<double> counts(n);
-      for (std::uint32_t i = 0; i < kSteps; ++i) {
-        REQUIRE(p.ls_light[i] < n);
-        counts[p.ls_light[i]] += 1.0 / kSteps;
-      }
-      double total = 0;
-      for (double w : scene.lights.power) total += w;
-      for (std::size_t i = 0; i < n; ++i) {
-        INFO("light " << i);
-        const bool power = std::string(selection) == "power";
-        const double want = power ? scene.lights.power[i] / total : 1 / double(n);
-        CHECK(lights.chances.pmf[i] == Approx(want));
-        // Every entry of the table that a light has part in may be off by a step.
-        CHECK(std::abs(counts[i] - want) < double(n) / kSteps);
-      }
+  const EachTarget target;
+  for (const char* selection : {"power", "uniform"}) {
+    CAPTURE(selection);
+    LightScene lights;
+    lights.AddOthers(21);
+    CompiledScene& scene = lights.scene;
+    const std::size_t n = scene.lights.lights.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      scene.lights.power.push_back(1 + double(i * i % 13));
+    }
+    Strategy strategy;
+    ApplyStrategy(std::string("light-selection=") + selection, {}, strategy);
+    lights.chances = MakeLightChances(scene, strategy);
+    WaveFixture fixture(lights.Parts(), kSteps);
+    PathColumns& p = fixture.wave.path;
+    for (std::uint32_t i = 0; i < kSteps; ++i) p.u_select[i] = (i + 0.5f) / kSteps;
+    fixture.QueueAll(QueueId::kLit, kSteps);
+    fixture.Run(SelectLightStage, {});
+    std::vector<double> counts(n);
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+      REQUIRE(p.ls_light[i] < n);
+      counts[p.ls_light[i]] += 1.0 / kSteps;
+    }
+    double total = 0;
+    for (double w : scene.lights.power) total += w;
+    for (std::size_t i = 0; i < n; ++i) {
+      INFO("light " << i);
+      const bool power = std::string(selection) == "power";
+      const double want = power ? scene.lights.power[i] / total : 1 / double(n);
+      CHECK(lights.chances.pmf[i] == Approx(want));
+      // Every entry of the table that a light has part in may be off by a step.
+      CHECK(std::abs(counts[i] - want) < double(n) / kSteps);
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight::test

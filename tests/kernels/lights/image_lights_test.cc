@@ -12,7 +12,7 @@
 #include "tests/kernels/lights/image_strategies.h"
 #include "tests/kernels/lights/pictures.h"
 #include "tests/reference/lights.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -124,16 +124,12 @@ TEST_CASE("samples of image lights are what the image says", "[lights]") {
   const Light slide = ImageLight(LightKind::kProjection);
   Light tall = slide;
   tall.world_from_light = Transform::Translate({-1, 0, 1});
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    CheckImageSamples({map});
-    CheckImageSamples({slide});
-    CheckImageSamples({map, slide, tall});
-    CheckImageSamples({Stretched(LightKind::kGoniometric)});
-    CheckImageSamples({Stretched(LightKind::kProjection), map});
-  }
-  ForceTarget("");
+  const EachTarget target;
+  CheckImageSamples({map});
+  CheckImageSamples({slide});
+  CheckImageSamples({map, slide, tall});
+  CheckImageSamples({Stretched(LightKind::kGoniometric)});
+  CheckImageSamples({Stretched(LightKind::kProjection), map});
 }
 
 TEST_CASE("image lights have the power that is asked for", "[lights]") {

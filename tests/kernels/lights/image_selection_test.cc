@@ -13,7 +13,7 @@
 #include "tests/kernels/lights/image_strategies.h"
 #include "tests/kernels/lights/pictures.h"
 #include "tests/reference/scenes.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -115,59 +115,53 @@ struct Choices {
 TEST_CASE("image lights are chosen as often as their probability says",
           "[lights][stat]") {
   const double level = stat::SidakLevel(1e-6, int(6 * AvailableTargets().size()));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const LightSelection selection : kSelections) {
-      const SceneDescription scene = LitBy(LightsWithImages(), true, selection);
-      for (const Vec3d receiver : kReceivers) {
-        CAPTURE(target, int(selection), receiver.x);
-        const Choices choices(scene, receiver, kChoices);
-        REQUIRE(choices.counts.size() == 7);
-        double sum = 0;
-        for (const double pmf : choices.reported) {
-          CHECK(pmf > 0);
-          sum += pmf;
-        }
-        CHECK(sum == Approx(1).epsilon(1e-5));
-        CHECK(choices.PValue(choices.reported) > level);
-        // A probability of one light that is off by 5 % is rejected.
-        std::vector<double> wrong = choices.reported;
-        *std::max_element(wrong.begin(), wrong.end()) *= 1.05;
-        CHECK(choices.PValue(wrong) < 1e-6);
+  const EachTarget target;
+  for (const LightSelection selection : kSelections) {
+    const SceneDescription scene = LitBy(LightsWithImages(), true, selection);
+    for (const Vec3d receiver : kReceivers) {
+      CAPTURE(int(selection), receiver.x);
+      const Choices choices(scene, receiver, kChoices);
+      REQUIRE(choices.counts.size() == 7);
+      double sum = 0;
+      for (const double pmf : choices.reported) {
+        CHECK(pmf > 0);
+        sum += pmf;
       }
+      CHECK(sum == Approx(1).epsilon(1e-5));
+      CHECK(choices.PValue(choices.reported) > level);
+      // A probability of one light that is off by 5 % is rejected.
+      std::vector<double> wrong = choices.reported;
+      *std::max_element(wrong.begin(), wrong.end()) *= 1.05;
+      CHECK(choices.PValue(wrong) < 1e-6);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("a chosen image light is worth itself over its probability", "[lights]") {
   const std::vector<Light> lights = LightsWithImages();
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Vec3d receiver : kReceivers) {
-      std::vector<Rgb> alone;
-      for (const Light& light : lights) {
-        const Choices one(LitBy({light}, false, LightSelection::kPower), receiver, 1);
-        const PathColumns& p = one.fixture.wave.path;
-        CHECK(one.reported[0] == 1);
-        alone.push_back({p.ls_r[0], p.ls_g[0], p.ls_b[0]});
-        CHECK(alone.back().x > 0);
-      }
-      for (const LightSelection selection : kSelections) {
-        CAPTURE(target, int(selection), receiver.x);
-        const Choices all(LitBy(lights, true, selection), receiver, 4096);
-        const std::size_t first = all.counts.size() - lights.size();
-        const PathColumns& p = all.fixture.wave.path;
-        for (std::uint32_t i = 0; i < 4096; ++i) {
-          if (p.ls_light[i] < first) continue;
-          const Rgb sampled = Rgb{p.ls_r[i], p.ls_g[i], p.ls_b[i]};
-          const Rgb want = alone[p.ls_light[i] - first] / all.reported[p.ls_light[i]];
-          for (int c = 0; c < 3; ++c) CHECK(sampled[c] == Approx(want[c]).epsilon(1e-5));
-        }
+  const EachTarget target;
+  for (const Vec3d receiver : kReceivers) {
+    std::vector<Rgb> alone;
+    for (const Light& light : lights) {
+      const Choices one(LitBy({light}, false, LightSelection::kPower), receiver, 1);
+      const PathColumns& p = one.fixture.wave.path;
+      CHECK(one.reported[0] == 1);
+      alone.push_back({p.ls_r[0], p.ls_g[0], p.ls_b[0]});
+      CHECK(alone.back().x > 0);
+    }
+    for (const LightSelection selection : kSelections) {
+      CAPTURE(int(selection), receiver.x);
+      const Choices all(LitBy(lights, true, selection), receiver, 4096);
+      const std::size_t first = all.counts.size() - lights.size();
+      const PathColumns& p = all.fixture.wave.path;
+      for (std::uint32_t i = 0; i < 4096; ++i) {
+        if (p.ls_light[i] < first) continue;
+        const Rgb sampled = Rgb{p.ls_r[i], p.ls_g[i], p.ls_b[i]};
+        const Rgb want = alone[p.ls_light[i] - first] / all.reported[p.ls_light[i]];
+        for (int c = 0; c < 3; ++c) CHECK(sampled[c] == Approx(want[c]).epsilon(1e-5));
       }
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight::test

@@ -15,7 +15,7 @@
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/lights/image_strategies.h"
 #include "tests/kernels/lights/pictures.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -178,60 +178,53 @@ double PortalPValue(const SceneDescription& sampled, const SceneDescription& cla
 
 TEST_CASE("portal samples cover the window as densely as they say", "[lights]") {
   const Vec3d places[] = {{0, 0, 1}, {1.9, -0.7, 0.1}, {-1.5, 1.5, 1.8}};
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Vec3d from : places) {
-      CAPTURE(target, from.x, from.y, from.z);
-      const auto w = Window();
-      const double angle = SolidAngleOfTriangle(w[0] - from, w[1] - from, w[2] - from) +
-                           SolidAngleOfTriangle(w[0] - from, w[2] - from, w[3] - from);
-      for (const SceneDescription& hall : {Hall(), HallUnderMap()}) {
-        PortalSamples s(hall, from);
-        const PathColumns& p = s.fixture.wave.path;
-        double covered = 0;
-        for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-          REQUIRE(p.ls_pdf[i] > 0);
-          const Vec3d d = {p.ls_x[i], p.ls_y[i], p.ls_z[i]};
-          const Vec3d q = from + d * ((2 - from.x) / d.x);
-          CHECK((d.x > 0 && q.y > kLeft - 1e-3 && q.y < kRight + 1e-3));
-          CHECK((q.z > kSill - 1e-3 && q.z < kTop + 1e-3));
-          covered += 1 / (double(p.ls_pdf[i]) * kImagePaths);
-        }
-        CHECK(covered == Approx(angle).epsilon(0.01));
+  const EachTarget target;
+  for (const Vec3d from : places) {
+    CAPTURE(from.x, from.y, from.z);
+    const auto w = Window();
+    const double angle = SolidAngleOfTriangle(w[0] - from, w[1] - from, w[2] - from) +
+                         SolidAngleOfTriangle(w[0] - from, w[2] - from, w[3] - from);
+    for (const SceneDescription& hall : {Hall(), HallUnderMap()}) {
+      PortalSamples s(hall, from);
+      const PathColumns& p = s.fixture.wave.path;
+      double covered = 0;
+      for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+        REQUIRE(p.ls_pdf[i] > 0);
+        const Vec3d d = {p.ls_x[i], p.ls_y[i], p.ls_z[i]};
+        const Vec3d q = from + d * ((2 - from.x) / d.x);
+        CHECK((d.x > 0 && q.y > kLeft - 1e-3 && q.y < kRight + 1e-3));
+        CHECK((q.z > kSill - 1e-3 && q.z < kTop + 1e-3));
+        covered += 1 / (double(p.ls_pdf[i]) * kImagePaths);
       }
-    }
-    // Outside there is nothing to be seen through it.
-    PortalSamples outside(Hall(), {2.5, 0, 1});
-    for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      CHECK(outside.fixture.wave.path.ls_r[i] == 0);
+      CHECK(covered == Approx(angle).epsilon(0.01));
     }
   }
-  ForceTarget("");
+  // Outside there is nothing to be seen through it.
+  PortalSamples outside(Hall(), {2.5, 0, 1});
+  for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+    CHECK(outside.fixture.wave.path.ls_r[i] == 0);
+  }
 }
 
 TEST_CASE("a ray through a portal knows the density of its sample", "[lights]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    PortalSamples s(HallUnderMap(), {0.5, 0.3, 0.6});
-    PathColumns& p = s.fixture.wave.path;
-    s.fixture.run.mis = MakeMisParameters(Strategy{});
-    for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      p.d_x[i] = p.ls_x[i], p.d_y[i] = p.ls_y[i], p.d_z[i] = p.ls_z[i];
-      p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
-      p.l_r[i] = p.l_g[i] = p.l_b[i] = 0;
-      p.bsdf_pdf[i] = p.ls_pdf[i];  // then the weight is one half
-    }
-    s.fixture.QueueAll(QueueId::kMiss, kImagePaths);
-    s.fixture.Run(EscapeStage, s.scene.compiled->features);
-    std::uint32_t off = 0;  // on a texel's edge
-    for (std::uint32_t i = 0; i < kImagePaths; ++i) {
-      const double want = 0.5 * p.ls_r[i] * p.ls_pdf[i];
-      off += !(p.l_r[i] == Approx(want).epsilon(1e-4));
-    }
-    CHECK(off < kImagePaths / 200);
+  const EachTarget target;
+  PortalSamples s(HallUnderMap(), {0.5, 0.3, 0.6});
+  PathColumns& p = s.fixture.wave.path;
+  s.fixture.run.mis = MakeMisParameters(Strategy{});
+  for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+    p.d_x[i] = p.ls_x[i], p.d_y[i] = p.ls_y[i], p.d_z[i] = p.ls_z[i];
+    p.beta_r[i] = p.beta_g[i] = p.beta_b[i] = 1;
+    p.l_r[i] = p.l_g[i] = p.l_b[i] = 0;
+    p.bsdf_pdf[i] = p.ls_pdf[i];  // then the weight is one half
   }
-  ForceTarget("");
+  s.fixture.QueueAll(QueueId::kMiss, kImagePaths);
+  s.fixture.Run(EscapeStage, s.scene.compiled->features);
+  std::uint32_t off = 0;  // on a texel's edge
+  for (std::uint32_t i = 0; i < kImagePaths; ++i) {
+    const double want = 0.5 * p.ls_r[i] * p.ls_pdf[i];
+    off += !(p.l_r[i] == Approx(want).epsilon(1e-4));
+  }
+  CHECK(off < kImagePaths / 200);
 }
 
 // The family of all places, maps and targets raises a false alarm with probability 1e-3.
@@ -239,17 +232,14 @@ TEST_CASE("portal samples are as dense as rays through it know", "[lights][stat]
   const Vec3d places[] = {{0, 0, 1}, {1.5, -0.4, 0.3}, {-1.5, 1.5, 1.8}};
   const double level =
       stat::SidakLevel(1e-3, static_cast<int>(6 * AvailableTargets().size()));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Vec3d from : places) {
-      CAPTURE(target, from.x, from.y, from.z);
-      CHECK(PortalPValue(Hall(), Hall(), from) > level);
-      CHECK(PortalPValue(HallUnderMap(), HallUnderMap(), from) > level);
-    }
-    // Another density is rejected.
-    CHECK(PortalPValue(HallUnderMap(), Hall(), places[0]) < 1e-6);
+  const EachTarget target;
+  for (const Vec3d from : places) {
+    CAPTURE(from.x, from.y, from.z);
+    CHECK(PortalPValue(Hall(), Hall(), from) > level);
+    CHECK(PortalPValue(HallUnderMap(), HallUnderMap(), from) > level);
   }
-  ForceTarget("");
+  // Another density is rejected.
+  CHECK(PortalPValue(HallUnderMap(), Hall(), places[0]) < 1e-6);
 }
 
 TEST_CASE("environments behind portals render as the reference does", "[lights]") {

@@ -9,7 +9,7 @@
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/lights/projected_truth.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -98,26 +98,23 @@ Moments Estimate(const Draw& draw, std::uint32_t count, Vec3d n, int power) {
 
 TEST_CASE("projected samples have the density that they report", "[lights]") {
   constexpr std::uint32_t kCount = 259;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Case& c : Cases(false)) {
-      CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
-      const Draw draw(c.f, kCount, kProjected, true, c.n);
-      const CornerCosines corners(c.f, c.n);
-      // Where points are is rounded: by 4e-7 rad of the receiver's view, over what it
-      // sees; the clearance of shadow rays adds to that at a grazing angle.
-      const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
-      const double tolerance = 4e-6 * (1 + 1 / Clearance(c)) + 2e-5 / size;
-      for (std::uint32_t i = 0; i < kCount; ++i) {
-        const Vec3d at = draw.Where(i);
-        const double u = corners.Density(Invert(c.f, at.x, at.y));
-        CHECK(draw.fixture.wave.path.ls_pdf[i] * AngleOf(c.f) / kPmf ==
-              Approx(u).epsilon(tolerance));
-        CHECK(u > 1 / 7.76);
-      }
+  const EachTarget target;
+  for (const Case& c : Cases(false)) {
+    CAPTURE(c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
+    const Draw draw(c.f, kCount, kProjected, true, c.n);
+    const CornerCosines corners(c.f, c.n);
+    // Where points are is rounded: by 4e-7 rad of the receiver's view, over what it
+    // sees; the clearance of shadow rays adds to that at a grazing angle.
+    const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
+    const double tolerance = 4e-6 * (1 + 1 / Clearance(c)) + 2e-5 / size;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const Vec3d at = draw.Where(i);
+      const double u = corners.Density(Invert(c.f, at.x, at.y));
+      CHECK(draw.fixture.wave.path.ls_pdf[i] * AngleOf(c.f) / kPmf ==
+            Approx(u).epsilon(tolerance));
+      CHECK(u > 1 / 7.76);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("projected samples are where their density says", "[lights]") {
@@ -126,31 +123,27 @@ TEST_CASE("projected samples are where their density says", "[lights]") {
   const std::vector<Case> cases = Cases(false);
   // False alarms: 1e-6 for all together.
   const double level = stat::SidakLevel(1e-6, int(targets.size() * cases.size()));
-  for (const std::string& target : targets) {
-    ForceTarget(target);
-    for (const Case& c : cases) {
-      CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
-      const Draw draw(c.f, kCount, kProjected, true, c.n);
-      const CornerCosines corners(c.f, c.n);
-      std::vector<double> observed(kSquares * kSquares, 0), expected = observed;
-      for (std::uint32_t i = 0; i < kCount; ++i) {
-        const Vec3d at = draw.Where(i);
-        const Square u = Invert(c.f, at.x, at.y);
-        const int a = std::clamp(static_cast<int>(u.u0 * kSquares), 0, kSquares - 1);
-        const int b = std::clamp(static_cast<int>(u.u1 * kSquares), 0, kSquares - 1);
-        observed[static_cast<std::size_t>(a * kSquares + b)] += 1;
-      }
-      for (int i = 0; i < kSquares * kSquares; ++i) {
-        // Bilinear: its mean over a cell is its value in the middle.
-        const Square u = {(i / kSquares + 0.5) / kSquares,
-                          (i % kSquares + 0.5) / kSquares};
-        expected[static_cast<std::size_t>(i)] =
-            kCount * corners.Density(u) / (kSquares * kSquares);
-      }
-      CHECK(stat::ChiSquareTest(observed, expected).p > level);
+  const EachTarget target;
+  for (const Case& c : cases) {
+    CAPTURE(c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
+    const Draw draw(c.f, kCount, kProjected, true, c.n);
+    const CornerCosines corners(c.f, c.n);
+    std::vector<double> observed(kSquares * kSquares, 0), expected = observed;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const Vec3d at = draw.Where(i);
+      const Square u = Invert(c.f, at.x, at.y);
+      const int a = std::clamp(static_cast<int>(u.u0 * kSquares), 0, kSquares - 1);
+      const int b = std::clamp(static_cast<int>(u.u1 * kSquares), 0, kSquares - 1);
+      observed[static_cast<std::size_t>(a * kSquares + b)] += 1;
     }
+    for (int i = 0; i < kSquares * kSquares; ++i) {
+      // Bilinear: its mean over a cell is its value in the middle.
+      const Square u = {(i / kSquares + 0.5) / kSquares, (i % kSquares + 0.5) / kSquares};
+      expected[static_cast<std::size_t>(i)] =
+          kCount * corners.Density(u) / (kSquares * kSquares);
+    }
+    CHECK(stat::ChiSquareTest(observed, expected).p > level);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("projected samples find irradiance and every direction", "[lights]") {
@@ -180,22 +173,19 @@ TEST_CASE("projected samples find irradiance and every direction", "[lights]") {
 
 TEST_CASE("light that rays hit knows the density of projected samples", "[lights]") {
   constexpr std::uint32_t kCount = 67;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Case& c : Cases(true)) {
-      CAPTURE(target, c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
-      Draw draw(c.f, kCount, kProjected, true, c.n);
-      draw.Hit(kCount, {Feature::kMis, Feature::kProjectedHits});
-      const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
-      const double tolerance = AngleOf(c.f) > kLeast
-                                   ? 4e-6 * (1 + 1 / Clearance(c)) + 2e-5 / size
-                                   : 1e-4 * (1 + 0.1 / Clearance(c));
-      for (std::uint32_t i = 0; i < kCount; ++i) {
-        CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
-      }
+  const EachTarget target;
+  for (const Case& c : Cases(true)) {
+    CAPTURE(c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
+    Draw draw(c.f, kCount, kProjected, true, c.n);
+    draw.Hit(kCount, {Feature::kMis, Feature::kProjectedHits});
+    const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
+    const double tolerance = AngleOf(c.f) > kLeast
+                                 ? 4e-6 * (1 + 1 / Clearance(c)) + 2e-5 / size
+                                 : 1e-4 * (1 + 0.1 / Clearance(c));
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("lights below the receiver and tiny ones are not warped", "[lights]") {

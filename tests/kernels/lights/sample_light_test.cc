@@ -8,7 +8,7 @@
 #include "kernels/stages.h"
 #include "src/base/core/check.h"
 #include "tests/kernels/lights/light_truth.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -195,50 +195,43 @@ Vec3f Viewpoint(const LightScene& one) {
 }  // namespace
 
 TEST_CASE("light samples are what plain formulas say", "[lights]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    const LightScene all;
-    CheckAll(all, false);  // with the widest vectors: records in registers
-    CheckAll(all, true);   // the probability of each path, as a tree selects
-    LightScene more;
-    more.AddOthers(50);
-    CheckAll(more, false);  // records gathered
-    for (std::size_t i = 0; i < all.lights.size(); ++i) {
-      LightScene one;
-      one.Keep(i);
-      CheckAll(one, false);  // nothing to select
-    }
+  const EachTarget target;
+  const LightScene all;
+  CheckAll(all, false);  // with the widest vectors: records in registers
+  CheckAll(all, true);   // the probability of each path, as a tree selects
+  LightScene more;
+  more.AddOthers(50);
+  CheckAll(more, false);  // records gathered
+  for (std::size_t i = 0; i < all.lights.size(); ++i) {
+    LightScene one;
+    one.Keep(i);
+    CheckAll(one, false);  // nothing to select
   }
-  ForceTarget("");
 }
 
 TEST_CASE("densities of light samples cover the solid angle of the light", "[lights]") {
   const LightScene all;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (std::size_t i = 0; i < all.lights.size(); ++i) {
-      LightScene one;
-      one.Keep(i);
-      const LightRecord& light = one.lights[0].record;
-      const auto shape = static_cast<LightShape>(light.shape);
-      if (shape == LightShape::kPoint || shape == LightShape::kSpot ||
-          shape == LightShape::kDistant) {
-        continue;
-      }
-      const Vec3f from = Viewpoint(one);
-      const SolidAngle want = SolidAngleOf(one.scene, light, VecCast<double>(from));
-      for (const bool solid_angle : {false, true}) {
-        const SolidAngle covered = Covered(one, from, solid_angle);
-        CAPTURE(target, one.lights[0].name, want.steradians, solid_angle);
-        // The error of so many points; samples that are not as dense as they say are off
-        // by far more.
-        CHECK(covered.steradians == Approx(want.steradians).epsilon(1e-3));
-        CHECK(Length(covered.moment - want.moment) < 1e-3 * want.steradians);
-      }
+  const EachTarget target;
+  for (std::size_t i = 0; i < all.lights.size(); ++i) {
+    LightScene one;
+    one.Keep(i);
+    const LightRecord& light = one.lights[0].record;
+    const auto shape = static_cast<LightShape>(light.shape);
+    if (shape == LightShape::kPoint || shape == LightShape::kSpot ||
+        shape == LightShape::kDistant) {
+      continue;
+    }
+    const Vec3f from = Viewpoint(one);
+    const SolidAngle want = SolidAngleOf(one.scene, light, VecCast<double>(from));
+    for (const bool solid_angle : {false, true}) {
+      const SolidAngle covered = Covered(one, from, solid_angle);
+      CAPTURE(one.lights[0].name, want.steradians, solid_angle);
+      // The error of so many points; samples that are not as dense as they say are off
+      // by far more.
+      CHECK(covered.steradians == Approx(want.steradians).epsilon(1e-3));
+      CHECK(Length(covered.moment - want.moment) < 1e-3 * want.steradians);
     }
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight::test

@@ -8,7 +8,7 @@
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/lights/flat_light.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -52,23 +52,20 @@ double PValue(const Draw& draw, std::uint32_t count) {
 }  // namespace
 
 TEST_CASE("the density of samples by solid angle is one over it", "[lights]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Flat& exact : FlatLights()) {
-      const Flat f = Rounded(exact);
-      CAPTURE(target, f.name, f.rectangle, AngleOf(f));
-      const Draw draw(f, 67);
-      const PathColumns& p = draw.fixture.wave.path;
-      const double omega = AngleOf(f);
-      for (std::uint32_t i = 0; i < 67; ++i) {
-        CHECK(p.ls_pdf[i] == Approx(kPmf / omega).epsilon(ErrorOfAngle(f)));
-        // Radiance times solid angle without any noise: what is left is visibility.
-        CHECK(p.ls_r[i] == Approx(2 * omega / kPmf).epsilon(ErrorOfAngle(f)));
-        CHECK(p.ls_b[i] == Approx(5 * omega / kPmf).epsilon(ErrorOfAngle(f)));
-      }
+  const EachTarget target;
+  for (const Flat& exact : FlatLights()) {
+    const Flat f = Rounded(exact);
+    CAPTURE(f.name, f.rectangle, AngleOf(f));
+    const Draw draw(f, 67);
+    const PathColumns& p = draw.fixture.wave.path;
+    const double omega = AngleOf(f);
+    for (std::uint32_t i = 0; i < 67; ++i) {
+      CHECK(p.ls_pdf[i] == Approx(kPmf / omega).epsilon(ErrorOfAngle(f)));
+      // Radiance times solid angle without any noise: what is left is visibility.
+      CHECK(p.ls_r[i] == Approx(2 * omega / kPmf).epsilon(ErrorOfAngle(f)));
+      CHECK(p.ls_b[i] == Approx(5 * omega / kPmf).epsilon(ErrorOfAngle(f)));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("samples by solid angle are uniform over it", "[lights]") {
@@ -77,16 +74,13 @@ TEST_CASE("samples by solid angle are uniform over it", "[lights]") {
   const std::vector<Flat> lights = FlatLights();
   // False alarms: 1e-6 for all together.
   const double level = stat::SidakLevel(1e-6, int(targets.size() * lights.size()));
-  for (const std::string& target : targets) {
-    ForceTarget(target);
-    for (const Flat& exact : lights) {
-      const Flat f = Rounded(exact);
-      CAPTURE(target, f.name, f.rectangle);
-      CHECK(PValue(Draw(f, kCount), kCount) > level);
-      for (std::uint32_t i = 0; i < 4; ++i) CHECK(std::isfinite(Draw(f, 4).Where(i).x));
-    }
+  const EachTarget target;
+  for (const Flat& exact : lights) {
+    const Flat f = Rounded(exact);
+    CAPTURE(f.name, f.rectangle);
+    CHECK(PValue(Draw(f, kCount), kCount) > level);
+    for (std::uint32_t i = 0; i < 4; ++i) CHECK(std::isfinite(Draw(f, 4).Where(i).x));
   }
-  ForceTarget("");
 }
 
 TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
@@ -97,24 +91,21 @@ TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
     lights.push_back(
         {"too small, flat", {1, 0, 0.01}, {1e-3, 0, 0}, {0, 1e-3, 0}, rectangle});
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Flat& exact : lights) {
-      const Flat f = Rounded(exact);
-      CAPTURE(target, f.name, f.rectangle);
-      Draw draw(f, kCount);
-      draw.Hit(kCount, {Feature::kMis, Feature::kSolidAngleLights});
-      const double cosine = std::abs(Dot(f.Normal(), Normalize(f.corner)));
-      // As dense as the ray: half of the radiance. By area, the ray has missed the light
-      // by the clearance of the shadow ray.
-      const double tolerance =
-          AngleOf(f) > kLeast ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
-      for (std::uint32_t i = 0; i < kCount; ++i) {
-        CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
-      }
+  const EachTarget target;
+  for (const Flat& exact : lights) {
+    const Flat f = Rounded(exact);
+    CAPTURE(f.name, f.rectangle);
+    Draw draw(f, kCount);
+    draw.Hit(kCount, {Feature::kMis, Feature::kSolidAngleLights});
+    const double cosine = std::abs(Dot(f.Normal(), Normalize(f.corner)));
+    // As dense as the ray: half of the radiance. By area, the ray has missed the light
+    // by the clearance of the shadow ray.
+    const double tolerance =
+        AngleOf(f) > kLeast ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("samples by area are not uniform over the solid angle", "[lights]") {

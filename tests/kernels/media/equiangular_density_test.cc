@@ -12,7 +12,7 @@
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/media/scenes.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -126,46 +126,40 @@ TEST_CASE("media: equiangular points are as dense as theory says", "[media][stat
   const std::vector<Walks> all = SomeWalks();
   const double level =
       stat::SidakLevel(1e-6, int(all.size() * AvailableTargets().size()));
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Walks& walks : all) {
-      CAPTURE(target, walks.length, walks.lights.size());
-      const Walked walked(walks);
-      CHECK(DistancesPValue(walked, walks) > level);
-      // Another share of points by the angle is rejected.
-      Walks wrong = walks;
-      wrong.by_angle = 0.4;
-      CHECK(DistancesPValue(walked, wrong) < 1e-6);
-    }
+  const EachTarget target;
+  for (const Walks& walks : all) {
+    CAPTURE(walks.length, walks.lights.size());
+    const Walked walked(walks);
+    CHECK(DistancesPValue(walked, walks) > level);
+    // Another share of points by the angle is rejected.
+    Walks wrong = walks;
+    wrong.by_angle = 0.4;
+    CHECK(DistancesPValue(walked, wrong) < 1e-6);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("media: throughputs tell the density of equiangular points", "[media]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Walks& walks : SomeWalks()) {
-      if (walks.lights.size() > 1) continue;  // they know of the one drawn only
-      const Walked walked(walks);
-      std::uint32_t off = 0;
-      for (std::uint32_t i = 0; i < kWalks; ++i) {
-        const double d = walked.distance[i], step = 1e-4;
-        const bool event = d >= 0;
-        const double pdf =
-            event ? (walks.Before(d + step) - walks.Before(d - step)) / (2 * step)
-                  : 1 - walks.Before(walks.length);
-        for (int c = 0; c < 3; ++c) {
-          const double sigma = walks.sigma_a[c] + walks.sigma_s[c];
-          const double found = std::exp(-sigma * (event ? d : walks.length)) *
-                               (event ? walks.sigma_s[c] : 1);
-          off += !(walked.beta[i][c] == Approx(found / pdf).epsilon(1e-3));
-        }
+  const EachTarget target;
+  for (const Walks& walks : SomeWalks()) {
+    if (walks.lights.size() > 1) continue;  // they know of the one drawn only
+    const Walked walked(walks);
+    std::uint32_t off = 0;
+    for (std::uint32_t i = 0; i < kWalks; ++i) {
+      const double d = walked.distance[i], step = 1e-4;
+      const bool event = d >= 0;
+      const double pdf =
+          event ? (walks.Before(d + step) - walks.Before(d - step)) / (2 * step)
+                : 1 - walks.Before(walks.length);
+      for (int c = 0; c < 3; ++c) {
+        const double sigma = walks.sigma_a[c] + walks.sigma_s[c];
+        const double found = std::exp(-sigma * (event ? d : walks.length)) *
+                             (event ? walks.sigma_s[c] : 1);
+        off += !(walked.beta[i][c] == Approx(found / pdf).epsilon(1e-3));
       }
-      CAPTURE(target, walks.length);
-      CHECK(off == 0);
     }
+    CAPTURE(walks.length);
+    CHECK(off == 0);
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight::test

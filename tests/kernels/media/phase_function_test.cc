@@ -7,6 +7,7 @@
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/shade/probe_batch.h"
 #include "tests/reference/media.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -55,39 +56,37 @@ double PValue(double sampled_g, double g) {
 TEST_CASE("phase function: samples have its density", "[media][stat]") {
   const int tests = static_cast<int>(std::size(kAsymmetries) * AvailableTargets().size());
   const double level = stat::SidakLevel(1e-3, tests);
-  ForEachTarget([&](const std::string& target) {
-    for (const double g : kAsymmetries) {
-      INFO(target << ", g = " << g);
-      CHECK(PValue(g, g) > level);
-    }
-  });
+  const EachTarget target;
+  for (const double g : kAsymmetries) {
+    INFO("g = " << g);
+    CHECK(PValue(g, g) > level);
+  }
   CHECK(PValue(0.35, 0.3) < 1e-6);  // another one is rejected
 }
 
 TEST_CASE("phase function: values and densities", "[media]") {
   reference::Random random(3);
-  ForEachTarget([&](const std::string& target) {
-    for (const double g : kAsymmetries) {
-      const float stored = static_cast<float>(g);
-      ProbeBatch batch(256);
-      batch.SetWo({0, 0, 1});
-      for (std::uint32_t i = 0; i < batch.n; ++i) {
-        batch.SetWi(i, reference::SamplePhaseFunction(g, {0, 0, -1}, random));
-      }
-      batch.Eval(Phase(g));
-      double worst = 0;
-      for (std::uint32_t i = 0; i < batch.n; ++i) {
-        // Directions are rounded: the cosine by their distance from one another.
-        const Vec3d apart = batch.Wi(i) + (g < 0 ? -1.0 : 1.0) * batch.Wo(i);
-        const double expected =
-            reference::PhaseFunction(std::abs(stored), 1 - Dot(apart, apart) / 2);
-        worst = std::max(worst, std::abs(batch.pdf[i] / expected - 1));
-        CHECK(batch.value[0][i] == batch.pdf[i]);
-      }
-      INFO(target << ", g = " << g);
-      CHECK(worst < 3e-5);
+  const EachTarget target;
+  for (const double g : kAsymmetries) {
+    const float stored = static_cast<float>(g);
+    ProbeBatch batch(256);
+    batch.SetWo({0, 0, 1});
+    for (std::uint32_t i = 0; i < batch.n; ++i) {
+      batch.SetWi(i, reference::SamplePhaseFunction(g, {0, 0, -1}, random));
     }
-  });
+    batch.Eval(Phase(g));
+    double worst = 0;
+    for (std::uint32_t i = 0; i < batch.n; ++i) {
+      // Directions are rounded: the cosine by their distance from one another.
+      const Vec3d apart = batch.Wi(i) + (g < 0 ? -1.0 : 1.0) * batch.Wo(i);
+      const double expected =
+          reference::PhaseFunction(std::abs(stored), 1 - Dot(apart, apart) / 2);
+      worst = std::max(worst, std::abs(batch.pdf[i] / expected - 1));
+      CHECK(batch.value[0][i] == batch.pdf[i]);
+    }
+    INFO("g = " << g);
+    CHECK(worst < 3e-5);
+  }
 }
 
 TEST_CASE("phase function: the ends of the numbers", "[media]") {

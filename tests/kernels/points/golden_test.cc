@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/stages.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -102,14 +102,11 @@ void CheckGolden(const Golden& g) {
 }  // namespace
 
 TEST_CASE("golden: the numbers of every dimension", "[points]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const Golden& g : kGolden) {
-      CAPTURE(target, g.depth, g.branch);
-      CheckGolden(g);
-    }
+  const EachTarget target;
+  for (const Golden& g : kGolden) {
+    CAPTURE(g.depth, g.branch);
+    CheckGolden(g);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("golden: ranges of dimensions do not overlap", "[points]") {

@@ -8,7 +8,7 @@
 #include "kernels/probe/points_probe.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -73,33 +73,27 @@ constexpr int kTests = 20;
 }  // namespace
 
 TEST_CASE("permutations are bijections", "[points]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (std::uint32_t n = 1; n <= 1u << 17; n *= 2) {
-      for (std::uint32_t key = 0; key < (n < 200 ? 200u : 5u); ++key) {
-        REQUIRE(IsBijection(Permuted(n, KeyOf(key)), 0, n));
-      }
+  const EachTarget target;
+  for (std::uint32_t n = 1; n <= 1u << 17; n *= 2) {
+    for (std::uint32_t key = 0; key < (n < 200 ? 200u : 5u); ++key) {
+      REQUIRE(IsBijection(Permuted(n, KeyOf(key)), 0, n));
     }
   }
-  ForceTarget("");
   Permutation repeated = Permuted(128, 1);
   repeated[3] = repeated[70];
   CHECK_FALSE(IsBijection(repeated, 0, 128));
 }
 
 TEST_CASE("permutations of octaves keep every prefix", "[points]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (std::uint32_t key = 0; key < 50; ++key) {
-      const std::uint32_t n = key < 2 ? 1u << 20 : 1024;
-      const Permutation p = Permuted(n, KeyOf(key), true);
-      REQUIRE(p[0] == 0);
-      for (std::uint32_t first = 1; first < n; first *= 2) {
-        REQUIRE(IsBijection(p, first, 2 * first));
-      }
+  const EachTarget target;
+  for (std::uint32_t key = 0; key < 50; ++key) {
+    const std::uint32_t n = key < 2 ? 1u << 20 : 1024;
+    const Permutation p = Permuted(n, KeyOf(key), true);
+    REQUIRE(p[0] == 0);
+    for (std::uint32_t first = 1; first < n; first *= 2) {
+      REQUIRE(IsBijection(p, first, 2 * first));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("permutations are uniform over images, pairs and wholes", "[points]") {

@@ -12,7 +12,7 @@
 #include "tests/base/stat/chi2.h"
 #include "tests/base/stat/kolmogorov.h"
 #include "tests/kernels/points/draw.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -206,28 +206,25 @@ TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
 TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
   constexpr std::uint32_t kCount = 70, kEnd = 1u << 31;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (std::uint32_t shift : {0u, 1u, 4u, 10u, 12u, 20u}) {
-      const std::uint32_t sequence = kReplicates << shift;
-      // At the start, where a sequence ends, and at the end.
-      for (std::uint32_t first : {0u, std::max(sequence, 40u) - 40,
-                                  kEnd / 3 / sequence * sequence - 33, kEnd - kCount}) {
-        ProbeGroups(TestTarget(), shift, first, kCount,
-                    {group.data(), index.data(), unpaired.data()});
-        for (std::uint32_t i = 0; i < kCount; ++i) {
-          const std::uint32_t sample = first + i, turn = sample / kReplicates;
-          const std::uint32_t points = 1u << shift;
-          REQUIRE(group[i] == turn / points * kReplicates + sample % kReplicates);
-          REQUIRE(index[i] == turn % points);
-          const std::uint32_t pair = sample / 2, of_replicate = pair / kReplicates;
-          REQUIRE(unpaired[i] == (2 * of_replicate + sample % 2) * kReplicates +
-                                     SampleGroups{2, true}.Replicate(sample));
-        }
+  const EachTarget target;
+  for (std::uint32_t shift : {0u, 1u, 4u, 10u, 12u, 20u}) {
+    const std::uint32_t sequence = kReplicates << shift;
+    // At the start, where a sequence ends, and at the end.
+    for (std::uint32_t first : {0u, std::max(sequence, 40u) - 40,
+                                kEnd / 3 / sequence * sequence - 33, kEnd - kCount}) {
+      ProbeGroups(TestTarget(), shift, first, kCount,
+                  {group.data(), index.data(), unpaired.data()});
+      for (std::uint32_t i = 0; i < kCount; ++i) {
+        const std::uint32_t sample = first + i, turn = sample / kReplicates;
+        const std::uint32_t points = 1u << shift;
+        REQUIRE(group[i] == turn / points * kReplicates + sample % kReplicates);
+        REQUIRE(index[i] == turn % points);
+        const std::uint32_t pair = sample / 2, of_replicate = pair / kReplicates;
+        REQUIRE(unpaired[i] == (2 * of_replicate + sample % 2) * kReplicates +
+                                   SampleGroups{2, true}.Replicate(sample));
       }
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("unpaired numbers are all different, of the replicate of their pair",

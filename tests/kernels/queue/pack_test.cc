@@ -5,7 +5,7 @@
 #include <random>
 
 #include "kernels/stages.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -51,16 +51,12 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
 
 TEST_CASE("pack: paths keep what they carry", "[queue]") {
   std::mt19937 engine(11);
-  for (const std::string& name : AvailableTargets()) {
-    ForceTarget(name);
-    INFO(name);
-    for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
-      for (int share = 0; share <= 4; ++share) {
-        CheckPacks(capacity, capacity * share / 4, engine);
-      }
+  const EachTarget target;
+  for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
+    for (int share = 0; share <= 4; ++share) {
+      CheckPacks(capacity, capacity * share / 4, engine);
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") {

@@ -36,7 +36,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "src/base/core/aligned.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -70,58 +70,47 @@ void CheckMoves(const std::vector<std::uint32_t>& slots) {
   }
 }
 
-template <class Body>
-void ForTargets(Body body) {
-  for (const std::string& name : AvailableTargets()) {
-    ForceTarget(name);
-    INFO(name);
-    body(LANELIGHT_ON(TestTarget(), Lanes)());
-  }
-  ForceTarget("");
-}
-
 }  // namespace
 
 TEST_CASE("slots: runs anywhere in a column", "[queue]") {
-  ForTargets([](std::size_t lanes) {
-    for (std::uint32_t first = 0; first + lanes <= kSlots; ++first) {
-      std::vector<std::uint32_t> slots(lanes);
-      for (std::size_t k = 0; k < lanes; ++k) slots[k] = first + std::uint32_t(k);
-      CheckMoves(slots);
-      std::reverse(slots.begin(), slots.end());
-      CheckMoves(slots);
-    }
-  });
+  const EachTarget target;
+  const std::size_t lanes = LANELIGHT_ON(TestTarget(), Lanes)();
+  for (std::uint32_t first = 0; first + lanes <= kSlots; ++first) {
+    std::vector<std::uint32_t> slots(lanes);
+    for (std::size_t k = 0; k < lanes; ++k) slots[k] = first + std::uint32_t(k);
+    CheckMoves(slots);
+    std::reverse(slots.begin(), slots.end());
+    CheckMoves(slots);
+  }
 }
 
 TEST_CASE("slots: gaps, any order, repeated ends", "[queue]") {
-  ForTargets([](std::size_t lanes) {
-    std::mt19937 engine(3);
-    for (int round = 0; round < 600; ++round) {
-      // Spans from a bare vector to the whole column.
-      const std::uint32_t span =
-          std::min(kSlots, std::uint32_t(lanes) + std::uint32_t(engine() % 50));
-      const std::uint32_t first = std::uint32_t(engine()) % (kSlots - span + 1);
-      std::vector<std::uint32_t> slots(span);
-      for (std::uint32_t i = 0; i < span; ++i) slots[i] = first + i;
-      std::shuffle(slots.begin(), slots.end(), engine);
-      slots.resize(lanes);
-      if (round % 2 == 0) std::sort(slots.begin(), slots.end());
-      const std::size_t valid = 1 + engine() % lanes;
-      std::fill(slots.begin() + valid, slots.end(), slots[valid - 1]);
-      CheckMoves(slots);
-    }
-  });
+  const EachTarget target;
+  const std::size_t lanes = LANELIGHT_ON(TestTarget(), Lanes)();
+  std::mt19937 engine(3);
+  for (int round = 0; round < 600; ++round) {
+    // Spans from a bare vector to the whole column.
+    const std::uint32_t span =
+        std::min(kSlots, std::uint32_t(lanes) + std::uint32_t(engine() % 50));
+    const std::uint32_t first = std::uint32_t(engine()) % (kSlots - span + 1);
+    std::vector<std::uint32_t> slots(span);
+    for (std::uint32_t i = 0; i < span; ++i) slots[i] = first + i;
+    std::shuffle(slots.begin(), slots.end(), engine);
+    slots.resize(lanes);
+    if (round % 2 == 0) std::sort(slots.begin(), slots.end());
+    const std::size_t valid = 1 + engine() % lanes;
+    std::fill(slots.begin() + valid, slots.end(), slots[valid - 1]);
+    CheckMoves(slots);
+  }
 }
 
 TEST_CASE("slots: tables of any size", "[queue]") {
-  ForTargets([](std::size_t) {
-    for (std::size_t count = 1; count <= 40; ++count) {
-      std::vector<float> table(count);
-      for (std::size_t i = 0; i < count; ++i) table[i] = 3 * float(i) + 1;
-      CHECK(LANELIGHT_ON(TestTarget(), LooksUp)(table.data(), count));
-    }
-  });
+  const EachTarget target;
+  for (std::size_t count = 1; count <= 40; ++count) {
+    std::vector<float> table(count);
+    for (std::size_t i = 0; i < count; ++i) table[i] = 3 * float(i) + 1;
+    CHECK(LANELIGHT_ON(TestTarget(), LooksUp)(table.data(), count));
+  }
 }
 
 }  // namespace lanelight

@@ -9,7 +9,7 @@
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/kernels/control/control_scenes.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -88,18 +88,15 @@ Rendered RenderRoom(const std::string& strategy, std::uint64_t spp,
 }  // namespace
 
 TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (float floor : {0.01f, 0.3f}) {
-      ShadowRays rays(floor);
-      rays.fixture.Run(ShadowRouletteStage, {});
-      const std::uint32_t alive = rays.fixture.wave.queue(QueueId::kShadow).size;
-      CHECK(alive > kRays / 4);
-      CHECK(alive < kRays * 3 / 4);
-      CheckDecisions(rays);
-    }
+  const EachTarget target;
+  for (float floor : {0.01f, 0.3f}) {
+    ShadowRays rays(floor);
+    rays.fixture.Run(ShadowRouletteStage, {});
+    const std::uint32_t alive = rays.fixture.wave.queue(QueueId::kShadow).size;
+    CHECK(alive > kRays / 4);
+    CHECK(alive < kRays * 3 / 4);
+    CheckDecisions(rays);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("shadow rays are all traced where nothing is known of the image",

@@ -7,6 +7,7 @@
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/shade/probe_batch.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -75,15 +76,14 @@ TEST_CASE("materials sample the density they report", "[shade][stat]") {
   for (const TestMaterial& m : TestMaterials()) tests += HasDensity(m);
   tests *= static_cast<int>(TestDirections().size() * AvailableTargets().size());
   const double level = stat::SidakLevel(1e-3, tests);
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      if (!HasDensity(m)) continue;
-      for (Vec3d wo : TestDirections(target)) {
-        INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(stat::ChiSquareTest(Observed(m, wo), Expected(m, wo)).p > level);
-      }
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    if (!HasDensity(m)) continue;
+    for (Vec3d wo : TestDirections(target.name())) {
+      INFO(m.name << ", wo.z = " << wo.z);
+      CHECK(stat::ChiSquareTest(Observed(m, wo), Expected(m, wo)).p > level);
     }
-  });
+  }
 }
 
 TEST_CASE("a density of another roughness is rejected", "[shade][stat]") {
@@ -100,34 +100,33 @@ TEST_CASE("a density of another roughness is rejected", "[shade][stat]") {
 }
 
 TEST_CASE("sample weights are f cos over density", "[shade]") {
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      if (!HasDensity(m)) continue;
-      for (Vec3d wo : TestDirections(target)) {
-        ProbeBatch sample(4096);
-        sample.SetWo(wo);
-        sample.RandomPoints(5);
-        sample.Sample(m);
-        ProbeBatch eval = sample;
-        eval.Eval(m);
-        double worst = 0, worst_pdf = 0;
-        for (std::uint32_t i = 0; i < sample.n; ++i) {
-          // Directions within float rounding of the horizon change sides.
-          if (!(sample.pdf[i] > 0) || !(sample.value[1][i] > 0)) continue;
-          if (std::abs(sample.wi[2][i]) < 1e-4) continue;
-          for (int c = 0; c < 3; ++c) {
-            const double ratio = eval.value[c][i] / eval.pdf[i];
-            worst = std::max(worst, std::abs(ratio / sample.value[c][i] - 1));
-          }
-          worst_pdf =
-              std::max<double>(worst_pdf, std::abs(eval.pdf[i] / sample.pdf[i] - 1));
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    if (!HasDensity(m)) continue;
+    for (Vec3d wo : TestDirections(target.name())) {
+      ProbeBatch sample(4096);
+      sample.SetWo(wo);
+      sample.RandomPoints(5);
+      sample.Sample(m);
+      ProbeBatch eval = sample;
+      eval.Eval(m);
+      double worst = 0, worst_pdf = 0;
+      for (std::uint32_t i = 0; i < sample.n; ++i) {
+        // Directions within float rounding of the horizon change sides.
+        if (!(sample.pdf[i] > 0) || !(sample.value[1][i] > 0)) continue;
+        if (std::abs(sample.wi[2][i]) < 1e-4) continue;
+        for (int c = 0; c < 3; ++c) {
+          const double ratio = eval.value[c][i] / eval.pdf[i];
+          worst = std::max(worst, std::abs(ratio / sample.value[c][i] - 1));
         }
-        INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(worst < 2e-3);
-        CHECK(worst_pdf < 5e-3);
+        worst_pdf =
+            std::max<double>(worst_pdf, std::abs(eval.pdf[i] / sample.pdf[i] - 1));
       }
+      INFO(m.name << ", wo.z = " << wo.z);
+      CHECK(worst < 2e-3);
+      CHECK(worst_pdf < 5e-3);
     }
-  });
+  }
 }
 
 }  // namespace lanelight::test

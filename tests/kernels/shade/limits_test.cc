@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tests/kernels/shade/probe_batch.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
@@ -73,97 +74,93 @@ std::vector<TestMaterial> ExtremeMaterials() {
 
 TEST_CASE("extreme roughness, indices and angles stay finite", "[shade]") {
   const std::vector<TestMaterial> extreme = ExtremeMaterials();
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : extreme) {
-      if (target == "EMU128" && m.local.interface.ax == 1) continue;  // the slowest
-      for (double z : {1e-7, -1e-4, 0.02, 1.0}) {
-        const Faults faults = CountFaults(m, {std::sqrt(1 - z * z), 0, z});
-        INFO(target << ", " << m.name << ", alpha " << m.local.interface.ax << ", index "
-                    << m.local.index << ", wo.z = " << z);
-        CHECK(faults.sample == 0);
-        CHECK(faults.eval == 0);
-        CHECK(faults.length == 0);
-      }
+  const EachTarget target;
+  for (const TestMaterial& m : extreme) {
+    if (target.name() == "EMU128" && m.local.interface.ax == 1) continue;  // the slowest
+    for (double z : {1e-7, -1e-4, 0.02, 1.0}) {
+      const Faults faults = CountFaults(m, {std::sqrt(1 - z * z), 0, z});
+      INFO(m.name << ", alpha " << m.local.interface.ax << ", index " << m.local.index
+                  << ", wo.z = " << z);
+      CHECK(faults.sample == 0);
+      CHECK(faults.eval == 0);
+      CHECK(faults.length == 0);
     }
-  });
+  }
 }
 
 TEST_CASE("diffuse weights are exactly the albedo", "[shade]") {
-  ForEachTarget([&](const std::string&) {
-    for (int i = 0; i < 3; ++i) {
-      const TestMaterial& m = TestMaterials()[i];
-      ProbeBatch batch(1000);
-      batch.RandomPoints(1);
-      batch.SetWo({0.6, 0, -0.8});
-      batch.Sample(m);
-      int wrong = 0;
-      for (std::uint32_t j = 0; j < batch.n; ++j) {
-        const bool albedo = batch.value[0][j] == 0.8f && batch.value[1][j] == 0.5f;
-        wrong += !albedo || batch.wi[2][j] >= 0;
-      }
-      INFO(m.name);
-      CHECK(wrong == 0);
+  const EachTarget target;
+  for (int i = 0; i < 3; ++i) {
+    const TestMaterial& m = TestMaterials()[i];
+    ProbeBatch batch(1000);
+    batch.RandomPoints(1);
+    batch.SetWo({0.6, 0, -0.8});
+    batch.Sample(m);
+    int wrong = 0;
+    for (std::uint32_t j = 0; j < batch.n; ++j) {
+      const bool albedo = batch.value[0][j] == 0.8f && batch.value[1][j] == 0.5f;
+      wrong += !albedo || batch.wi[2][j] >= 0;
     }
-  });
+    INFO(m.name);
+    CHECK(wrong == 0);
+  }
 }
 
 TEST_CASE("no material gives more energy than it gets", "[shade]") {
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      for (Vec3d wo : TestDirections(target)) {
-        ProbeBatch batch(1 << 14);
-        batch.SetWo(wo);
-        batch.RandomPoints(61);
-        batch.Sample(m);
-        double energy = 0, squares = 0;  // of the first channel, the brightest in all
-        for (std::uint32_t i = 0; i < batch.n; ++i) {
-          const double e = batch.Value(i).x * batch.eta_scale[i];
-          energy += e / batch.n;
-          squares += e * e / batch.n;
-        }
-        const double error = std::sqrt(std::max(0., squares - energy * energy) / batch.n);
-        INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(energy < 1 + 1e-5 + 4.5 * error);
-        CHECK(energy > 0.05);
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    for (Vec3d wo : TestDirections(target.name())) {
+      ProbeBatch batch(1 << 14);
+      batch.SetWo(wo);
+      batch.RandomPoints(61);
+      batch.Sample(m);
+      double energy = 0, squares = 0;  // of the first channel, the brightest in all
+      for (std::uint32_t i = 0; i < batch.n; ++i) {
+        const double e = batch.Value(i).x * batch.eta_scale[i];
+        energy += e / batch.n;
+        squares += e * e / batch.n;
       }
+      const double error = std::sqrt(std::max(0., squares - energy * energy) / batch.n);
+      INFO(m.name << ", wo.z = " << wo.z);
+      CHECK(energy < 1 + 1e-5 + 4.5 * error);
+      CHECK(energy > 0.05);
     }
-  });
+  }
 }
 
 TEST_CASE("reciprocity", "[shade]") {
   // f(wi, wo) = eta^2 f(wo, wi) where wi is inside of what wo is outside of.
   using K = ShadeKind;
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      const bool applies = m.kind == K::kDiffuse || m.kind == K::kConductorRough ||
-                           m.kind == K::kDielectricRough ||
-                           m.kind == K::kCoatedDiffuseRough ||
-                           m.kind == K::kCoatedDiffuseSmooth;
-      if (!applies) continue;
-      ProbeBatch forward(2048);
-      forward.SetWo(TestDirections()[1]);
-      forward.RandomPoints(71);
-      forward.Sample(m);
-      ProbeBatch backward = forward;
-      for (int c = 0; c < 3; ++c) std::swap(backward.wo[c], backward.wi[c]);
-      forward.Eval(m);
-      backward.Eval(m);
-      double worst = 0;
-      int compared = 0;
-      for (std::uint32_t i = 0; i < forward.n; ++i) {
-        const double zi = std::abs(forward.wi[2][i]), zo = std::abs(forward.wo[2][i]);
-        if (zi < 1e-3 || forward.pdf[i] <= 0) continue;
-        const double scale = forward.wi[2][i] < 0 ? m.local.index * m.local.index : 1;
-        const double f = forward.value[0][i] / zi * scale, g = backward.value[0][i] / zo;
-        // Near total reflection 1 - F is small and only its absolute error is.
-        worst = std::max(worst, std::abs(f - g) / (g + 0.01));
-        ++compared;
-      }
-      INFO(target << ", " << m.name);
-      CHECK(compared > 500);
-      CHECK(worst < 2e-3);
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    const bool applies = m.kind == K::kDiffuse || m.kind == K::kConductorRough ||
+                         m.kind == K::kDielectricRough ||
+                         m.kind == K::kCoatedDiffuseRough ||
+                         m.kind == K::kCoatedDiffuseSmooth;
+    if (!applies) continue;
+    ProbeBatch forward(2048);
+    forward.SetWo(TestDirections()[1]);
+    forward.RandomPoints(71);
+    forward.Sample(m);
+    ProbeBatch backward = forward;
+    for (int c = 0; c < 3; ++c) std::swap(backward.wo[c], backward.wi[c]);
+    forward.Eval(m);
+    backward.Eval(m);
+    double worst = 0;
+    int compared = 0;
+    for (std::uint32_t i = 0; i < forward.n; ++i) {
+      const double zi = std::abs(forward.wi[2][i]), zo = std::abs(forward.wo[2][i]);
+      if (zi < 1e-3 || forward.pdf[i] <= 0) continue;
+      const double scale = forward.wi[2][i] < 0 ? m.local.index * m.local.index : 1;
+      const double f = forward.value[0][i] / zi * scale, g = backward.value[0][i] / zo;
+      // Near total reflection 1 - F is small and only its absolute error is.
+      worst = std::max(worst, std::abs(f - g) / (g + 0.01));
+      ++compared;
     }
-  });
+    INFO(m.name);
+    CHECK(compared > 500);
+    CHECK(worst < 2e-3);
+  }
 }
 
 }  // namespace lanelight::test

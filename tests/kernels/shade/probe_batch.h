@@ -58,14 +58,4 @@ std::vector<Vec3d> TestDirections(const std::string& target);
 /// Uniform over the sphere.
 Vec3d RandomDirection(reference::Random& random);
 
-/// Calls body(name) with each available target forced, then restores the best one.
-template <class Body>
-void ForEachTarget(Body body) {
-  for (const std::string& name : AvailableTargets()) {
-    ForceTarget(name);
-    body(name);
-  }
-  ForceTarget("");
-}
-
 }  // namespace lanelight::test

@@ -4,39 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/base/stat/hypothesis.h"
-#include "tests/kernels/shade/probe_batch.h"
+#include "tests/kernels/shade/moments.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight::test {
 namespace {
 
 constexpr std::uint32_t kEvaluated = 1 << 15;
-constexpr int kMoments = 4;
-
-// Bounded functions of the direction; together they see sides, tilt and spread.
-double Moment(int which, Vec3d w) {
-  const double shapes[] = {1, w.z, w.z * w.z, w.x + 0.5 * w.y * w.z};
-  return shapes[which];
-}
-
-struct Sums {
-  double n = 0, sum[kMoments][3] = {}, squares[kMoments][3] = {};
-  void Add(Rgb weight, Vec3d wi) {
-    n += 1;
-    if (weight == Rgb{}) return;
-    for (int m = 0; m < kMoments; ++m) {
-      for (int c = 0; c < 3; ++c) {
-        const double v = weight[c] * Moment(m, wi);
-        sum[m][c] += v;
-        squares[m][c] += v * v;
-      }
-    }
-  }
-  stat::MeanEstimate Estimate(int m, int c) const {
-    const double mean = sum[m][c] / n;
-    return {mean, std::max(0., squares[m][c] / n - mean * mean) / (n - 1), n - 1};
-  }
-};
 
 Sums Sampled(const TestMaterial& material, Vec3d wo, bool with_specular) {
   ProbeBatch batch(kEvaluated);
@@ -65,27 +39,17 @@ Sums Evaluated(const TestMaterial& material, Vec3d wo) {
   return sums;
 }
 
-Sums Reference(const TestMaterial& material, Vec3d wo) {
-  reference::Random random(37);
-  Sums sums;
-  for (std::uint32_t i = 0; i < kEvaluated; ++i) {
-    const auto sample = reference::SampleBsdf(material.local, wo, random);
-    sums.Add(sample ? sample->weight : Rgb{}, sample ? sample->wi : Vec3d{0, 0, 1});
-  }
-  return sums;
-}
-
-// Smallest p-value over moments and channels; differences of 0.002 do not count (tables
-// and single precision).
-double LowestP(const Sums& a, const Sums& b) {
-  double lowest = 1;
-  for (int m = 0; m < kMoments; ++m) {
-    for (int c = 0; c < 3; ++c) {
-      const double p = stat::WelchPValue(a.Estimate(m, c), b.Estimate(m, c), 2e-3);
-      lowest = std::min(lowest, p);
+// Of each material and direction; computed once.
+const std::vector<std::vector<Sums>>& References() {
+  static const std::vector<std::vector<Sums>> references = [] {
+    std::vector<std::vector<Sums>> list;
+    for (const TestMaterial& m : TestMaterials()) {
+      list.emplace_back();
+      for (Vec3d wo : TestDirections()) list.back().push_back(ReferenceSums(m, wo));
     }
-  }
-  return lowest;
+    return list;
+  }();
+  return references;
 }
 
 double Level() {
@@ -102,38 +66,33 @@ bool IsWalk(const TestMaterial& m) {
 }  // namespace
 
 TEST_CASE("samples agree with the reference in the mean", "[shade][stat]") {
-  std::vector<std::vector<Sums>> reference;
-  for (const TestMaterial& m : TestMaterials()) {
-    reference.emplace_back();
-    for (Vec3d wo : TestDirections()) reference.back().push_back(Reference(m, wo));
-  }
-  ForEachTarget([&](const std::string& target) {
-    for (std::size_t i = 0; i < TestMaterials().size(); ++i) {
-      for (std::size_t d = 0; d < TestDirections().size(); ++d) {
-        if (target == "EMU128" && d != 1) continue;  // the slowest, and the same code
-        const TestMaterial& m = TestMaterials()[i];
-        INFO(target << ", " << m.name << ", wo.z = " << TestDirections()[d].z);
-        CHECK(LowestP(Sampled(m, TestDirections()[d], true), reference[i][d]) > Level());
-      }
+  const EachTarget target;
+  for (std::size_t i = 0; i < TestMaterials().size(); ++i) {
+    for (std::size_t d = 0; d < TestDirections().size(); ++d) {
+      if (target.name() == "EMU128" && d != 1)
+        continue;  // the slowest, and the same code
+      const TestMaterial& m = TestMaterials()[i];
+      INFO(m.name << ", wo.z = " << TestDirections()[d].z);
+      CHECK(LowestP(Sampled(m, TestDirections()[d], true), References()[i][d]) > Level());
     }
-  });
+  }
 }
 
 TEST_CASE("samples agree with their own evaluation in the mean", "[shade][stat]") {
-  ForEachTarget([&](const std::string& target) {
-    if (target == "EMU128") return;  // the slowest, and the code is the same
-    for (const TestMaterial& m : TestMaterials()) {
-      if (IsSpecular(m.kind)) continue;
-      for (Vec3d wo : TestDirections()) {
-        INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(LowestP(Sampled(m, wo, false), Evaluated(m, wo)) > Level());
-      }
+  const EachTarget target;
+  if (target.name() == "EMU128") return;  // the slowest, and the code is the same
+  for (const TestMaterial& m : TestMaterials()) {
+    if (IsSpecular(m.kind)) continue;
+    for (Vec3d wo : TestDirections()) {
+      INFO(m.name << ", wo.z = " << wo.z);
+      CHECK(LowestP(Sampled(m, wo, false), Evaluated(m, wo)) > Level());
     }
-  });
+  }
 }
 
 TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
-  for (const TestMaterial& m : TestMaterials()) {
+  for (std::size_t i = 0; i < TestMaterials().size(); ++i) {
+    const TestMaterial& m = TestMaterials()[i];
     TestMaterial other = m;
     other.table.color0_g[0] *= 1.1f;  // albedo, or index of a metal
     other.table.color0_b[0] *= 0.5f;
@@ -144,8 +103,9 @@ TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
                     [](float& v) { v *= 1.1f; });
     }
     double lowest = 1;
-    for (Vec3d wo : TestDirections()) {
-      lowest = std::min(lowest, LowestP(Sampled(other, wo, true), Reference(m, wo)));
+    for (std::size_t d = 0; d < TestDirections().size(); ++d) {
+      lowest = std::min(
+          lowest, LowestP(Sampled(other, TestDirections()[d], true), References()[i][d]));
     }
     INFO(m.name);
     CHECK(lowest < 1e-6);
@@ -153,35 +113,34 @@ TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
 }
 
 TEST_CASE("evaluation agrees with the reference direction by direction", "[shade]") {
-  ForEachTarget([&](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      if (IsSpecular(m.kind) || IsWalk(m)) continue;
-      for (Vec3d wo : TestDirections()) {
-        ProbeBatch batch(4096);
-        batch.SetWo(wo);
-        batch.RandomPoints(41);
-        batch.Sample(m);  // half the directions sampled, half uniform
-        reference::Random random(43);
-        for (std::uint32_t i = 0; i < batch.n; i += 2)
-          batch.SetWi(i, RandomDirection(random));
-        batch.Eval(m);
-        double worst = 0, mean = 0;
-        for (std::uint32_t i = 0; i < batch.n; ++i) {
-          const Rgb want = reference::EvaluateCos(m.local, Normalize(batch.Wo(i)),
-                                                  Normalize(batch.Wi(i)), random);
-          for (int c = 0; c < 3; ++c) {
-            const double difference = std::abs(batch.value[c][i] - want[c]);
-            const double error = difference / (std::abs(want[c]) + 1e-5);
-            worst = std::max(worst, error);
-            mean += error / (3. * batch.n);
-          }
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    if (IsSpecular(m.kind) || IsWalk(m)) continue;
+    for (Vec3d wo : TestDirections()) {
+      ProbeBatch batch(4096);
+      batch.SetWo(wo);
+      batch.RandomPoints(41);
+      batch.Sample(m);  // half the directions sampled, half uniform
+      reference::Random random(43);
+      for (std::uint32_t i = 0; i < batch.n; i += 2)
+        batch.SetWi(i, RandomDirection(random));
+      batch.Eval(m);
+      double worst = 0, mean = 0;
+      for (std::uint32_t i = 0; i < batch.n; ++i) {
+        const Rgb want = reference::EvaluateCos(m.local, Normalize(batch.Wo(i)),
+                                                Normalize(batch.Wi(i)), random);
+        for (int c = 0; c < 3; ++c) {
+          const double difference = std::abs(batch.value[c][i] - want[c]);
+          const double error = difference / (std::abs(want[c]) + 1e-5);
+          worst = std::max(worst, error);
+          mean += error / (3. * batch.n);
         }
-        INFO(target << ", " << m.name << ", wo.z = " << wo.z);
-        CHECK(worst < 1e-2);  // near total reflection, of what little gets through
-        CHECK(mean < 2e-5);
       }
+      INFO(m.name << ", wo.z = " << wo.z);
+      CHECK(worst < 1e-2);  // near total reflection, of what little gets through
+      CHECK(mean < 2e-5);
     }
-  });
+  }
 }
 
 }  // namespace lanelight::test

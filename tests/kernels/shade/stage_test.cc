@@ -7,6 +7,7 @@
 
 #include "kernels/stages.h"
 #include "tests/kernels/shade/probe_batch.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -103,73 +104,69 @@ Vec3d At(const float* x, const float* y, const float* z, std::uint32_t i) {
 }  // namespace
 
 TEST_CASE("a Lambertian bounce by hand", "[shade][stage]") {
-  ForEachTarget([](const std::string& target) {
-    const TestMaterial& material = TestMaterials()[0];
-    const ShadeFixture before(material);
-    ShadeFixture f(material);
-    f.Run(kAll, f.All());
-    const PathColumns &p = f.fixture.wave.path, &q = before.fixture.wave.path;
-    CHECK(f.Slots(QueueId::kScattered) == f.All());
-    CHECK(f.Slots(QueueId::kDone).empty());
-    std::vector<std::uint32_t> shadows;
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
-      INFO(target << ", path " << i);
-      const Vec3d n = At(q.ns_x, q.ns_y, q.ns_z, i), ng = At(q.ng_x, q.ng_y, q.ng_z, i);
-      const double side = -Dot(At(q.d_x, q.d_y, q.d_z, i), n) > 0 ? 1 : -1;
-      const Vec3d d = At(p.d_x, p.d_y, p.d_z, i), l = At(q.ls_x, q.ls_y, q.ls_z, i);
-      CHECK(Length(d) == Approx(1).epsilon(1e-6));
-      CHECK(Dot(d, n) * side > 0);
-      CHECK(p.bsdf_pdf[i] == Approx(std::abs(Dot(d, n)) / std::numbers::pi).margin(1e-6));
-      CHECK(p.beta_g[i] == Approx(0.25 * 0.5));
-      CHECK(p.depth[i] == 4);
-      CHECK(std::isinf(p.t[i]));
-      const Vec3d offset = At(p.o_x, p.o_y, p.o_z, i) - At(q.p_x, q.p_y, q.p_z, i);
-      CHECK(Dot(offset, ng) == Approx(Dot(d, ng) > 0 ? 1e-3 : -1e-3).margin(1e-5));
-      const double pb = std::abs(Dot(l, n)) / std::numbers::pi, pl = q.ls_pdf[i];
-      const double weight = pl == 0 ? 1 : pl * pl / (pl * pl + pb * pb);
-      const bool lit = Dot(l, n) * side > 0;
-      CHECK(p.sh_r[i] == Approx(lit ? 0.5 * 0.8 * pb * 1 * weight : 0).margin(1e-6));
-      CHECK(p.sh_b[i] == Approx(lit ? 1.0 * 0.1 * pb * 3 * weight : 0).margin(1e-6));
-      if (lit) shadows.insert(shadows.begin(), i);
-    }
-    CHECK(f.Slots(QueueId::kShadow) == shadows);
-  });
+  const EachTarget target;
+  const TestMaterial& material = TestMaterials()[0];
+  const ShadeFixture before(material);
+  ShadeFixture f(material);
+  f.Run(kAll, f.All());
+  const PathColumns &p = f.fixture.wave.path, &q = before.fixture.wave.path;
+  CHECK(f.Slots(QueueId::kScattered) == f.All());
+  CHECK(f.Slots(QueueId::kDone).empty());
+  std::vector<std::uint32_t> shadows;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    INFO("path " << i);
+    const Vec3d n = At(q.ns_x, q.ns_y, q.ns_z, i), ng = At(q.ng_x, q.ng_y, q.ng_z, i);
+    const double side = -Dot(At(q.d_x, q.d_y, q.d_z, i), n) > 0 ? 1 : -1;
+    const Vec3d d = At(p.d_x, p.d_y, p.d_z, i), l = At(q.ls_x, q.ls_y, q.ls_z, i);
+    CHECK(Length(d) == Approx(1).epsilon(1e-6));
+    CHECK(Dot(d, n) * side > 0);
+    CHECK(p.bsdf_pdf[i] == Approx(std::abs(Dot(d, n)) / std::numbers::pi).margin(1e-6));
+    CHECK(p.beta_g[i] == Approx(0.25 * 0.5));
+    CHECK(p.depth[i] == 4);
+    CHECK(std::isinf(p.t[i]));
+    const Vec3d offset = At(p.o_x, p.o_y, p.o_z, i) - At(q.p_x, q.p_y, q.p_z, i);
+    CHECK(Dot(offset, ng) == Approx(Dot(d, ng) > 0 ? 1e-3 : -1e-3).margin(1e-5));
+    const double pb = std::abs(Dot(l, n)) / std::numbers::pi, pl = q.ls_pdf[i];
+    const double weight = pl == 0 ? 1 : pl * pl / (pl * pl + pb * pb);
+    const bool lit = Dot(l, n) * side > 0;
+    CHECK(p.sh_r[i] == Approx(lit ? 0.5 * 0.8 * pb * 1 * weight : 0).margin(1e-6));
+    CHECK(p.sh_b[i] == Approx(lit ? 1.0 * 0.1 * pb * 3 * weight : 0).margin(1e-6));
+    if (lit) shadows.insert(shadows.begin(), i);
+  }
+  CHECK(f.Slots(QueueId::kShadow) == shadows);
 }
 
 TEST_CASE("stages leave out what a scene does not have", "[shade][stage]") {
-  ForEachTarget([](const std::string&) {
-    for (const TestMaterial& m : TestMaterials()) {
-      ShadeFixture f(m);
-      PathColumns& p = f.fixture.wave.path;
-      // Null columns: touching one would end the test program.
-      p.ns_x = p.ns_y = p.ns_z = p.tg_x = p.tg_y = p.tg_z = p.bsdf_pdf = nullptr;
-      p.ls_x = p.ls_y = p.ls_z = p.ls_r = p.ls_g = p.ls_b = p.ls_pdf = nullptr;
-      p.start_n_x = p.start_n_y = p.start_n_z = nullptr;
-      p.sh_r = p.sh_g = p.sh_b = nullptr;
-      f.Run({Feature::kScatters}, f.All());
-      CHECK(f.Slots(QueueId::kShadow).empty());
-      CHECK(f.Slots(QueueId::kScattered).size() + f.Slots(QueueId::kDone).size() ==
-            kPaths);
-    }
-  });
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    ShadeFixture f(m);
+    PathColumns& p = f.fixture.wave.path;
+    // Null columns: touching one would end the test program.
+    p.ns_x = p.ns_y = p.ns_z = p.tg_x = p.tg_y = p.tg_z = p.bsdf_pdf = nullptr;
+    p.ls_x = p.ls_y = p.ls_z = p.ls_r = p.ls_g = p.ls_b = p.ls_pdf = nullptr;
+    p.start_n_x = p.start_n_y = p.start_n_z = nullptr;
+    p.sh_r = p.sh_g = p.sh_b = nullptr;
+    f.Run({Feature::kScatters}, f.All());
+    CHECK(f.Slots(QueueId::kShadow).empty());
+    CHECK(f.Slots(QueueId::kScattered).size() + f.Slots(QueueId::kDone).size() == kPaths);
+  }
 }
 
 TEST_CASE("bounces keep the normal on the side they come from", "[shade][stage]") {
-  ForEachTarget([](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      if (HasTrait(m.kind, kSpecularOnly)) continue;  // no light sample competes
-      ShadeFixture f(m);
-      const ShadeFixture before(m);
-      f.Run(kAll, f.All());
-      const PathColumns &p = f.fixture.wave.path, &q = before.fixture.wave.path;
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        INFO(target << ", path " << i);
-        const Vec3d n = At(q.ns_x, q.ns_y, q.ns_z, i);
-        const double side = Dot(At(q.d_x, q.d_y, q.d_z, i), n) < 0 ? 1 : -1;
-        CHECK(At(p.start_n_x, p.start_n_y, p.start_n_z, i) == n * side);
-      }
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    if (HasTrait(m.kind, kSpecularOnly)) continue;  // no light sample competes
+    ShadeFixture f(m);
+    const ShadeFixture before(m);
+    f.Run(kAll, f.All());
+    const PathColumns &p = f.fixture.wave.path, &q = before.fixture.wave.path;
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      INFO("path " << i);
+      const Vec3d n = At(q.ns_x, q.ns_y, q.ns_z, i);
+      const double side = Dot(At(q.d_x, q.d_y, q.d_z, i), n) < 0 ? 1 : -1;
+      CHECK(At(p.start_n_x, p.start_n_y, p.start_n_z, i) == n * side);
     }
-  });
+  }
 }
 
 TEST_CASE("delta lights alone have full weight", "[shade][stage]") {
@@ -185,49 +182,46 @@ TEST_CASE("delta lights alone have full weight", "[shade][stage]") {
 }
 
 TEST_CASE("textured parameters come from the path", "[shade][stage]") {
-  ForEachTarget([](const std::string&) {
-    ShadeFixture f(TestMaterials()[0]);
-    std::vector<float> color(kPaths + 32);
-    for (std::uint32_t i = 0; i < kPaths; ++i) color[i] = (i + 1) / 64.f;
-    PathColumns& p = f.fixture.wave.path;
-    p.color0_r = p.color0_g = p.color0_b = color.data();
-    f.Run(kAll, f.All());
-    for (std::uint32_t i = 0; i < kPaths; ++i) CHECK(p.beta_b[i] == color[i]);
-  });
+  const EachTarget target;
+  ShadeFixture f(TestMaterials()[0]);
+  std::vector<float> color(kPaths + 32);
+  for (std::uint32_t i = 0; i < kPaths; ++i) color[i] = (i + 1) / 64.f;
+  PathColumns& p = f.fixture.wave.path;
+  p.color0_r = p.color0_g = p.color0_b = color.data();
+  f.Run(kAll, f.All());
+  for (std::uint32_t i = 0; i < kPaths; ++i) CHECK(p.beta_b[i] == color[i]);
 }
 
 TEST_CASE("absorbed paths are done", "[shade][stage]") {
   TestMaterial black = TestMaterials()[0];
   black.table.color0_r[0] = black.table.color0_g[0] = black.table.color0_b[0] = 0;
-  ForEachTarget([&](const std::string&) {
-    ShadeFixture f(black);
-    f.Run(kAll, f.All());
-    CHECK(f.Slots(QueueId::kDone) == f.All());
-    CHECK(f.Slots(QueueId::kScattered).empty());
-    CHECK(f.Slots(QueueId::kShadow).empty());
-  });
+  const EachTarget target;
+  ShadeFixture f(black);
+  f.Run(kAll, f.All());
+  CHECK(f.Slots(QueueId::kDone) == f.All());
+  CHECK(f.Slots(QueueId::kScattered).empty());
+  CHECK(f.Slots(QueueId::kShadow).empty());
 }
 
 TEST_CASE("a path's bounce depends on the path alone", "[shade][stage]") {
   // All at once, and one by one: bit for bit the same.
-  ForEachTarget([](const std::string& target) {
-    for (const TestMaterial& m : TestMaterials()) {
-      ShadeFixture together(m), alone(m);
-      together.Run(kAll, together.All());
-      for (std::uint32_t i = 0; i < kPaths; ++i) alone.Run(kAll, {i});
-      const PathColumns &a = together.fixture.wave.path, &b = alone.fixture.wave.path;
-      INFO(target << ", " << m.name);
-      const auto same = [](const float* x, const float* y) {
-        return std::memcmp(x, y, kPaths * sizeof(float)) == 0;
-      };
-      CHECK(same(a.d_x, b.d_x));
-      CHECK(same(a.o_z, b.o_z));
-      CHECK(same(a.beta_g, b.beta_g));
-      CHECK(same(a.bsdf_pdf, b.bsdf_pdf));
-      CHECK(same(a.eta_scale, b.eta_scale));
-      if (!IsSpecular(m.kind)) CHECK(same(a.sh_b, b.sh_b));
-    }
-  });
+  const EachTarget target;
+  for (const TestMaterial& m : TestMaterials()) {
+    ShadeFixture together(m), alone(m);
+    together.Run(kAll, together.All());
+    for (std::uint32_t i = 0; i < kPaths; ++i) alone.Run(kAll, {i});
+    const PathColumns &a = together.fixture.wave.path, &b = alone.fixture.wave.path;
+    INFO(m.name);
+    const auto same = [](const float* x, const float* y) {
+      return std::memcmp(x, y, kPaths * sizeof(float)) == 0;
+    };
+    CHECK(same(a.d_x, b.d_x));
+    CHECK(same(a.o_z, b.o_z));
+    CHECK(same(a.beta_g, b.beta_g));
+    CHECK(same(a.bsdf_pdf, b.bsdf_pdf));
+    CHECK(same(a.eta_scale, b.eta_scale));
+    if (!IsSpecular(m.kind)) CHECK(same(a.sh_b, b.sh_b));
+  }
 }
 
 }  // namespace lanelight::test

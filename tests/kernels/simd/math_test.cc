@@ -37,7 +37,7 @@ LANELIGHT_END_KERNELS
 #include <random>
 #include <vector>
 
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -62,102 +62,88 @@ struct Columns {
   }
 };
 
-template <class Body>
-void ForTargets(Body body) {
-  for (const std::string& name : AvailableTargets()) {
-    ForceTarget(name);
-    INFO(name);
-    body();
-  }
-  ForceTarget("");
-}
-
 }  // namespace
 
 TEST_CASE("SinCos2Pi stays within its bound", "[simd][math]") {
-  ForTargets([] {
-    for (double range : {1.0, 1000.0, 1048575.0}) {
-      Columns c;
-      c.Fill(-range, range);
-      for (int i = 0; i < 64; ++i) c.x[i] = static_cast<float>(i) / 8 - 4;  // the seams
-      LANELIGHT_ON(TestTarget(), MapSinCos2Pi)
-      (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
-      double error = 0, norm = 0;
-      for (int i = 0; i < kCount; ++i) {
-        const double turn = c.x[i] - std::floor(static_cast<double>(c.x[i]));
-        error = std::max(error, std::abs(c.a[i] - std::sin(2 * kPiD * turn)));
-        error = std::max(error, std::abs(c.b[i] - std::cos(2 * kPiD * turn)));
-        norm = std::max(norm,
-                        std::abs(1. - double(c.a[i]) * c.a[i] - double(c.b[i]) * c.b[i]));
-      }
-      CHECK(error < 1.2e-7);
-      CHECK(norm < 4e-7);
+  const EachTarget target;
+  for (double range : {1.0, 1000.0, 1048575.0}) {
+    Columns c;
+    c.Fill(-range, range);
+    for (int i = 0; i < 64; ++i) c.x[i] = static_cast<float>(i) / 8 - 4;  // the seams
+    LANELIGHT_ON(TestTarget(), MapSinCos2Pi)
+    (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
+    double error = 0, norm = 0;
+    for (int i = 0; i < kCount; ++i) {
+      const double turn = c.x[i] - std::floor(static_cast<double>(c.x[i]));
+      error = std::max(error, std::abs(c.a[i] - std::sin(2 * kPiD * turn)));
+      error = std::max(error, std::abs(c.b[i] - std::cos(2 * kPiD * turn)));
+      norm = std::max(norm,
+                      std::abs(1. - double(c.a[i]) * c.a[i] - double(c.b[i]) * c.b[i]));
     }
-  });
+    CHECK(error < 1.2e-7);
+    CHECK(norm < 4e-7);
+  }
 }
 
 TEST_CASE("SinCosOctant stays within its bound", "[simd][math]") {
-  ForTargets([] {
-    Columns c;
-    c.Fill(-0.5, 0.5);
-    LANELIGHT_ON(TestTarget(), MapSinCosOctant)
-    (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
-    double error = 0;
-    for (int i = 0; i < kCount; ++i) {
-      error = std::max(error, std::abs(c.a[i] - std::sin(kPiD / 2 * c.x[i])));
-      error = std::max(error, std::abs(c.b[i] - std::cos(kPiD / 2 * c.x[i])));
-    }
-    CHECK(error < 1.2e-7);
-  });
+  const EachTarget target;
+  Columns c;
+  c.Fill(-0.5, 0.5);
+  LANELIGHT_ON(TestTarget(), MapSinCosOctant)
+  (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
+  double error = 0;
+  for (int i = 0; i < kCount; ++i) {
+    error = std::max(error, std::abs(c.a[i] - std::sin(kPiD / 2 * c.x[i])));
+    error = std::max(error, std::abs(c.b[i] - std::cos(kPiD / 2 * c.x[i])));
+  }
+  CHECK(error < 1.2e-7);
 }
 
 TEST_CASE("Atan2 and AtanUnit stay within their bounds", "[simd][math]") {
-  ForTargets([] {
-    Columns c;
-    c.Fill(-1, 1);
-    for (int i = 0; i < 1000; ++i) {
-      c.x[i] *= 1e-6f;
-      c.y[1000 + i] *= 1e-6f;
-    }
-    const float axes[] = {0, 1, -1};
-    for (int i = 0; i < 9; ++i) {
-      c.x[2000 + i] = axes[i % 3];
-      c.y[2000 + i] = axes[i / 3];
-    }
-    LANELIGHT_ON(TestTarget(), MapAtan2)
-    (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
-    double error = 0, unit_error = 0;
-    for (int i = 0; i < kCount; ++i) {
-      error =
-          std::max(error, std::abs(c.a[i] - std::atan2(double(c.y[i]), double(c.x[i]))));
-      unit_error = std::max(unit_error, std::abs(c.b[i] - std::atan(double(c.x[i]))));
-    }
-    CHECK(error < 4e-7);
-    CHECK(unit_error < 1.5e-7);
-    CHECK(c.a[2000] == 0);  // the origin
-  });
+  const EachTarget target;
+  Columns c;
+  c.Fill(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    c.x[i] *= 1e-6f;
+    c.y[1000 + i] *= 1e-6f;
+  }
+  const float axes[] = {0, 1, -1};
+  for (int i = 0; i < 9; ++i) {
+    c.x[2000 + i] = axes[i % 3];
+    c.y[2000 + i] = axes[i / 3];
+  }
+  LANELIGHT_ON(TestTarget(), MapAtan2)
+  (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
+  double error = 0, unit_error = 0;
+  for (int i = 0; i < kCount; ++i) {
+    error =
+        std::max(error, std::abs(c.a[i] - std::atan2(double(c.y[i]), double(c.x[i]))));
+    unit_error = std::max(unit_error, std::abs(c.b[i] - std::atan(double(c.x[i]))));
+  }
+  CHECK(error < 4e-7);
+  CHECK(unit_error < 1.5e-7);
+  CHECK(c.a[2000] == 0);  // the origin
 }
 
 TEST_CASE("Exp stays within its bound", "[simd][math]") {
-  ForTargets([] {
-    for (double low : {-87.0, -1.0}) {
-      Columns c;
-      c.Fill(low, low == -1 ? 1 : 88);
-      c.x[0] = 0;
-      c.x[1] = -87.5f;
-      c.x[2] = -1e30f;
-      LANELIGHT_ON(TestTarget(), MapExp)
-      (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
-      double error = 0;
-      for (int i = 3; i < kCount; ++i) {
-        error = std::max(error, std::abs(c.a[i] / std::exp(double(c.x[i])) - 1));
-      }
-      CHECK(error < 1.5e-7);
-      CHECK(c.a[0] == 1);
-      CHECK(c.a[1] == 0);
-      CHECK(c.a[2] == 0);
+  const EachTarget target;
+  for (double low : {-87.0, -1.0}) {
+    Columns c;
+    c.Fill(low, low == -1 ? 1 : 88);
+    c.x[0] = 0;
+    c.x[1] = -87.5f;
+    c.x[2] = -1e30f;
+    LANELIGHT_ON(TestTarget(), MapExp)
+    (c.x.data(), c.y.data(), c.a.data(), c.b.data(), kCount);
+    double error = 0;
+    for (int i = 3; i < kCount; ++i) {
+      error = std::max(error, std::abs(c.a[i] / std::exp(double(c.x[i])) - 1));
     }
-  });
+    CHECK(error < 1.5e-7);
+    CHECK(c.a[0] == 1);
+    CHECK(c.a[1] == 0);
+    CHECK(c.a[2] == 0);
+  }
 }
 
 }  // namespace lanelight

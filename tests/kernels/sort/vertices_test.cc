@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kernels/stages.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -40,26 +40,21 @@ std::set<std::uint32_t> SlotsOf(const Queue& queue) {
 
 TEST_CASE("vertices: points in a medium draw numbers and are routed", "[sort]") {
   const CompiledScene scene = TwoKinds();
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    INFO(target);
-    WaveFixture f(scene, kPaths);
-    f.wave.vertices = QueueId::kVertex;
-    f.run.features = {Feature::kDiffuse, Feature::kDiffuseUniform};
-    Fill(f.wave);
-    f.Run(VerticesStage, {});
-    CHECK(f.wave.queue(QueueId::kVertex).size == kPaths);
-    f.Run(IndependentBounceStage, {});
-    f.Run(RouteStage, {});
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
-      const float u = f.wave.path.u_bsdf_0[i];
-      CHECK((u >= 0 && u < 1));
-      const ShadeKind kind =
-          i % 2 == 0 ? ShadeKind::kDiffuse : ShadeKind::kDiffuseUniform;
-      CHECK(SlotsOf(f.wave.queue(ShadeQueue(kind))).count(i) == 1);
-    }
+  const EachTarget target;
+  WaveFixture f(scene, kPaths);
+  f.wave.vertices = QueueId::kVertex;
+  f.run.features = {Feature::kDiffuse, Feature::kDiffuseUniform};
+  Fill(f.wave);
+  f.Run(VerticesStage, {});
+  CHECK(f.wave.queue(QueueId::kVertex).size == kPaths);
+  f.Run(IndependentBounceStage, {});
+  f.Run(RouteStage, {});
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    const float u = f.wave.path.u_bsdf_0[i];
+    CHECK((u >= 0 && u < 1));
+    const ShadeKind kind = i % 2 == 0 ? ShadeKind::kDiffuse : ShadeKind::kDiffuseUniform;
+    CHECK(SlotsOf(f.wave.queue(ShadeQueue(kind))).count(i) == 1);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("vertices: where only surfaces scatter, their queue is all there is",

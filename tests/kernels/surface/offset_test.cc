@@ -4,7 +4,7 @@
 
 #include "kernels/stages.h"
 #include "tests/support/brute_force.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 namespace {
@@ -98,56 +98,48 @@ int SelfHits(const Case& c, const AccelOptions& options, Random& random, Vec3f c
 }  // namespace
 
 TEST_CASE("a ray that leaves a surface does not meet it again", "[surface]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    Random random(11);
-    int tried = 0, without_offset = 0;
-    for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f}) {
-      for (const Vec3f center :
-           {Vec3f{0, 0, 0}, Vec3f{1.3f, -0.7f, 0.2f}, Vec3f{900, 20, -5}}) {
-        for (const Case& c : Shapes(random, size, center)) {
-          for (const AccelOptions& options : {AccelOptions{}, AccelOptions{0, 0}}) {
-            CAPTURE(target, size, center.x, c.name, options.few_triangles);
-            CHECK(SelfHits(c, options, random, center, size, &tried) == 0);
-            without_offset += SelfHits(c, options, random, center, size, &tried, 0);
-          }
+  const EachTarget target;
+  Random random(11);
+  int tried = 0, without_offset = 0;
+  for (const float size : {1e-6f, 1e-2f, 1.0f, 1e3f, 1e6f}) {
+    for (const Vec3f center :
+         {Vec3f{0, 0, 0}, Vec3f{1.3f, -0.7f, 0.2f}, Vec3f{900, 20, -5}}) {
+      for (const Case& c : Shapes(random, size, center)) {
+        for (const AccelOptions& options : {AccelOptions{}, AccelOptions{0, 0}}) {
+          CAPTURE(size, center.x, c.name, options.few_triangles);
+          CHECK(SelfHits(c, options, random, center, size, &tried) == 0);
+          without_offset += SelfHits(c, options, random, center, size, &tried, 0);
         }
       }
     }
-    CHECK(tried > 20000);
-    // The check has power: with the offsets switched off rays do meet their surface.
-    CHECK(without_offset > 1000);
   }
-  ForceTarget("");
+  CHECK(tried > 20000);
+  // The check has power: with the offsets switched off rays do meet their surface.
+  CHECK(without_offset > 1000);
 }
 
 TEST_CASE("a gap of a few roundings under a huge triangle stops rays", "[surface]") {
   // A small triangle 4e-7 above a ground of size 1e6: rays from its underside to the
   // ground must arrive, although the rounding error of the ground's own edges is 0.1.
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Random random(12);
-    Geometry g;
-    g.triangles = {MakeTriangle({-1e6f, -1e6f, 0}, {1e6f, -1e6f, 0}, {0, 2e6f, 0})};
-    for (const AccelOptions& options : {AccelOptions{}, AccelOptions{0, 0}}) {
-      const CompiledScene scene = MakeScene(g, options);
-      std::vector<TestRay> rays;
-      for (int i = 0; i < 1000; ++i) {
-        Vec3f d = random.Direction();
-        if (std::abs(d.z) < 0.01f) continue;
-        rays.push_back({{random(-3, 3), random(-3, 3), d.z < 0 ? 4e-7f : -4e-7f}, d});
-      }
-      WaveFixture f(scene, 1000);
-      f.SetRays(rays);
-      f.Run(IntersectTrianglesStage, {});
-      int missed = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i)
-        missed += std::isinf(f.wave.path.t[i]);
-      CHECK(missed == 0);
+  const EachTarget target;
+  Random random(12);
+  Geometry g;
+  g.triangles = {MakeTriangle({-1e6f, -1e6f, 0}, {1e6f, -1e6f, 0}, {0, 2e6f, 0})};
+  for (const AccelOptions& options : {AccelOptions{}, AccelOptions{0, 0}}) {
+    const CompiledScene scene = MakeScene(g, options);
+    std::vector<TestRay> rays;
+    for (int i = 0; i < 1000; ++i) {
+      Vec3f d = random.Direction();
+      if (std::abs(d.z) < 0.01f) continue;
+      rays.push_back({{random(-3, 3), random(-3, 3), d.z < 0 ? 4e-7f : -4e-7f}, d});
     }
+    WaveFixture f(scene, 1000);
+    f.SetRays(rays);
+    f.Run(IntersectTrianglesStage, {});
+    int missed = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) missed += std::isinf(f.wave.path.t[i]);
+    CHECK(missed == 0);
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

@@ -8,7 +8,7 @@
 #include "tests/kernels/surface/relief_files.h"
 #include "tests/reference/relief.h"
 #include "tests/reference/scenes.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -100,16 +100,12 @@ void CheckNormals(const Surfaces& s, const std::function<Vec3d(Vec3d)>& expected
 }  // namespace
 
 TEST_CASE("a ramp tilts the normal by the angle of its slope", "[relief]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    Ramp ramp;
-    ramp.b.AddQuad({0, 0, 0}, {2, 0, 0}, {0, 3, 0}, ramp.material);
-    const Surfaces s(ramp.b.Build(), Down(0.2f, 1.6f));
-    const Vec3d n = Normalize(Vec3d{-kA / 2, -kB / 3, 1});
-    CheckNormals(s, [&](Vec3d) { return n; });
-  }
-  ForceTarget("");
+  const EachTarget target;
+  Ramp ramp;
+  ramp.b.AddQuad({0, 0, 0}, {2, 0, 0}, {0, 3, 0}, ramp.material);
+  const Surfaces s(ramp.b.Build(), Down(0.2f, 1.6f));
+  const Vec3d n = Normalize(Vec3d{-kA / 2, -kB / 3, 1});
+  CheckNormals(s, [&](Vec3d) { return n; });
 }
 
 TEST_CASE("heights are lengths of the world, at every scale of it", "[relief]") {

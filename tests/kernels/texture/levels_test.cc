@@ -5,7 +5,7 @@
 #include "kernels/stages.h"
 #include "src/scene/compile/texture_programs.h"
 #include "tests/kernels/surface/relief_files.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight {
@@ -151,28 +151,24 @@ TEST_CASE("without a footprint filters look at the image itself", "[texture][lev
 }
 
 TEST_CASE("trilinear: level log2 of twice the longest step", "[texture][levels]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    CAPTURE(target);
-    // Columns of 0 and 1 in turn: level 0 is 0 or 1 at texel centres, all others 1/2.
-    Lookups lookups(
-        64, [](double u, double) { return static_cast<int>(u * 64) % 2; },
-        ImageFilter::kTrilinear);
-    const float centre = 33.5f / 64, texel = 1.0f / 64;
-    const auto c = lookups.Eval({{centre, 0.5f, texel / 2},  // one texel
-                                 {centre, 0.5f, 0, texel},   // two: level 1
-                                 {centre, 0.5f, 0, 0, texel * 0.70710678f},  // 2^0.5
-                                 {centre, 0.5f, 0, 0, 0, 10},
-                                 {centre, 0.5f, 1e8f},
-                                 {centre, 0.5f, -texel}});
-    CHECK(c[0] == Approx(1).margin(1e-4));
-    CHECK(c[1] == Approx(0.5).margin(1e-4));
-    CHECK(c[2] == Approx(0.75).margin(1e-3));
-    CHECK(c[3] == Approx(0.5).margin(1e-4));
-    CHECK(c[4] == Approx(0.5).margin(1e-4));
-    CHECK(c[5] == Approx(0.5).margin(1e-4));
-  }
-  ForceTarget("");
+  const EachTarget target;
+  // Columns of 0 and 1 in turn: level 0 is 0 or 1 at texel centres, all others 1/2.
+  Lookups lookups(
+      64, [](double u, double) { return static_cast<int>(u * 64) % 2; },
+      ImageFilter::kTrilinear);
+  const float centre = 33.5f / 64, texel = 1.0f / 64;
+  const auto c = lookups.Eval({{centre, 0.5f, texel / 2},                  // one texel
+                               {centre, 0.5f, 0, texel},                   // two: level 1
+                               {centre, 0.5f, 0, 0, texel * 0.70710678f},  // 2^0.5
+                               {centre, 0.5f, 0, 0, 0, 10},
+                               {centre, 0.5f, 1e8f},
+                               {centre, 0.5f, -texel}});
+  CHECK(c[0] == Approx(1).margin(1e-4));
+  CHECK(c[1] == Approx(0.5).margin(1e-4));
+  CHECK(c[2] == Approx(0.75).margin(1e-3));
+  CHECK(c[3] == Approx(0.5).margin(1e-4));
+  CHECK(c[4] == Approx(0.5).margin(1e-4));
+  CHECK(c[5] == Approx(0.5).margin(1e-4));
 }
 
 TEST_CASE("ewa keeps what lies across the long axis", "[texture][levels]") {

@@ -36,7 +36,7 @@ LANELIGHT_END_KERNELS
 #include <vector>
 
 #include "tests/reference/pattern.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -71,20 +71,16 @@ Vec3d PointOf(const std::vector<float>& xyz, std::size_t i) {
 
 TEST_CASE("noise agrees with the sum over the corners of cells", "[noise]") {
   const std::vector<float> xyz = RandomPoints();
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> got = RunNoise(xyz);
-    double worst = 0, mean = 0;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      worst = std::max(worst, std::abs(got[i] - reference::Noise(PointOf(xyz, i))));
-      mean += got[i] / kPoints;
-    }
-    INFO(target);
-    CHECK(worst < 1e-5);
-    // Mean 0; the standard deviation of one value is below 0.3: six of the mean's.
-    CHECK(std::abs(mean) < 6 * 0.3 / 32);
+  const EachTarget target;
+  const std::vector<float> got = RunNoise(xyz);
+  double worst = 0, mean = 0;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    worst = std::max(worst, std::abs(got[i] - reference::Noise(PointOf(xyz, i))));
+    mean += got[i] / kPoints;
   }
-  ForceTarget("");
+  CHECK(worst < 1e-5);
+  // Mean 0; the standard deviation of one value is below 0.3: six of the mean's.
+  CHECK(std::abs(mean) < 6 * 0.3 / 32);
 }
 
 TEST_CASE("noise vanishes on the lattice and has period 256", "[noise]") {
@@ -97,13 +93,10 @@ TEST_CASE("noise vanishes on the lattice and has period 256", "[noise]") {
                             : (i % 16) * 0.375f - 2 + (i >= 48 ? 256 * (k - 1) : 0);
     }
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> got = RunNoise(xyz);
-    for (int i = 0; i < 32; ++i) CHECK(got[i] == 0);
-    for (int i = 32; i < 48; ++i) CHECK(got[i] == Approx(got[i + 16]).margin(1e-6));
-  }
-  ForceTarget("");
+  const EachTarget target;
+  const std::vector<float> got = RunNoise(xyz);
+  for (int i = 0; i < 32; ++i) CHECK(got[i] == 0);
+  for (int i = 32; i < 48; ++i) CHECK(got[i] == Approx(got[i + 16]).margin(1e-6));
 }
 
 TEST_CASE("noise of any number is finite or not a number", "[noise]") {
@@ -111,33 +104,26 @@ TEST_CASE("noise of any number is finite or not a number", "[noise]") {
   std::vector<float> xyz(3 * 16, 0.5f);
   const float odd[] = {inf, -inf, std::nanf(""), 3e38f, -3e38f, 1e10f, 16777216, 1e-40f};
   for (int i = 0; i < 8; ++i) xyz[i] = odd[i];
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> got = RunNoise(xyz);  // must not read outside (asan)
-    for (int i = 3; i < 8; ++i) CHECK(std::abs(got[i]) <= 1.5f);
-  }
-  ForceTarget("");
+  const EachTarget target;
+  const std::vector<float> got = RunNoise(xyz);  // must not read outside (asan)
+  for (int i = 3; i < 8; ++i) CHECK(std::abs(got[i]) <= 1.5f);
 }
 
 TEST_CASE("sums of octaves agree with the twin", "[noise]") {
   const std::vector<float> xyz = RandomPoints();
   std::vector<float> got(2 * kPoints);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    LANELIGHT_ON(TestTarget(), OctavesAt)(xyz.data(), got.data(), kPoints);
-    double fbm = 0, turbulence = 0;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const Vec3d p = PointOf(xyz, i);
-      fbm = std::max(fbm, std::abs(got[i] - reference::Fbm(p, 4, 0.6)));
-      turbulence = std::max(turbulence,
-                            std::abs(got[kPoints + i] - reference::Wrinkled(p, 4, 0.6)));
-    }
-    INFO(target);
-    // A float at 800 * 1.99^3 resolves 5e-4, times slopes of 2 and 0.6^3.
-    CHECK(fbm < 1e-3);
-    CHECK(turbulence < 1e-3);
+  const EachTarget target;
+  LANELIGHT_ON(TestTarget(), OctavesAt)(xyz.data(), got.data(), kPoints);
+  double fbm = 0, turbulence = 0;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Vec3d p = PointOf(xyz, i);
+    fbm = std::max(fbm, std::abs(got[i] - reference::Fbm(p, 4, 0.6)));
+    turbulence =
+        std::max(turbulence, std::abs(got[kPoints + i] - reference::Wrinkled(p, 4, 0.6)));
   }
-  ForceTarget("");
+  // A float at 800 * 1.99^3 resolves 5e-4, times slopes of 2 and 0.6^3.
+  CHECK(fbm < 1e-3);
+  CHECK(turbulence < 1e-3);
 }
 
 }  // namespace lanelight

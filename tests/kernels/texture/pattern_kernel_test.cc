@@ -35,7 +35,7 @@ LANELIGHT_END_KERNELS
 #include "src/scene/compile/texture_programs.h"
 #include "tests/kernels/texture/texture_files.h"
 #include "tests/reference/texture.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -208,28 +208,25 @@ TEST_CASE("colours below a coat are corrected as constants are", "[texture][coat
   CHECK(table.fits.size() == 3 * 9 * 9 * 9);  // one for all
   const std::vector<float> points = RandomPoints(3);
   std::vector<float> rgb(3 * kPoints);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    double left = 0, correction = 0, worst = 0;
-    for (int i = 0; i < kCorners; ++i) {
-      LANELIGHT_ON(TestTarget(), EvalPlaces)
-      (table, 2 * i + 1, points.data(), rgb.data(), 16);
-      const Rgb got = {rgb[0], rgb[16], rgb[32]};
-      const Rgb color = textures[2 * i].corners[0].constant;
-      if (i >= kCorners / 2) {
-        CHECK(Distance(got, color) < 1e-5);
-        continue;
-      }
-      const Rgb wanted = EffectiveCoatBase(color, kInternal, kBounces);
-      left += Dot(got - wanted, got - wanted);
-      correction += Dot(color - wanted, color - wanted);
-      worst = std::max(worst, Distance(got, wanted));
+  const EachTarget target;
+  double left = 0, correction = 0, worst = 0;
+  for (int i = 0; i < kCorners; ++i) {
+    LANELIGHT_ON(TestTarget(), EvalPlaces)
+    (table, 2 * i + 1, points.data(), rgb.data(), 16);
+    const Rgb got = {rgb[0], rgb[16], rgb[32]};
+    const Rgb color = textures[2 * i].corners[0].constant;
+    if (i >= kCorners / 2) {
+      CHECK(Distance(got, color) < 1e-5);
+      continue;
     }
-    INFO(target << ": " << left << " of " << correction);
-    CHECK(left < 0.15 * correction);
-    CHECK(worst < 0.06);
+    const Rgb wanted = EffectiveCoatBase(color, kInternal, kBounces);
+    left += Dot(got - wanted, got - wanted);
+    correction += Dot(color - wanted, color - wanted);
+    worst = std::max(worst, Distance(got, wanted));
   }
-  ForceTarget("");
+  INFO(left << " of " << correction);
+  CHECK(left < 0.15 * correction);
+  CHECK(worst < 0.06);
 }
 
 TEST_CASE("the table of colours below a coat is interpolated linearly",
@@ -257,19 +254,15 @@ TEST_CASE("the table of colours below a coat is interpolated linearly",
   }
   std::vector<float> points = RandomPoints(3), rgb(3 * kPoints);
   for (std::size_t i = 0; i < 2 * kPoints; ++i) points[i] -= std::floor(points[i]);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    LANELIGHT_ON(TestTarget(), EvalPlaces)(table, 1, points.data(), rgb.data(), kPoints);
-    double worst = 0;
-    for (std::size_t i = 0; i < kPoints; ++i) {
-      const Rgb was = reference::Textures(textures).Eval(0, PointOf(points, i));
-      const Rgb got = {rgb[i], rgb[kPoints + i], rgb[2 * kPoints + i]};
-      worst = std::max(worst, Distance(got, was + change(was)));
-    }
-    INFO(target);
-    CHECK(worst < 1e-6);
+  const EachTarget target;
+  LANELIGHT_ON(TestTarget(), EvalPlaces)(table, 1, points.data(), rgb.data(), kPoints);
+  double worst = 0;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const Rgb was = reference::Textures(textures).Eval(0, PointOf(points, i));
+    const Rgb got = {rgb[i], rgb[kPoints + i], rgb[2 * kPoints + i]};
+    worst = std::max(worst, Distance(got, was + change(was)));
   }
-  ForceTarget("");
+  CHECK(worst < 1e-6);
 }
 
 }  // namespace lanelight

@@ -34,7 +34,7 @@ LANELIGHT_END_KERNELS
 #include "src/scene/compile/texture_programs.h"
 #include "tests/kernels/texture/texture_files.h"
 #include "tests/reference/texture.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -263,18 +263,15 @@ TEST_CASE("combined textures: checkerboard, mix, scale, nested and shared", "[te
     const auto at = [&] { return (static_cast<int>(random() % 400) - 200 + 0.37f) / 8; };
     points.Add(static_cast<std::int32_t>(random() % textures.size()), at(), at());
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> rgb = Eval(table, points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Rgb want = twin.Eval(points.ids[i], points.u[i], points.v[i]);
-      INFO(target << " " << textures[points.ids[i]].name);
-      for (int c = 0; c < 3; ++c) {
-        CHECK(rgb[c * points.size() + i] == Approx(want[c]).margin(2e-5));
-      }
+  const EachTarget target;
+  const std::vector<float> rgb = Eval(table, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Rgb want = twin.Eval(points.ids[i], points.u[i], points.v[i]);
+    INFO(" " << textures[points.ids[i]].name);
+    for (int c = 0; c < 3; ++c) {
+      CHECK(rgb[c * points.size() + i] == Approx(want[c]).margin(2e-5));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("checkerboard parity holds for negative and huge cells", "[texture]") {
@@ -290,18 +287,15 @@ TEST_CASE("checkerboard parity holds for negative and huge cells", "[texture]") 
   for (const auto& s : cells) {
     for (const auto& v : cells) points.Add(0, s.first, v.first);
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> rgb = Eval(table, points);
-    std::size_t i = 0;
-    for (const auto& s : cells) {
-      for (const auto& v : cells) {
-        INFO(target << ": " << s.first << ", " << v.first);
-        CHECK(rgb[i++] == ((s.second + v.second) % 2 == 0 ? 1 : 0));
-      }
+  const EachTarget target;
+  const std::vector<float> rgb = Eval(table, points);
+  std::size_t i = 0;
+  for (const auto& s : cells) {
+    for (const auto& v : cells) {
+      INFO(s.first << ", " << v.first);
+      CHECK(rgb[i++] == ((s.second + v.second) % 2 == 0 ? 1 : 0));
     }
   }
-  ForceTarget("");
 }
 
 TEST_CASE("coordinates that are no numbers stay inside the image", "[texture]") {
@@ -319,15 +313,12 @@ TEST_CASE("coordinates that are no numbers stay inside the image", "[texture]") 
       for (int id = 0; id < 4; ++id) points.Add(id, u, v);
     }
   }
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    const std::vector<float> rgb = Eval(table, points);  // must not read outside (asan)
-    const std::size_t last = points.size() - 4;          // (0.5, 0.5) with every mode
-    for (int id = 0; id < 4; ++id) CHECK((rgb[last + id] >= 0 && rgb[last + id] <= 1));
-    const std::size_t clamped = 4 * (1 * 6 + 2) + 1;  // u = inf, v = -inf, clamp
-    CHECK((rgb[clamped] >= 0 && rgb[clamped] <= 1));
-  }
-  ForceTarget("");
+  const EachTarget target;
+  const std::vector<float> rgb = Eval(table, points);  // must not read outside (asan)
+  const std::size_t last = points.size() - 4;          // (0.5, 0.5) with every mode
+  for (int id = 0; id < 4; ++id) CHECK((rgb[last + id] >= 0 && rgb[last + id] <= 1));
+  const std::size_t clamped = 4 * (1 * 6 + 2) + 1;  // u = inf, v = -inf, clamp
+  CHECK((rgb[clamped] >= 0 && rgb[clamped] <= 1));
 }
 
 TEST_CASE("alpha of one hit", "[texture]") {
@@ -336,16 +327,12 @@ TEST_CASE("alpha of one hit", "[texture]") {
   t.is_float = true;
   const std::vector<Texture> textures = {t};
   const TextureTable table = CompileTextures(textures);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    float alpha = 0;
-    LANELIGHT_ON(TestTarget(), AlphaPoint)(table, 0, 0.3f, 0.6f, &alpha);
-    CHECK(alpha ==
-          Approx(reference::EvalTexture(textures, 0, 0.3f, 0.6f).x).margin(1e-5));
-    LANELIGHT_ON(TestTarget(), AlphaPoint)(table, kNone, 0.3f, 0.6f, &alpha);
-    CHECK(alpha == 0.25f);
-  }
-  ForceTarget("");
+  const EachTarget target;
+  float alpha = 0;
+  LANELIGHT_ON(TestTarget(), AlphaPoint)(table, 0, 0.3f, 0.6f, &alpha);
+  CHECK(alpha == Approx(reference::EvalTexture(textures, 0, 0.3f, 0.6f).x).margin(1e-5));
+  LANELIGHT_ON(TestTarget(), AlphaPoint)(table, kNone, 0.3f, 0.6f, &alpha);
+  CHECK(alpha == 0.25f);
 }
 
 }  // namespace lanelight

@@ -10,7 +10,7 @@
 #include "src/vocabulary/path/stage.h"
 #include "tests/kernels/texture/texture_files.h"
 #include "tests/reference/texture.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -104,29 +104,26 @@ TEST_CASE("the texture stage writes what each material asks for", "[texture][sta
   FeatureSet features = {Feature::kTextures, Feature::kUv};
   if (color1) features.Add(Feature::kTexturedColor1);
   if (roughness) features.Add(Feature::kTexturedRoughness);
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    Fixture f;
-    if (color1) f.AddColor1();
-    if (roughness) f.AddRoughness();
-    TextureStage(TestTarget()).resolve(features)(f.wave);
-    CHECK(f.wave.lanes.items == kPaths);
-    for (int i = 0; i < kPaths; ++i) {
-      INFO(target << " path " << i << " material " << f.material[i]);
-      for (int c = 0; c < 3; ++c) {
-        CHECK(f.columns[2 + c][i] == Approx(f.Color(i, c, 0.125)).margin(2e-5));
-        if (color1) {
-          CHECK(f.columns[5 + c][i] == Approx(f.Color(i, c, 0.3125)).margin(2e-5));
-        }
-      }
-      if (roughness) {
-        CHECK(f.columns[8][i] == Approx(f.AlphaX(i)).margin(1e-4));
-        CHECK(f.columns[9][i] == 0.25f);
+  const EachTarget target;
+  Fixture f;
+  if (color1) f.AddColor1();
+  if (roughness) f.AddRoughness();
+  TextureStage(TestTarget()).resolve(features)(f.wave);
+  CHECK(f.wave.lanes.items == kPaths);
+  for (int i = 0; i < kPaths; ++i) {
+    INFO(" path " << i << " material " << f.material[i]);
+    for (int c = 0; c < 3; ++c) {
+      CHECK(f.columns[2 + c][i] == Approx(f.Color(i, c, 0.125)).margin(2e-5));
+      if (color1) {
+        CHECK(f.columns[5 + c][i] == Approx(f.Color(i, c, 0.3125)).margin(2e-5));
       }
     }
-    for (int c = 2; c < 10; ++c) CHECK(f.columns[c][kPaths] == -77);  // no other slot
+    if (roughness) {
+      CHECK(f.columns[8][i] == Approx(f.AlphaX(i)).margin(1e-4));
+      CHECK(f.columns[9][i] == 0.25f);
+    }
   }
-  ForceTarget("");
+  for (int c = 2; c < 10; ++c) CHECK(f.columns[c][kPaths] == -77);  // no other slot
 }
 
 TEST_CASE("the texture stage needs surface coordinates", "[texture][stage]") {

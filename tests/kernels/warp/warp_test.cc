@@ -9,7 +9,7 @@
 #include "kernels/probe/math_probe.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 
 namespace lanelight {
 
@@ -90,66 +90,60 @@ TEST_CASE("warps follow their densities", "[warp][stat]") {
   const auto targets = AvailableTargets();
   const double level =
       stat::SidakLevel(1e-3, static_cast<int>(targets.size() * std::size(kWarpIds)));
-  for (const std::string& target : targets) {
-    ForceTarget(target);
-    for (WarpId id : kWarpIds) {
-      INFO(target << " warp " << static_cast<int>(id));
-      CHECK(PValue(id, id) > level);
-    }
-    // Wrong densities are noticed.
-    CHECK(PValue(WarpId::kCosine, WarpId::kUniformHemisphere) < 1e-9);
-    CHECK(PValue(WarpId::kInSphere, WarpId::kCosine) < 1e-9);
+  const EachTarget target;
+  for (WarpId id : kWarpIds) {
+    INFO("warp " << static_cast<int>(id));
+    CHECK(PValue(id, id) > level);
   }
-  ForceTarget("");
+  // Wrong densities are noticed.
+  CHECK(PValue(WarpId::kCosine, WarpId::kUniformHemisphere) < 1e-9);
+  CHECK(PValue(WarpId::kInSphere, WarpId::kCosine) < 1e-9);
 }
 
 TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (WarpId id : kWarpIds) {
-      const DrawnPoints p(id);
-      double worst = 0, density = 0, length = 0;
-      for (int i = 0; i < kCount; ++i) {
-        // Near the square's image of a point (disk centre, pole) or a seam of the angle
-        // the inverse is not determined.
-        if (std::min(p.u0[i], p.u1[i]) < 1e-3 || std::max(p.u0[i], p.u1[i]) > 1 - 1e-3) {
-          continue;
-        }
-        if (id == WarpId::kDisk || id == WarpId::kCosine) {
-          if (std::hypot(p.u0[i] - 0.5, p.u1[i] - 0.5) < 1e-2) continue;
-        }
-        worst = std::max<double>(worst, std::abs(p.back0[i] - p.u0[i]));
-        worst = std::max<double>(worst, std::abs(p.back1[i] - p.u1[i]));
-        const double z = p.z[i];
-        double want = 0;
-        switch (id) {
-          case WarpId::kDisk:
-            want = 1 / kPiD;
-            break;
-          case WarpId::kCosine:
-            want = z / kPiD;
-            break;
-          case WarpId::kInSphere:
-            want = 2 * z * z * z / kPiD;
-            break;
-          case WarpId::kUniformHemisphere:
-            want = 1 / (2 * kPiD);
-            break;
-        }
-        density = std::max(density, std::abs(p.pdf[i] / want - 1));
-        if (id != WarpId::kDisk) {
-          const double n =
-              std::sqrt(double(p.x[i]) * p.x[i] + double(p.y[i]) * p.y[i] + z * z);
-          length = std::max(length, std::abs(n - 1));
-        }
+  const EachTarget target;
+  for (WarpId id : kWarpIds) {
+    const DrawnPoints p(id);
+    double worst = 0, density = 0, length = 0;
+    for (int i = 0; i < kCount; ++i) {
+      // Near the square's image of a point (disk centre, pole) or a seam of the angle
+      // the inverse is not determined.
+      if (std::min(p.u0[i], p.u1[i]) < 1e-3 || std::max(p.u0[i], p.u1[i]) > 1 - 1e-3) {
+        continue;
       }
-      INFO(target << " warp " << static_cast<int>(id));
-      CHECK(worst < 2e-5);
-      CHECK(density < 1e-5);
-      CHECK(length < 1e-6);
+      if (id == WarpId::kDisk || id == WarpId::kCosine) {
+        if (std::hypot(p.u0[i] - 0.5, p.u1[i] - 0.5) < 1e-2) continue;
+      }
+      worst = std::max<double>(worst, std::abs(p.back0[i] - p.u0[i]));
+      worst = std::max<double>(worst, std::abs(p.back1[i] - p.u1[i]));
+      const double z = p.z[i];
+      double want = 0;
+      switch (id) {
+        case WarpId::kDisk:
+          want = 1 / kPiD;
+          break;
+        case WarpId::kCosine:
+          want = z / kPiD;
+          break;
+        case WarpId::kInSphere:
+          want = 2 * z * z * z / kPiD;
+          break;
+        case WarpId::kUniformHemisphere:
+          want = 1 / (2 * kPiD);
+          break;
+      }
+      density = std::max(density, std::abs(p.pdf[i] / want - 1));
+      if (id != WarpId::kDisk) {
+        const double n =
+            std::sqrt(double(p.x[i]) * p.x[i] + double(p.y[i]) * p.y[i] + z * z);
+        length = std::max(length, std::abs(n - 1));
+      }
     }
+    INFO("warp " << static_cast<int>(id));
+    CHECK(worst < 2e-5);
+    CHECK(density < 1e-5);
+    CHECK(length < 1e-6);
   }
-  ForceTarget("");
 }
 
 TEST_CASE("warps of numbers at the ends are unit directions with densities", "[warp]") {
@@ -189,23 +183,20 @@ TEST_CASE("mean cosines of the diffuse models", "[warp]") {
   } models[] = {{WarpId::kCosine, 2. / 3, 1. / 2},
                 {WarpId::kUniformHemisphere, 1. / 2, 1. / 3},
                 {WarpId::kInSphere, 4. / 5, 2. / 3}};
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    for (const auto& m : models) {
-      const DrawnPoints p(m.id);
-      double sum = 0;
-      float lowest = 1;
-      for (float z : p.z) {
-        sum += z;
-        lowest = std::min(lowest, z);
-      }
-      const double error = std::sqrt((m.second - m.mean * m.mean) / kCount);
-      INFO(target << " warp " << static_cast<int>(m.id));
-      CHECK(std::abs(sum / kCount - m.mean) < 4.5 * error);
-      CHECK(lowest > 0);
+  const EachTarget target;
+  for (const auto& m : models) {
+    const DrawnPoints p(m.id);
+    double sum = 0;
+    float lowest = 1;
+    for (float z : p.z) {
+      sum += z;
+      lowest = std::min(lowest, z);
     }
+    const double error = std::sqrt((m.second - m.mean * m.mean) / kCount);
+    INFO("warp " << static_cast<int>(m.id));
+    CHECK(std::abs(sum / kCount - m.mean) < 4.5 * error);
+    CHECK(lowest > 0);
   }
-  ForceTarget("");
 }
 
 }  // namespace lanelight

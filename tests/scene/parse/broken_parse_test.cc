@@ -10,6 +10,7 @@
 
 #include "src/base/core/error.h"
 #include "src/scene/parse/parse.h"
+#include "tests/scene/parse/parse_text.h"
 
 namespace lanelight {
 namespace {
@@ -78,6 +79,13 @@ TEST_CASE("broken scenes are refused with place and reason", "[parse]") {
     }
   }
   CHECK(files >= 60);
+}
+
+TEST_CASE("blocks nested more than 1000 deep are refused", "[parse]") {
+  std::string text;
+  for (int i = 0; i < 1001; ++i) text += "AttributeBegin\n";
+  CHECK(WorldError(text).starts_with("test.pbrt:1002:1: error: "));
+  CHECK(WorldError(text).find("nested more than 1000 deep") != std::string::npos);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/reference/scenes.h"
 #include "tests/render/run/render_fixture.h"
-#include "tests/support/test_target.h"
+#include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
@@ -90,51 +90,48 @@ TEST_CASE("light tree: descending and climbing give the same probabilities",
           "[strategy]") {
   const PreparedScene scene = ManyLights(40);
   const std::uint32_t n = 1 << 15;
-  for (const std::string& target : AvailableTargets()) {
-    ForceTarget(target);
-    WaveFixture f(scene.Parts(), n);
-    PathColumns& p = f.wave.path;
-    const Vec3f from = {0.3f, -1.2f, 0.4f};
-    for (std::uint32_t i = 0; i < n; ++i) {
-      p.p_x[i] = p.o_x[i] = from.x, p.p_y[i] = p.o_y[i] = from.y;
-      p.p_z[i] = p.o_z[i] = from.z;
-      p.u_select[i] = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
-    }
-    f.QueueAll(QueueId::kLit, n);
-    f.Run(SelectLightTreeStage, {});
-    std::map<std::uint32_t, std::pair<float, int>> seen;
-    for (std::uint32_t i = 0; i < n; ++i) {
-      auto& [pmf, count] = seen[p.ls_light[i]];
-      if (count++ == 0) pmf = p.light_pmf[i];
-      // The product of probabilities is the same whatever number led there.
-      REQUIRE(p.light_pmf[i] == pmf);
-    }
-    double sum = 0;
-    for (const auto& [light, entry] : seen) {
-      const auto [pmf, count] = entry;
-      sum += pmf;
-      // Evenly spaced numbers: counts are exact but for one at each end of the interval
-      // and rounding.
-      CHECK(std::abs(count - pmf * float(n)) < 4 + 2e-3 * count);
-    }
-    CHECK(sum == Approx(1).epsilon(1e-3));
-    CHECK(sum < 1.0001);
-
-    // The way up, for lights that a ray can hit.
-    std::uint32_t hits = 0;
-    std::vector<float> expected;
-    for (const auto& [light, entry] : seen) {
-      const LightRecord& record = scene.compiled->lights.lights[light];
-      if (record.primitive == 0xffffffffu) continue;
-      p.prim[hits++] = record.primitive;
-      expected.push_back(entry.first);
-    }
-    REQUIRE(hits > 20);
-    f.QueueAll(QueueId::kHit, hits);
-    f.Run(HitLightTreeStage, {});
-    for (std::uint32_t i = 0; i < hits; ++i) CHECK(p.light_pmf[i] == Approx(expected[i]));
+  const EachTarget target;
+  WaveFixture f(scene.Parts(), n);
+  PathColumns& p = f.wave.path;
+  const Vec3f from = {0.3f, -1.2f, 0.4f};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    p.p_x[i] = p.o_x[i] = from.x, p.p_y[i] = p.o_y[i] = from.y;
+    p.p_z[i] = p.o_z[i] = from.z;
+    p.u_select[i] = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
   }
-  ForceTarget("");
+  f.QueueAll(QueueId::kLit, n);
+  f.Run(SelectLightTreeStage, {});
+  std::map<std::uint32_t, std::pair<float, int>> seen;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    auto& [pmf, count] = seen[p.ls_light[i]];
+    if (count++ == 0) pmf = p.light_pmf[i];
+    // The product of probabilities is the same whatever number led there.
+    REQUIRE(p.light_pmf[i] == pmf);
+  }
+  double sum = 0;
+  for (const auto& [light, entry] : seen) {
+    const auto [pmf, count] = entry;
+    sum += pmf;
+    // Evenly spaced numbers: counts are exact but for one at each end of the interval
+    // and rounding.
+    CHECK(std::abs(count - pmf * float(n)) < 4 + 2e-3 * count);
+  }
+  CHECK(sum == Approx(1).epsilon(1e-3));
+  CHECK(sum < 1.0001);
+
+  // The way up, for lights that a ray can hit.
+  std::uint32_t hits = 0;
+  std::vector<float> expected;
+  for (const auto& [light, entry] : seen) {
+    const LightRecord& record = scene.compiled->lights.lights[light];
+    if (record.primitive == 0xffffffffu) continue;
+    p.prim[hits++] = record.primitive;
+    expected.push_back(entry.first);
+  }
+  REQUIRE(hits > 20);
+  f.QueueAll(QueueId::kHit, hits);
+  f.Run(HitLightTreeStage, {});
+  for (std::uint32_t i = 0; i < hits; ++i) CHECK(p.light_pmf[i] == Approx(expected[i]));
 }
 
 TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
