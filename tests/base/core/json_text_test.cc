@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/json_text.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -13,12 +14,8 @@ std::string Nested(std::size_t depth) {
 
 // What an InputError says of the text of a file "f", which should be {"a": number}.
 std::string Complaint(const std::string& text) {
-  try {
-    FromJsonOf("f", [&] { return ParseJson(text).at("a").get<double>(); });
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf(
+      [&] { FromJsonOf("f", [&] { return ParseJson(text).at("a").get<double>(); }); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "src/base/core/error.h"
 #include "src/base/image/image.h"
 #include "tests/base/image/temporary_folder.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 
@@ -34,12 +35,7 @@ inline Image ReadAs(const std::string& name, const std::string& content) {
 
 /// The message of the InputError, or "".
 inline std::string ImageError(const std::string& name, const std::string& content) {
-  try {
-    ReadAs(name, content);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ReadAs(name, content); });
 }
 
 }  // namespace lanelight

@@ -8,6 +8,7 @@
 #include "src/base/image/sparse_grid.h"
 #include "tests/base/image/sparse_grid_file.h"
 #include "tests/base/image/temporary_folder.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight::test {
 namespace {
@@ -59,12 +60,7 @@ void CheckPattern(const SparseGrid& grid, double tolerance) {
 }
 
 std::string ErrorOf(const std::string& path) {
-  try {
-    ReadSparseGrid(path, "density");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ReadSparseGrid(path, "density"); });
 }
 
 }  // namespace

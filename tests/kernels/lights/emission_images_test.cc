@@ -50,7 +50,7 @@ TEST_CASE("pictures of emitting shapes render as the reference does", "[lights]"
 
 TEST_CASE("a picture that is upside down is found", "[lights]") {
   const auto truth = Estimate(
-      RenderReference(Pictures(), Options(ReferenceEstimator::kLightSampling, 20000)));
+      RenderReference(Pictures(), Options(ReferenceEstimator::kLightSampling, 4096)));
   SceneDescription turned = Pictures();
   const std::string path = Picture("turned.exr", kWide, kHigh, [](int x, int y) {
     return Patchwork(x, kHigh - 1 - y);

@@ -48,7 +48,7 @@ bool Refused(const SceneDescription& scene, const char* strategy) {
 void CheckStrategies(const SceneDescription& scene) {
   const reference::Textures textures(scene.textures);
   const auto reference = [&](ReferenceEstimator estimator) {
-    return Estimate(RenderReference(scene, TexturedOptions(textures, estimator, 20000)));
+    return Estimate(RenderReference(scene, TexturedOptions(textures, estimator, 8192)));
   };
   const auto truth = reference(ReferenceEstimator::kLightSampling);
   const auto other = reference(ReferenceEstimator::kMaterialSampling);

@@ -190,7 +190,7 @@ TEST_CASE("spectral media: grey grids are those of RGB", "[media][spectral]") {
 TEST_CASE("spectral media: grids of colours agree with the scalar tracer",
           "[media][spectral][agreement]") {
   const SceneDescription scene = BallOf(ColorLump());
-  const auto reference = SpectralReference(scene, 200);
+  const auto reference = SpectralReference(scene, 64);
   const auto result = stat::CompareMeans(RenderWavefront(Spectral(scene), 4096),
                                          reference, {4, 1e-6, 5e-3, 1e-5});
   INFO(result.ToString());

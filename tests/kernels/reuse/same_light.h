@@ -15,6 +15,7 @@ struct ReuseScene {
   SceneDescription description;
   std::uint64_t spp = 8192;
   double power = 0.02;  // relative error of the image that is found
+  std::vector<stat::ImageEstimate> truths = {};  // rendered by the first comparison
 };
 
 inline constexpr double kReuseFalseAlarm = 1e-6;  // of each comparison
@@ -27,13 +28,17 @@ inline stat::ImageEstimate OfPixel(const stat::ImageEstimate& image, std::size_t
   return {1, 1, image.observations, {image.mean[pixel]}, {image.variance[pixel]}};
 }
 
-inline void CheckSame(const ReuseScene& scene, const std::string& alone,
+/// Compares a render with path reuse with renders without it. All comparisons of a scene
+/// share these: every strategy without reuse has the same mean.
+inline void CheckSame(ReuseScene& scene, const std::string& alone,
                       const std::string& reuse) {
   const int side = scene.description.film.width;
-  const auto truths = RenderOften(scene.description, alone, 4 * scene.spp, 1);
+  if (scene.truths.empty()) {
+    scene.truths = RenderOften(scene.description, "points=sobol", 4 * scene.spp, 1);
+  }
   const auto images = RenderOften(scene.description, alone + "," + reuse, scene.spp, 7);
   for (const int tile : {side, kServedTile}) {
-    const stat::ImageEstimate truth = TilesOf(truths, tile);
+    const stat::ImageEstimate truth = TilesOf(scene.truths, tile);
     const stat::ImageEstimate image = TilesOf(images, tile);
     const auto tiles = static_cast<int>(image.mean.size());
     for (std::size_t i = 0; i < image.mean.size(); ++i) {

@@ -6,23 +6,20 @@
 
 #include "src/base/image/spectrum.h"
 #include "src/base/image/wavelengths.h"
+#include "tests/agreement/spectral_reference.h"
 #include "tests/kernels/reuse/same_light.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::test {
 namespace {
 
-ReuseScene WithWavelengths(ReuseScene room) {
-  room.description.integrator.transport = Transport::kSpectral;
-  return room;
-}
-
 // Walls of one colour each, which light takes on as it bounces.
 ReuseScene SaturatedRoom() {
   ReuseScene room = {SmallRoom(8, 4, 0.3)};
   room.description.materials[1].reflectance.constant = {0.8, 0.05, 0.03};
   room.description.materials[2].reflectance.constant = {0.04, 0.2, 0.8};
-  return WithWavelengths(room);
+  room.description = Spectral(room.description);
+  return room;
 }
 
 void MakeGrey(SceneDescription& scene) {
@@ -62,11 +59,11 @@ std::vector<int> TriplesOf(std::uint32_t pixel, std::uint32_t samples,
 }  // namespace
 
 TEST_CASE("spectral reuse: blocks share the light of paths alone", "[reuse][spectral]") {
-  CheckSame(SaturatedRoom(), "points=sobol", "reuse=block:16");
-  CheckSame(SaturatedRoom(), "points=independent", "reuse=block:64");
-  CheckSame(SaturatedRoom(), "points=halton,pairs=antithetic", "reuse=block:4:compact");
-  CheckSame(SaturatedRoom(), "points=sobol,light-candidates=resampled",
-            "reuse=block:32:apart");
+  ReuseScene room = SaturatedRoom();
+  CheckSame(room, "points=sobol", "reuse=block:16");
+  CheckSame(room, "points=independent", "reuse=block:64");
+  CheckSame(room, "points=halton,pairs=antithetic", "reuse=block:4:compact");
+  CheckSame(room, "points=sobol,light-candidates=resampled", "reuse=block:32:apart");
 }
 
 TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {
@@ -80,7 +77,8 @@ TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {
   for (Material* side : {&plastic, &metal}) {
     side->uroughness.constant = side->vroughness.constant = 0.3;
     side->remap_roughness = false;
-    ReuseScene room = WithWavelengths(WithSides(*side, 4));
+    ReuseScene room = WithSides(*side, 4);
+    room.description = Spectral(room.description);
     room.spp = 4096;
     room.power = 0.03;
     CheckSame(room, "points=sobol", "reuse=block:16");
@@ -90,17 +88,8 @@ TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {
 TEST_CASE("spectral reuse: what is grey is as in RGB", "[reuse][spectral]") {
   SceneDescription room = SmallRoom(16, 4);
   const auto difference = [](const SceneDescription& scene) {
-    SceneDescription spectral = scene;
-    spectral.integrator.transport = Transport::kSpectral;
-    const auto a = RenderWavefront(scene, 16, "reuse=block");
-    const auto b = RenderWavefront(spectral, 16, "reuse=block");
-    double largest = 0;
-    for (std::size_t i = 0; i < a.mean.size(); ++i) {
-      for (int c = 0; c < 3; ++c) {
-        largest = std::max(largest, std::abs(a.mean[i][c] - b.mean[i][c]));
-      }
-    }
-    return largest;
+    return LargestDifference(RenderWavefront(scene, 16, "reuse=block"),
+                             RenderWavefront(Spectral(scene), 16, "reuse=block"));
   };
   CHECK(difference(room) > 1e-3);
   MakeGrey(room);

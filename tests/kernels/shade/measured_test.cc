@@ -27,6 +27,11 @@ Vec3d Upwards(double z, double phi = 0.7) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+// Number of all paths that carry a triple of wavelengths.
+AlignedVector<float> WavelengthOf(int triple) {
+  return {static_cast<float>((triple + 0.5) / kTriples / 3)};
+}
+
 // The same by wavelength, of one triple.
 TestMaterial SpectralMaterialOf(const reference::MeasuredModel& model, int triple) {
   const TemporaryFolder folder;
@@ -36,7 +41,7 @@ TestMaterial SpectralMaterialOf(const reference::MeasuredModel& model, int tripl
   row.measured = m.local.measured = ReadMeasuredReflectance(path);
   m.table.measured = {};
   AddMeasured({row}, m.table.measured, Transport::kSpectral);
-  m.wavelength = {static_cast<float>((triple + 0.5) / kTriples / 3)};
+  m.wavelength = WavelengthOf(triple);
   return m;
 }
 
@@ -98,8 +103,9 @@ TEST_CASE("measured: each wavelength has its own value", "[shade][measured][spec
     // Linear between the wavelengths of the file.
     auto model = reference::MetalModel(0.5, turns ? 0.25 : 0.5, 0.2, 0.9);
     if (turns) model.phis = 9, model.parts = 4;
+    TestMaterial m = SpectralMaterialOf(model, 0);
     for (const int triple : {0, 40, 100, kTriples - 1}) {
-      const TestMaterial m = SpectralMaterialOf(model, triple);
+      m.wavelength = WavelengthOf(triple);
       for (int c = 0; c < 3; ++c) {
         const auto bin = static_cast<std::size_t>((2 - c) * kTriples + triple);
         const double nm = CarriedWavelengths().centre[bin];

@@ -12,6 +12,7 @@
 #include "src/scene/compiled/scene.h"
 #include "src/scene/description/description.h"
 #include "src/scene/geometry/geometry.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 
@@ -95,12 +96,7 @@ inline SceneDescription SquareScene() {
 
 /// what() of the InputError, or "".
 inline std::string CompileError(const SceneDescription& d) {
-  try {
-    CompileScene(d);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
+  return InputErrorOf([&] { CompileScene(d); });
 }
 
 inline Vec3d Vertex(const TriangleRecord& t, int k) {

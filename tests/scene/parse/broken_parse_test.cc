@@ -11,6 +11,7 @@
 #include "src/base/core/error.h"
 #include "src/scene/parse/parse.h"
 #include "tests/scene/parse/parse_text.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -44,12 +45,7 @@ Expectation ReadExpectation(const fs::path& path) {
 
 // The message of the InputError, or "" if the file parses.
 std::string MessageOf(const fs::path& path) {
-  try {
-    ParseScene(path.string());
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ParseScene(path.string()); });
 }
 
 std::string ExpectedPrefix(const fs::path& path, const std::string& place) {

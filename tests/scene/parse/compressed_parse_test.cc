@@ -8,6 +8,7 @@
 #include "src/base/core/input_file.h"
 #include "src/render/job/job.h"
 #include "src/scene/parse/parse.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -40,12 +41,7 @@ const std::string kMesh =
     "end_header\n0 0 0 1 0 0 0 1 0 3 0 1 2\n";
 
 std::string MessageOf(const std::string& scene) {
-  try {
-    ParseScene(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ParseScene(scene); });
 }
 
 TEST_CASE("compressed scenes, includes, imports and meshes are read", "[parse]") {

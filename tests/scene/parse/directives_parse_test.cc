@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/scene/parse/parse_text.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -201,12 +202,8 @@ TEST_CASE("include shares the state, import does not", "[parse]") {
       "Include \"sub/a.pbrt\" Shape \"sphere\" NamedMaterial \"m\" Shape \"sphere\"");
   folder.Write("sub/a.pbrt", "Translate 1 0 0 Include \"b.pbrt\"");
   folder.Write("sub/b.pbrt", "Attribute \"shape\" \"float radius\" 7");
-  std::string message;
-  try {
-    ParseScene((folder.path / "main.pbrt").string());
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  const std::string message =
+      InputErrorOf([&] { ParseScene((folder.path / "main.pbrt").string()); });
   CHECK(message.find("main.pbrt:2:51: error: unknown named material") !=
         std::string::npos);
   folder.Write("sub/b.pbrt", "Attribute \"shape\" \"float radius\" 7 #\n");
@@ -244,12 +241,7 @@ TEST_CASE("files that include each other without end are refused", "[parse][slow
   const FolderWithSub folder;
   const std::string scene = WriteLevels(folder, 60, 2);
   folder.Write("level0.pbrt", "");
-  std::string message;
-  try {
-    ParseScene(scene);
-  } catch (const InputError& error) {
-    message = error.what();
-  }
+  const std::string message = InputErrorOf([&] { ParseScene(scene); });
   CHECK(message.find("all included files together have more than 4 GiB") !=
         std::string::npos);
 }

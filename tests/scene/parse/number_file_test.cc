@@ -6,6 +6,7 @@
 
 #include "src/scene/parse/parse.h"
 #include "tests/base/image/temporary_folder.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -15,12 +16,7 @@ std::vector<double> NumbersOf(const std::string& text) {
 }
 
 std::string NumbersError(const std::string& text) {
-  try {
-    NumbersOf(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { NumbersOf(text); });
 }
 
 TEST_CASE("numbers are parted by blanks, or one character right after them", "[parse]") {

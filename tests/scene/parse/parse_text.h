@@ -5,6 +5,7 @@
 
 #include "src/base/core/error.h"
 #include "src/scene/parse/parse.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 
@@ -22,12 +23,7 @@ inline SceneDescription ParseWorld(const std::string& text,
 
 /// The message of the InputError, or "".
 inline std::string WorldError(const std::string& text) {
-  try {
-    ParseWorld(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ParseWorld(text); });
 }
 
 /// True if a note contains the words.

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
+#include "tests/base/image/temporary_folder.h"
 #include "tests/scene/parse/parse_text.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -47,12 +47,7 @@ constexpr PlyWriter::Format kFormats[] = {PlyWriter::kAscii, PlyWriter::kLittle,
                                           PlyWriter::kBig};
 
 std::string ErrorOf(const std::string& bytes) {
-  try {
-    ParsePly(bytes, "m.ply");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return InputErrorOf([&] { ParsePly(bytes, "m.ply"); });
 }
 
 std::string WithLineEnds(std::string text, const std::string& end) {
@@ -248,24 +243,67 @@ TEST_CASE("binary values that are not indices", "[parse][ply]") {
         std::string::npos);
 }
 
+// The error of a scene whose mesh has these bytes.
+std::string SceneErrorOf(const std::string& bytes) {
+  const TemporaryFolder folder;
+  folder.Write("m.ply", bytes);
+  return InputErrorOf([&] {
+    ParseSceneText("WorldBegin\n  Shape \"plymesh\" \"string filename\" \"m.ply\"",
+                   "main.pbrt", folder.File(""));
+  });
+}
+
 TEST_CASE("a bad binary mesh is reported at the scene's line", "[parse][ply]") {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "lanelight_ply_test";
-  fs::create_directories(folder);
   const std::string whole = PlainTriangle(PlyWriter::kLittle);
-  std::ofstream(folder / "cut.ply", std::ios::binary)
-      << whole.substr(0, whole.size() - 1);
-  std::string message;
-  try {
-    ParseSceneText("WorldBegin\n  Shape \"plymesh\" \"string filename\" \"cut.ply\"",
-                   "main.pbrt", folder.string());
-  } catch (const InputError& error) {
-    message = error.what();
+  CHECK_THAT(SceneErrorOf(whole.substr(0, whole.size() - 1)),
+             Catch::StartsWith("main.pbrt:2:19: error: ") && Catch::Contains("m.ply: "));
+}
+
+TEST_CASE("mistakes in the text of a mesh are reported with their place",
+          "[parse][ply]") {
+  const std::string good =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  CHECK(SceneErrorOf(good) == "");
+  const std::string end = good.substr(good.find("end_header"));
+  struct Case {
+    std::string from, to;        // what is replaced in the mesh
+    std::string place, message;  // both in the error
+  };
+  const Case cases[] = {
+      {"vertex 3", "vertex three", "m.ply:3:1", "not a count"},
+      {"vertex 3", "vertex 4000000000", "m.ply:10:1",
+       "more than the rest of the file can hold"},
+      {"vertex 3", "vertex 99999999999999999999", "m.ply:3:1", "not a count"},
+      {"ascii", "ascii_text", "m.ply:2:1", "unknown PLY format \"ascii_text\""},
+      {"1.0", "2.0", "m.ply:2:1", "1.0 is"},
+      {"float z", "flot z", "m.ply:6:1: error: unknown PLY type \"flot\"",
+       "did you mean \"float\"?"},
+      {"list uchar", "list float", "", "must be an integer type"},
+      {"3 0 1 2", "3 0 1 3", "", "the vertex index 3, but there are 3 vertices"},
+      {"3 0 1 2", "3 0 1 -2", "m.ply:13:7", "-2 in PLY face 0 is not an index"},
+      {end, "", "m.ply:9:1", "ends without end_header"},
+      {"face 1", "face 0", "", "no faces"},
+      {"vertex_indices", "corners", "", "needs the list vertex_indices"},
+      {"property float z\n", "", "", "needs the properties x, y and z"},
+      {"ply\n", "OFF\n", "m.ply:1:1", "not a PLY file"},
+      {"3 0 1 2", "5 0 1 2 0 1", "", "no faces of 3 or 4 corners"},
+      {"element vertex 3\n", "", "m.ply:3:1", "before any element"},
+      {"1 0 0", "1 nan 0", "",
+       "no face of the PLY file has corners with finite coordinates"},
+      {"3 0 1 2\n", "3 0 1", "m.ply:13:2",
+       "list \"vertex_indices\" has 3 values, more than the rest of the file"},
+      {"1 0 0", "1 zero 0", "m.ply:11:3", "\"zero\" is not a number"}};
+  for (const Case& c : cases) {
+    std::string bad = good;
+    REQUIRE(bad.find(c.from) != bad.npos);
+    bad.replace(bad.find(c.from), c.from.size(), c.to);
+    CAPTURE(c.to);
+    CHECK_THAT(SceneErrorOf(bad), Catch::StartsWith("main.pbrt:2:19: error: ") &&
+                                      Catch::Contains(c.place) &&
+                                      Catch::Contains(c.message));
   }
-  fs::remove_all(folder);
-  CAPTURE(message);
-  CHECK(message.find("main.pbrt:2:19: error: ") == 0);
-  CHECK(message.find("cut.ply: ") != std::string::npos);
 }
 
 }  // namespace

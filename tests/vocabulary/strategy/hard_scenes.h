@@ -123,14 +123,15 @@ inline SceneDescription ManyLights() {
 struct HardScene {
   const char* name;
   SceneDescription scene;
-  int tile;  // pixels per side that together see enough of rare events
+  int tile;      // pixels per side that together see enough of rare events
+  int cost = 1;  // time of a sample of the reference, in that of most scenes
 };
 
 inline constexpr std::size_t kScenes = 7;
 inline std::vector<HardScene> HardScenes() {
   return {{"tiny light", TinyLight(), 8},       {"large light", LargeLight(), 4},
           {"glossy plates", GlossyPlates(), 8}, {"sky and sun", SkyAndSun(), 4},
-          {"many lights", ManyLights(), 8},     {"clouds", NestedSmoke(), 8},
+          {"many lights", ManyLights(), 8, 4},  {"clouds", NestedSmoke(), 8, 2},
           {"lamps with holes", MixedLamps(), 8}};
 }
 

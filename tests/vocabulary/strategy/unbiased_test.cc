@@ -93,12 +93,12 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
   CHECK(least > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
 }
 
-stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
-  const reference::Textures textures(scene.textures);
+stat::ImageEstimate Reference(const HardScene& hard, int samples) {
+  const reference::Textures textures(hard.scene.textures);
   TwinOptions options =
-      TexturedOptions(textures, ReferenceEstimator::kLightSampling, samples);
+      TexturedOptions(textures, ReferenceEstimator::kLightSampling, samples / hard.cost);
   options.environment = SkyRadiance;
-  return Estimate(RenderReference(scene, options));
+  return Estimate(RenderReference(hard.scene, options));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ TEST_CASE("the combinations cover every pair of choices", "[strategy]") {
 TEST_CASE("every combination renders the reference image", "[strategy]") {
   Power power;
   for (const HardScene& hard : HardScenes()) {
-    CheckAll(hard, Reference(hard.scene, 16384), 1024, power);
+    CheckAll(hard, Reference(hard, 16384), 1024, power);
   }
   power.Check(0.03);
   CHECK(power.SawEveryChoice());
@@ -124,7 +124,7 @@ TEST_CASE("every combination renders the reference image, at length",
           "[strategy][slow]") {
   Power power;
   for (const HardScene& hard : HardScenes()) {
-    CheckAll(hard, Reference(hard.scene, 262144), 16384, power);
+    CheckAll(hard, Reference(hard, 262144), 16384, power);
   }
   power.Check(0.0075);
   CHECK(power.SawEveryChoice());
