@@ -35,7 +35,7 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
   const DI di;
   const PathColumns& p = wave.path;
   const VI one = hn::Set(di, 1);
-  // Pairs hold at every depth or at the first bounce only (MakePairParameters).
+  // Pairs hold at every depth or at the first bounce only (MakeAntitheticParameters).
   const bool first_only = wave.run->pairs.depths == 1;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
   for (uint32_t i = 0; i < queue.size; i += lanes) {

@@ -13,8 +13,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-LANELIGHT_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
-LANELIGHT_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
+LANELIGHT_INLINE float MinLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
+LANELIGHT_INLINE float MaxLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
 /// Slopes may differ by at most this from the mean: beyond it the test costs more than it
 /// saves. On narrow targets only the rays of a frustum are so similar (AVX2: 0.25 costs
@@ -41,7 +41,7 @@ struct Beam {
 /// r and z = z0 +- q over the rays, s z = c z0 +- (|c| q + r |z0| + r q).
 LANELIGHT_INLINE Beam MakeBeam(const Shear<VF>& shear) {
   const auto middle = [](VF v, float& radius) HWY_ATTR {
-    const float lo = LeastLane(v), hi = LargestLane(v);
+    const float lo = MinLane(v), hi = MaxLane(v);
     constexpr float kRound = 2 * std::numeric_limits<float>::epsilon();
     radius = 0.5f * (hi - lo) + kRound * std::max(std::abs(lo), std::abs(hi));
     return 0.5f * lo + 0.5f * hi;

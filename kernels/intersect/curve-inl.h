@@ -31,7 +31,7 @@ inline constexpr float kCurveClearance = 1.1f;
 
 /// Pieces in the coordinates of a ray: x and y across it, z along it.
 template <class V>
-struct SeenPieces {
+struct VisiblePieces {
   V x[4], y[4], z[4], radius[2];
 };
 
@@ -53,10 +53,10 @@ LANELIGHT_INLINE CurveRay MakeCurveRay(const float o[3], const float d[3]) {
           set(b, sign + d[1] * d[1] * a, -d[1]), set(d[0], d[1], d[2])};
 }
 
-LANELIGHT_INLINE SeenPieces<V8> SeePieces(const CurveBlock& block, int i,
-                                          const CurveRay& ray) {
+LANELIGHT_INLINE VisiblePieces<V8> PiecesAlong(const CurveBlock& block, int i,
+                                               const CurveRay& ray) {
   const D8 d8;
-  SeenPieces<V8> seen;
+  VisiblePieces<V8> seen;
   for (int k = 0; k < 4; ++k) {
     const P3<V8> p =
         Sub({hn::Load(d8, block.p[k][0] + i), hn::Load(d8, block.p[k][1] + i),
@@ -73,7 +73,7 @@ LANELIGHT_INLINE SeenPieces<V8> SeePieces(const CurveBlock& block, int i,
 
 /// Lanes whose hull, widened, the ray may meet before t_max: as a box along the chord. A
 /// chord of no length rejects nothing.
-LANELIGHT_INLINE M8 MayMeet(const SeenPieces<V8>& s, V8 t_max) {
+LANELIGHT_INLINE M8 MayMeet(const VisiblePieces<V8>& s, V8 t_max) {
   const D8 d8;
   const V8 cx = hn::Sub(s.x[3], s.x[0]), cy = hn::Sub(s.y[3], s.y[0]);
   const V8 r = hn::Max(s.radius[0], s.radius[1]);
@@ -124,7 +124,7 @@ struct Cubic {
 struct Nearing {
   Cubic<V8> x, y;
 
-  LANELIGHT_INLINE explicit Nearing(const SeenPieces<V8>& s) : x(s.x), y(s.y) {}
+  LANELIGHT_INLINE explicit Nearing(const VisiblePieces<V8>& s) : x(s.x), y(s.y) {}
   LANELIGHT_INLINE V8 At(V8 u) const {
     return hn::MulAdd(x.At(u), x.Slope(u), hn::Mul(y.At(u), y.Slope(u)));
   }
@@ -155,7 +155,7 @@ struct Nearing {
 
 /// The same at an end, whose direction is that to the first other point, or the second:
 /// where points coincide the curve does begin or end in a direction, but without speed.
-LANELIGHT_INLINE V8 NearingEnd(const SeenPieces<V8>& s, int end, int step) {
+LANELIGHT_INLINE V8 NearingEnd(const VisiblePieces<V8>& s, int end, int step) {
   const D8 d8;
   const auto toward = [&](const V8 a[4], int k) HWY_ATTR {
     const V8 e = hn::Sub(a[end + k * step], a[end]);
@@ -171,7 +171,7 @@ LANELIGHT_INLINE V8 NearingEnd(const SeenPieces<V8>& s, int end, int step) {
 }
 
 /// Returns whether a ray goes along one of the pieces, within 20 degrees.
-LANELIGHT_INLINE bool GoesAlong(const SeenPieces<V8>& s, M8 mask) {
+LANELIGHT_INLINE bool GoesAlong(const VisiblePieces<V8>& s, M8 mask) {
   const D8 d8;
   const V8 x = hn::Sub(s.x[3], s.x[0]), y = hn::Sub(s.y[3], s.y[0]),
            z = hn::Sub(s.z[3], s.z[0]);
@@ -184,7 +184,7 @@ LANELIGHT_INLINE bool GoesAlong(const SeenPieces<V8>& s, M8 mask) {
 /// place along the piece, and squared distance from its middle line over that of its
 /// edge, at most 1. `mask`: the lanes to look at.
 template <class Found>
-LANELIGHT_INLINE void ForEachNearest(const SeenPieces<V8>& s, M8 mask, Found&& found) {
+LANELIGHT_INLINE void ForEachNearest(const VisiblePieces<V8>& s, M8 mask, Found&& found) {
   const D8 d8;
   const V8 zero = hn::Zero(d8), wider = hn::Sub(s.radius[1], s.radius[0]);
   const Nearing nearing(s);

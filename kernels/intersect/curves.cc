@@ -84,10 +84,10 @@ HWY_INLINE void TraceCurves(const SceneParts& scene, const float o[3], const flo
   const auto leaf = [&](uint32_t index) HWY_ATTR {
     const CurveBlock& block = blocks[index];
     for (int i = 0; i < kBvhWidth; i += Lanes8()) {
-      const SeenPieces<V8> seen =
+      const VisiblePieces<V8> seen =
           geometry.curve_spaces.empty()
-              ? SeePieces(block, i, ray)
-              : SeeInSpaces(CurveMaps(geometry, block), block, i, ray);
+              ? PiecesAlong(block, i, ray)
+              : PiecesInSpaces(CurveMaps(geometry, block), block, i, ray);
       const M8 may = MayMeet(seen, hn::Set(d8, best.t));
       if (hn::AllFalse(d8, may)) continue;
       ForEachNearest(

@@ -77,7 +77,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
     TraceFrustum<false, kAlpha>(scene, accel.groups[0], {rays, bounds, rays}, left,
                                 best.hit);
   }
-  float bound = LargestLane(best.hit.t);
+  float bound = MaxLane(best.hit.t);
   if (left >= 0) {
     const PacketOfPaths paths = {wave, rays, slots};
     const bool moving = !scene.geometry->motions.empty();
@@ -85,7 +85,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
              [&](uint32_t instance) HWY_ATTR {
                moving ? TraceInstance<kAlpha, true>(paths, instance, left, best)
                       : TraceInstance<kAlpha, false>(paths, instance, left, best);
-               bound = LargestLane(best.hit.t);
+               bound = MaxLane(best.hit.t);
                return left < 0;
              });
   }

@@ -83,7 +83,7 @@ Stage EnterMediaStage() {
 
 void Interfaces(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VI most = hn::Set(DI(), static_cast<int32_t>(kMostCrossings));
+  const VI most = hn::Set(DI(), static_cast<int32_t>(kMaxInterfaceCrossings));
   Queue& surfaces = wave.queue(QueueId::kSurface);
   Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, surfaces, [&](const Slots& slots, MF valid) HWY_ATTR {

@@ -101,7 +101,7 @@ static_assert(sizeof(MediumSides) == 16);
 
 /// The maximum number of interfaces that a path or a shadow ray passes. A ray can meet a
 /// shape that is finer than the rounding of points again and again.
-inline constexpr uint32_t kMostCrossings = 1u << 16;
+inline constexpr uint32_t kMaxInterfaceCrossings = 1u << 16;
 
 /// Returns exp(-sigma d); 1 if sigma is 0 and d infinite.
 LANELIGHT_INLINE VF Transmittance(VF sigma, VF d) {

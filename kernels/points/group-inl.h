@@ -26,7 +26,7 @@ struct PointKey {
 /// Samples take turns at kReplicates groups (src/vocabulary/path/replicates.h). A group
 /// ends with the sampler's sequence, after 2^group_shift points; then as many new ones
 /// begin.
-LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU sample) {
+LANELIGHT_INLINE GroupIndex GroupRoundRobin(const SamplerParameters& points, VU sample) {
   constexpr int kLog = kLogReplicates;
   const int shift = static_cast<int>(points.group_shift);
   const VU turn = hn::ShiftRight<kLog>(sample);
@@ -37,9 +37,9 @@ LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU samp
 }
 
 /// The part that most policies share (fill-inl.h).
-struct PointsByTurns {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
+struct RoundRobinPoints {
+  static LANELIGHT_INLINE GroupIndex Group(const SamplerParameters& points, VU sample) {
+    return GroupRoundRobin(points, sample);
   }
 };
 

@@ -82,7 +82,7 @@ HWY_INLINE void ListSuffixes(const Wave& wave) {
   block.num_suffixes = 0;
   for (uint32_t i = 0; i < block.size; ++i) {
     const uint32_t r = block.records[i];
-    const float most = MostSent(wave, r);
+    const float most = MaxSent(wave, r);
     if (!(most > 0)) continue;
     const float q = HWY_MIN(1.0f, most / block.surely_kept);
     if (!roulette.Keeps(q)) continue;

@@ -53,7 +53,7 @@ HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
   const VF least =
       hn::Min(alpha(p.alpha_x, materials.alpha_x), alpha(p.alpha_y, materials.alpha_y));
   const MF wide = hn::Or(hn::RebindMask(DF(), hn::Ne(kind, metal)),
-                         hn::Ge(least, Splat(kLeastGlossyAlpha)));
+                         hn::Ge(least, Splat(kMinGlossyAlpha)));
   return hn::And(IsOfKinds(wave, slots, kGlossyKinds), wide);
 }
 

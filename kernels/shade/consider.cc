@@ -35,7 +35,7 @@ struct Reservoir {
 };
 
 // Worths are clamped here, so that no sum of them overflows.
-inline constexpr float kMostWorth = 1e36f;
+inline constexpr float kMaxCandidateWeight = 1e36f;
 
 HWY_INLINE VF Luminance(V3 c) {
   return hn::MulAdd(c.x, Splat(0.212671f),
@@ -113,7 +113,7 @@ HWY_INLINE VF Worth(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
                        Gather3(p.ls_r, p.ls_g, p.ls_b, slots));
   const V3 carried = Mul(Reflected(reader, mis, wo, wi, slots), light);
   return hn::IfThenElseZero(CarriesLight(carried),
-                            hn::Min(Luminance(carried), Splat(kMostWorth)));
+                            hn::Min(Luminance(carried), Splat(kMaxCandidateWeight)));
 }
 
 template <class Bsdf, ShadeKind kKind>

@@ -15,7 +15,7 @@ LANELIGHT_BEGIN_KERNELS
 // few of its lanes.
 class TexturedHits {
  public:
-  static constexpr uint32_t kMost = 2048;
+  static constexpr uint32_t kMaxHits = 2048;
 
   LANELIGHT_INLINE void Add(VI slots, VI ids, MF mask) {
     const uint32_t end = size_;
@@ -53,7 +53,7 @@ class TexturedHits {
     return static_cast<uint32_t>(hn::CountTrue(DF(), mask));
   }
 
-  static constexpr std::size_t kRoom = kMost + hn::MaxLanes(DI());
+  static constexpr std::size_t kRoom = kMaxHits + hn::MaxLanes(DI());
   HWY_ALIGN int32_t slots_[kRoom], ids_[kRoom];
   uint32_t size_ = 0;
 };
@@ -95,10 +95,10 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   const TextureTable& table = *wave.textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DI()));
-  HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
+  HWY_ALIGN uint32_t room[TexturedHits::kMaxHits + hn::MaxLanes(DI())];
   Queue taken = {room, 0};
-  for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMost) {
-    const uint32_t end = HWY_MIN(queue.size, begin + TexturedHits::kMost);
+  for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMaxHits) {
+    const uint32_t end = HWY_MIN(queue.size, begin + TexturedHits::kMaxHits);
     TexturedHits hits;
     for (uint32_t i = begin; i < end; i += lanes) {
       const StoreSlots slots = SlotsAt(queue, i);
@@ -226,8 +226,8 @@ void Textures(Wave& wave) {
     eval(ColorParameter{m, true, m.coat_albedo_texture, &m.coat_albedo_r,
                         &m.coat_albedo_g, &m.coat_albedo_b, path.coat_albedo_r,
                         path.coat_albedo_g, path.coat_albedo_b});
-    eval(CoatParameter{m.coat_g_texture, m.coat_g, path.coat_g, -kMostCoatAsymmetry,
-                       kMostCoatAsymmetry});
+    eval(CoatParameter{m.coat_g_texture, m.coat_g, path.coat_g, -kMaxCoatAsymmetry,
+                       kMaxCoatAsymmetry});
   }
   CountBatches(wave, wave.queue(QueueId::kSurface));
 }

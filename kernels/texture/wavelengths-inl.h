@@ -115,7 +115,7 @@ LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
 inline HWY_NOINLINE V3 UpsampledReflectances(const SpectrumTable& table, V3 rgb,
                                              const Wavelengths& w) {
   const VF one = Splat(1.0f), half = Splat(0.5f), two = Splat(2.0f);
-  const VF least = Splat(float{kLeastUpsampled}), most = hn::Sub(one, least);
+  const VF least = Splat(float{kMinUpsampled}), most = hn::Sub(one, least);
   const VF middle = Splat(0.5f * (kUpsamplingNodes - 1));
   const VF scale = hn::Mul(middle, Splat(table.per_half_tangent));
   const auto coordinate = [&](VF v) HWY_ATTR {

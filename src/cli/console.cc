@@ -35,7 +35,7 @@ std::string WithoutControls(const std::string& text) {
   return out;
 }
 
-constexpr std::size_t kUsualColumns = 80, kLeastColumns = 20;
+constexpr std::size_t kDefaultColumns = 80, kMinColumns = 20;
 
 int DescriptorOf(Stream stream) {
   return stream == Stream::kOutput ? STDOUT_FILENO : STDERR_FILENO;
@@ -120,7 +120,7 @@ std::size_t TerminalColumns(Stream stream) {
   if (columns == 0 && ioctl(DescriptorOf(stream), TIOCGWINSZ, &size) == 0) {
     columns = size.ws_col;
   }
-  return std::max(columns > 0 ? columns : kUsualColumns, kLeastColumns);
+  return std::max(columns > 0 ? columns : kDefaultColumns, kMinColumns);
 }
 
 bool IsTerminal(Stream stream) {

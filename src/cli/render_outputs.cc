@@ -37,7 +37,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                  ? fmt::format(
                        "error: no number of samples can show that the target is reached; "
                        "stopped after {:.0f} per pixel, {:.0f} times the estimate: {}",
-                       spp, kHopeless, error)
+                       spp, kHopelessFactor, error)
                  : fmt::format(
                        "error: the target was not reached before the end by {}; error {}",
                        limit, error));

@@ -104,17 +104,18 @@ std::string Where(const Case& about, const JudgedPoint& judged) {
 
 // The first few points that make a case fail.
 std::string Failures(const CaseResult& result) {
-  constexpr int kMost = 4;
+  constexpr int kMaxShown = 4;
   if (result.outcome != Outcome::kFailed) return "";
   if (result.promised == 0) return "    " + result.why + "\n";
   std::string text;
   int shown = 0;
   for (const JudgedPoint& judged : result.points) {
     if (!judged.promised || judged.verdict.good()) continue;
-    if (++shown > kMost) continue;
+    if (++shown > kMaxShown) continue;
     text += fmt::format("    {}: {}\n", Where(result.about, judged), judged.verdict.why);
   }
-  if (shown > kMost) text += fmt::format("    and {} more points\n", shown - kMost);
+  if (shown > kMaxShown)
+    text += fmt::format("    and {} more points\n", shown - kMaxShown);
   return text;
 }
 

@@ -92,7 +92,7 @@ Rgb ByLaw(double cut) {
   constexpr double kStep = 0.02;
   Rgb sum, all;
   for (double nm = kFirstCarriedNm; nm < kLastCarriedNm - 0.5 * kStep; nm += kStep) {
-    const Rgb share = WhiteShare(nm) * kStep;
+    const Rgb share = WhiteFraction(nm) * kStep;
     all += share;
     const Arrival at = Through(index(nm));
     if (at.height > cut) sum += share * (kRadiance * at.passes);

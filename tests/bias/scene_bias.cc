@@ -72,13 +72,14 @@ std::vector<std::string> EveryChoice() {
 // What trial runs choose, and the combinations in turn.
 std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
                                   std::size_t scenes) {
-  constexpr std::size_t kMostEach = 2;
+  constexpr std::size_t kMaxPerScene = 2;
   const std::size_t each =
-      std::min(kMostEach, (Combinations().size() + scenes - 1) / scenes);
-  constexpr const char* kInTurn[] = {"roulette=throughput:0:2:4", "roulette=adjoint",
-                                     "reuse=block:32:compact", "directions=light"};
-  std::vector<std::string> strategies = {"reuse=block",
-                                         kInTurn[index % std::size(kInTurn)]};
+      std::min(kMaxPerScene, (Combinations().size() + scenes - 1) / scenes);
+  constexpr const char* kExtraStrategies[] = {
+      "roulette=throughput:0:2:4", "roulette=adjoint", "reuse=block:32:compact",
+      "directions=light"};
+  std::vector<std::string> strategies = {
+      "reuse=block", kExtraStrategies[index % std::size(kExtraStrategies)]};
   for (std::size_t k = 0; k < each; ++k) {
     const std::size_t row = (index * each + k) % Combinations().size();
     strategies.push_back(

@@ -28,7 +28,7 @@ std::vector<Point> PathSum(double missing, const Effort& effort) {
   return {point};
 }
 
-std::vector<Point> ByMostEvents(double depth, const Effort& effort) {
+std::vector<Point> BySumOfEvents(double depth, const Effort& effort) {
   std::vector<Point> points;
   for (double albedo : {0.5, 0.999, 1.0}) {
     Quality quality = {4, 64, static_cast<int>(depth), 4};
@@ -183,7 +183,7 @@ TEST_CASE("extremes: sums of paths of up to 2e5 events") {
   Hold({1e-4, 1e-3, 1e-2, 0.1, 0.5}, PathSum);
 }
 TEST_CASE("extremes: the series of a closed room ends with the depth") {
-  Hold({1, 2, 32, 1000, 1e4}, ByMostEvents);
+  Hold({1, 2, 32, 1000, 1e4}, BySumOfEvents);
 }
 TEST_CASE("extremes: a sky behind sheets that let 1 to 1e-30 of it through") {
   Hold(Decades(-30, 0, 6), BehindSheets);

@@ -48,7 +48,7 @@ double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d sha
 }
 
 // Returns the position of a point of the medium's space in its box.
-Vec3d ShareOfBox(const Medium& m, Vec3d p) {
+Vec3d FractionOfBox(const Medium& m, Vec3d p) {
   const Vec3d local = p - m.box_min, size = m.box_max - m.box_min;
   return {local.x / size.x, local.y / size.y, local.z / size.z};
 }
@@ -78,7 +78,7 @@ double CloudAt(const Medium& m, Vec3d p) {
 Rgb EmissionAt(const Medium& m, Vec3d world) {
   Rgb emission = m.emission;
   if (m.kind == MediumKind::kHomogeneous || emission == Rgb{}) return emission;
-  const Vec3d p = m.world_from_medium.Inverse().Point(world), share = ShareOfBox(m, p);
+  const Vec3d p = m.world_from_medium.Inverse().Point(world), share = FractionOfBox(m, p);
   const auto read = [&](const std::vector<float>& values, int channels, int channel) {
     return Interpolated(m, values, share, channels, channel);
   };
@@ -118,7 +118,7 @@ double LargestExtinction(const Medium& m, int channel) {
 
 Coefficients MediumAt(const Medium& m, Vec3d p) {
   if (m.kind == MediumKind::kHomogeneous) return {m.sigma_a, m.sigma_s, {}};
-  const Vec3d own = m.world_from_medium.Inverse().Point(p), share = ShareOfBox(m, own);
+  const Vec3d own = m.world_from_medium.Inverse().Point(p), share = FractionOfBox(m, own);
   if (share.x < 0 || share.x > 1 || share.y < 0 || share.y > 1 || share.z < 0 ||
       share.z > 1) {
     return {};

@@ -10,7 +10,7 @@
 #include "tests/reference/frame.h"
 #include "tests/reference/material.h"
 #include "tests/reference/media.h"
-#include "tests/reference/relief.h"
+#include "tests/reference/bump_maps.h"
 #include "tests/reference/snapshot.h"
 
 namespace lanelight {
@@ -125,8 +125,8 @@ Rgb Tracer::Trace(Ray ray) const {
     if (!inside && depth++ == max_depth) return sum;
     LocalMaterial material = EvaluateMaterial(scene, index, at, options.texture, random);
     if (regular) Regularize(material);
-    const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
-                                           options.texture, options.normal_map);
+    const SurfacePoint shaded = WithBumpMaps(scene, *material.source, at, -ray.d,
+                                             options.texture, options.normal_map);
     const TangentFrame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
     if (scene.integrator.force_diffuse) material = MadeDiffuse(material, wo, random);

@@ -82,13 +82,13 @@ std::optional<HeldLock> LockFile::Take(const std::string& name) const {
 }
 
 // F_OFD_SETLKW would not end at signals that restart system calls.
-std::optional<HeldLock> LockFile::Wait(const std::string& name,
-                                       const std::function<bool(double)>& go_on) const {
+std::optional<HeldLock> LockFile::Wait(
+    const std::string& name, const std::function<bool(double)>& keep_waiting) const {
   const auto start = std::chrono::steady_clock::now();
   for (LockSeconds pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
     if (auto lock = Take(name)) return lock;
     const LockSeconds waited = std::chrono::steady_clock::now() - start;
-    if (!go_on(waited.count())) return std::nullopt;
+    if (!keep_waiting(waited.count())) return std::nullopt;
     std::this_thread::sleep_for(pause);
   }
 }

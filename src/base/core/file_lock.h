@@ -41,9 +41,9 @@ class LockFile {
   /// the hash of its name; two names share a byte with a probability of 2^-62. Throws
   /// InputError if the file system fails.
   std::optional<HeldLock> Take(const std::string& name) const;
-  /// Tries again, with pauses, while go_on(seconds waited so far) holds.
+  /// Tries again, with pauses, while keep_waiting(seconds waited so far) holds.
   std::optional<HeldLock> Wait(const std::string& name,
-                               const std::function<bool(double)>& go_on) const;
+                               const std::function<bool(double)>& keep_waiting) const;
 
   const std::string& path() const { return path_; }
   /// False once the path names another file, or none: locks of this one then do not

@@ -84,7 +84,7 @@ Polynomial Fit(Rgb target, Polynomial c) {
 }
 
 double NodeValue(int node) {
-  const double end = HalfTangentOfGrey(1 - kLeastUpsampled);
+  const double end = HalfTangentOfGrey(1 - kMinUpsampled);
   const double h = end * (2.0 * node / (kUpsamplingNodes - 1) - 1);
   return 0.5 + h / (1 + h * h);
 }
@@ -171,7 +171,7 @@ const std::vector<float>& UpsamplingTable() {
 
 SigmoidSpectrum SigmoidByTable(Rgb rgb) {
   static const auto rows = PolynomialThrough();
-  static const double end = HalfTangentOfGrey(1 - kLeastUpsampled);
+  static const double end = HalfTangentOfGrey(1 - kMinUpsampled);
   struct Axis {
     double part;
     std::size_t stride;
@@ -179,7 +179,7 @@ SigmoidSpectrum SigmoidByTable(Rgb rgb) {
   std::array<Axis, 3> axes;
   std::size_t at = 0, stride = 3;
   for (int i = 0; i < 3; ++i, stride *= kUpsamplingNodes) {
-    const double v = std::clamp(rgb[i], kLeastUpsampled, 1 - kLeastUpsampled);
+    const double v = std::clamp(rgb[i], kMinUpsampled, 1 - kMinUpsampled);
     const double x = (HalfTangentOfGrey(v) / end + 1) / 2 * (kUpsamplingNodes - 1);
     const double cell = std::clamp(std::floor(x), 0.0, kUpsamplingNodes - 2.0);
     axes[static_cast<std::size_t>(i)] = {x - cell, stride};

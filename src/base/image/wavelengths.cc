@@ -16,10 +16,10 @@ constexpr int kNodes = kLastCarriedNm - kFirstCarriedNm + 1;
 constexpr double kSecondSegment = 488, kThirdSegment = 575;
 
 // Shares of D65 of each channel: per nm, linear between whole ones, and cumulative.
-class WhiteShares {
+class WhiteFractions {
  public:
-  WhiteShares() {
-    for (int i = 0; i < kNodes; ++i) density_[i] = WhiteShare(kFirstCarriedNm + i);
+  WhiteFractions() {
+    for (int i = 0; i < kNodes; ++i) density_[i] = WhiteFraction(kFirstCarriedNm + i);
     for (int i = 1; i < kNodes; ++i) {
       below_[i] = below_[i - 1] + (density_[i - 1] + density_[i]) / 2;
     }
@@ -52,8 +52,8 @@ class WhiteShares {
   std::array<Rgb, kNodes> below_{};
 };
 
-const WhiteShares& Shares() {
-  static const WhiteShares shares;
+const WhiteFractions& Shares() {
+  static const WhiteFractions shares;
   return shares;
 }
 

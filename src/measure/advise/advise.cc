@@ -27,7 +27,7 @@ constexpr double kTiles = 0.15;
 constexpr std::uint64_t kMinSamples = 4096;
 constexpr std::size_t kBest = 2;  // tried again, and their combination
 // Gain from which a change stays in the trial.
-constexpr double kPromising = 1.03;
+constexpr double kMinTrialGain = 1.03;
 // A trial is ended if it takes this factor of its planned processor time, on two
 // processors; but not in the first second, in which much runs for the first time. Advice
 // then depends on the machine, but not on other programs.
@@ -67,7 +67,7 @@ class Adviser {
   Adviser(const Job& job, const AdviceOptions& options)
       : job_(job),
         options_(options),
-        pilot_(options.pilot > 0 ? options.pilot : kPilotShare * options.seconds),
+        pilot_(options.pilot > 0 ? options.pilot : kTrialFraction * options.seconds),
         training_{.stop = options.stop},
         trial_(job.scene, training_, SeedOf(job.seed, 0), PlannedSamples()) {
     LL_CHECK(options.seconds > 0);
@@ -150,20 +150,20 @@ class Adviser {
   // changes in the plan.
   PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
     Strategy prepared = candidate.strategy;
-    const Strategy usual;
-    prepared.roulette = usual.roulette;
-    prepared.termination = usual.termination;
-    prepared.floor = usual.floor;
-    prepared.first = usual.first;
-    prepared.scale = usual.scale;
+    const Strategy baseline;
+    prepared.roulette = baseline.roulette;
+    prepared.termination = baseline.termination;
+    prepared.floor = baseline.floor;
+    prepared.first = baseline.first;
+    prepared.scale = baseline.scale;
     return WithStrategy(job_.scene, prepared);
   }
 
   // Returns the efficiency by the last round, with the uncertainty of pixels that were
   // omitted.
   Interval EfficiencyOf(const Tried& t) const {
-    TrialGain gain = t.entry.Told();
-    const double by_all = GainOf(t.entry.measure, t.entry.usual).log;
+    TrialGain gain = t.entry.EfficiencyGain();
+    const double by_all = GainOf(t.entry.measure, t.entry.baseline).log;
     gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
     return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_spread);
   }
@@ -192,7 +192,7 @@ class Adviser {
     };
     std::sort(tried.begin() + 1, tried.end(), better);
     while (tried.size() > 1 &&
-           (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kPromising))) {
+           (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kMinTrialGain))) {
       Drop(tried.back(), "less efficient than others after a round");
       tried.pop_back();
     }
@@ -204,7 +204,7 @@ class Adviser {
     tried.resize(2);
     if (!Round(tried, kLast)) return;
     const Tried& last = tried.back();
-    if (last.entry.Beyond(kMustGain, kNormal95) > 0) chosen_ = last.index;
+    if (last.entry.Beyond(kMinChangeGain, kNormal95) > 0) chosen_ = last.index;
     unseen_ = chosen_ == 0 && last.entry.IsCarriedByFew() ? last.index : 0;
   }
 
@@ -221,15 +221,15 @@ class Adviser {
   }
 
   void TryBlocks(std::vector<Tried>& tried) {
-    const Tried& usual = tried.front();
-    const Tried& chosen = chosen_ == 0 ? usual : tried.back();
-    const Tried& base = chosen.entry.splits ? usual : chosen;
+    const Tried& baseline = tried.front();
+    const Tried& chosen = chosen_ == 0 ? baseline : tried.back();
+    const Tried& base = chosen.entry.splits ? baseline : chosen;
     const double gain = chosen_ == 0 ? 1 : EfficiencyOf(chosen).value;
     // A sample with blocks costs 1.5 times as much as one without.
     const auto samples =
         std::uint64_t(kTiles * pilot_ * kRaysPerSecond / (2.5 * base.entry.measure.cost));
     for (const TriedBlocks& blocks :
-         trial_.TryBlocks(usual.entry, chosen.entry, gain, samples)) {
+         trial_.TryBlocks(baseline.entry, chosen.entry, gain, samples)) {
       AddBlocks(base, blocks, samples);
       if (blocks.pays) chosen_ = all_.size() - 1;
     }
@@ -240,14 +240,14 @@ class Adviser {
   void AddBlocks(const Tried& base, const TriedBlocks& blocks, std::uint64_t samples) {
     AdvisedCandidate both = WithMore(all_[base.index], blocks.changes);
     both.meaning = "gains where most of the noise is indirect light";
-    const Interval usual = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
+    const Interval baseline = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
     const Interval more =
         WithUncertainty(blocks.gain, blocks.gain.least, kReusePriceSpread);
-    both.efficiency = {usual.value * more.value, usual.low * more.low,
-                       usual.high * more.high};
+    both.efficiency = {baseline.value * more.value, baseline.low * more.low,
+                       baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.pays_per_pixel ? "gains by pixels, and loses after a filter"
-                                        : "not clearly better";
+    both.reason = blocks.gains_per_pixel ? "gains by pixels, and loses after a filter"
+                                         : "not clearly better";
     both.samples = samples;
     all_.push_back(both);
   }

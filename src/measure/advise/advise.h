@@ -63,12 +63,12 @@ inline constexpr double kRaysPerSecond = 8e6;
 struct AdviceOptions {
   double seconds = 0;  // wall clock of trial and render together
   double pilot =
-      0;  // seconds of the trial at kRaysPerSecond; 0: kPilotShare of `seconds`
+      0;  // seconds of the trial at kRaysPerSecond; 0: kTrialFraction of `seconds`
   const std::atomic<bool>* stop = nullptr;
 };
 
 /// Fraction of the time for the trial; small, since the advice may change nothing.
-inline constexpr double kPilotShare = 0.03;
+inline constexpr double kTrialFraction = 0.03;
 
 struct Advice {
   /// The renderer's default, then changes of one axis and the scene's own strategy, then

@@ -81,8 +81,8 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
 
 std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
                                             const PlanOptions& options) {
-  const Strategy own = scene.strategy, usual;
-  std::vector<AdvisedCandidate> out = {{usual, "", "the renderer's default"}};
+  const Strategy own = scene.strategy, baseline;
+  std::vector<AdvisedCandidate> out = {{baseline, "", "the renderer's default"}};
   for (const DecisionCandidate& c : kDecisionCandidates) {
     AdvisedCandidate changed = WithMore({}, c.changes);
     if (changed.strategy == own) continue;
@@ -91,7 +91,7 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
     changed.price_spread = c.price_spread;
     out.push_back(changed);
   }
-  if (own != usual) {
+  if (own != baseline) {
     out.insert(out.begin() + kPlaceOfOwn,
                {own, ToText(own), kOwnStrategy, 1, kUnknownSpread});
   }

@@ -163,7 +163,7 @@ class AgreementTest {
   std::vector<Whole> wholes_;
 };
 
-Agreement CannotTell(const Image& test, const std::string& why) {
+Agreement Inconclusive(const Image& test, const std::string& why) {
   Agreement out;
   out.why = why;
   out.level = kBiasLevel;
@@ -183,15 +183,15 @@ std::string Name(AgreementVerdict verdict) {
 Agreement TestAgreement(const Image& test, const Image& reference, bool exact_reference) {
   const NoisyChannels a = FindNoisyChannels(test), b = FindNoisyChannels(reference);
   if (a.variances.empty() && b.variances.empty() && !exact_reference) {
-    return CannotTell(test, "neither image has variances");
+    return Inconclusive(test, "neither image has variances");
   }
-  if (a.variances.empty()) return CannotTell(test, "the first image has no variances");
+  if (a.variances.empty()) return Inconclusive(test, "the first image has no variances");
   if (b.variances.empty() && !exact_reference) {
-    return CannotTell(test,
-                      "the reference has no variances (--reference treats it as exact)");
+    return Inconclusive(
+        test, "the reference has no variances (--reference treats it as exact)");
   }
   if (a.colors.size() != b.colors.size()) {
-    return CannotTell(test, "one image is grey, the other is not");
+    return Inconclusive(test, "one image is grey, the other is not");
   }
   const bool rounded = (!test.is_bytes() && HasHalfValues(test, a.colors)) ||
                        reference.is_bytes() || HasHalfValues(reference, b.colors);

@@ -10,17 +10,17 @@
 namespace lanelight {
 namespace {
 
-constexpr int kMostTiles = 1024;  // about
-constexpr int kLeastSide = 8;
+constexpr int kMaxTiles = 1024;  // about
+constexpr int kMinSide = 8;
 
 // Required number of samples of a tile.
-constexpr double kLeastObservations = 25;
+constexpr double kMinObservations = 25;
 
 }  // namespace
 
 TileLayout LayoutOf(int width, int height) {
   const double pixels = double(width) * height;
-  const int side = std::max(kLeastSide, int(std::ceil(std::sqrt(pixels / kMostTiles))));
+  const int side = std::max(kMinSide, int(std::ceil(std::sqrt(pixels / kMaxTiles))));
   return {side, (width + side - 1) / side, (height + side - 1) / side};
 }
 
@@ -54,7 +54,7 @@ bool RestsOnEnough(const stat::MeanEstimate& own, const stat::MeanEstimate& othe
   const double signal = std::max(std::abs(own.mean), std::abs(other.mean));
   const double variance =
       std::max(own.variance, other.variance * std::max(1.0, other_per_own));
-  return signal * signal >= kLeastObservations * variance;
+  return signal * signal >= kMinObservations * variance;
 }
 
 double SignedZ(double p, const stat::MeanEstimate& a, const stat::MeanEstimate& b) {

@@ -81,9 +81,9 @@ PassRenderer::PassRenderer(const LiveScene& live_scene, View view,
 
 void PassRenderer::Pass(std::uint64_t spp, PassObserver& observer,
                         const std::atomic<bool>& stop) {
-  const bool goes_on = record_.counts.samples > 0;
+  const bool resumes = record_.counts.samples > 0;
   std::optional<FilmAccumulator> before;
-  if (has_control_ && goes_on) {
+  if (has_control_ && resumes) {
     before = std::move(film_);
     film_ = MakeFilm(job_);
   }

@@ -18,9 +18,9 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 // Without a move for so long, the camera stands.
-constexpr auto kSettles = std::chrono::milliseconds(120);
+constexpr auto kCameraSettleTime = std::chrono::milliseconds(120);
 // Of strategies that have been left, so that coming back renders nothing again.
-constexpr std::size_t kMostBytesAside = std::size_t{256} << 20;
+constexpr std::size_t kMaxKeptBytes = std::size_t{256} << 20;
 
 int IndexOf(const json& message, const char* member, int most) {
   const double value = message.at(member).get<double>();
@@ -96,7 +96,7 @@ void Session::Move(const CameraPose& pose) {
     slot.previewed = false;
   }
   began_ = Clock::now();
-  settled_ = began_ + kSettles;
+  settled_ = began_ + kCameraSettleTime;
 }
 
 void Session::Choose(int index, const std::string& name) {
@@ -121,7 +121,7 @@ void Session::Choose(int index, const std::string& name) {
 void Session::KeepFew() {
   std::size_t bytes = 0;
   for (const auto& other : others_) bytes += other->Bytes();
-  while (!others_.empty() && bytes > kMostBytesAside) {
+  while (!others_.empty() && bytes > kMaxKeptBytes) {
     bytes -= others_.front()->Bytes();
     others_.erase(others_.begin());
   }

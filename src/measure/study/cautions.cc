@@ -9,10 +9,10 @@
 namespace lanelight {
 namespace {
 
-class Cautioner {
+class CautionFinder {
  public:
-  Cautioner(const SceneRuns& runs, const StudyOptions& options,
-            const SceneAnalysis& analysis)
+  CautionFinder(const SceneRuns& runs, const StudyOptions& options,
+                const SceneAnalysis& analysis)
       : runs_(runs), options_(options), analysis_(analysis) {}
 
   std::vector<std::string> Texts() {
@@ -148,7 +148,7 @@ std::string SuspectTilesText(const SceneAnalysis& analysis) {
 
 std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& options,
                                   const SceneAnalysis& analysis) {
-  return Cautioner(runs, options, analysis).Texts();
+  return CautionFinder(runs, options, analysis).Texts();
 }
 
 void AddSentence(const std::string& sentence, std::string& text) {

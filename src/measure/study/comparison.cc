@@ -22,7 +22,7 @@ class Comparison {
     }
     if (out_.ranking.empty()) return;
     out_.baseline = out_.ranking.front();
-    FindDoubts();
+    FindUncertainties();
     Rank();
     SortRanking();
   }
@@ -32,7 +32,7 @@ class Comparison {
   // samples, efficiency is proportional to samples^-(1 + 2 order). Timed renders estimate
   // the sample counts of a budget, with a spread; the actual time also differs from the
   // budget.
-  void FindDoubts() {
+  void FindUncertainties() {
     if (!options_.budget || !options_.spp.empty()) return;
     std::vector<double> times;
     for (std::size_t i : out_.ranking) times.push_back(TimeOf(i));
@@ -41,8 +41,9 @@ class Comparison {
     for (std::size_t i : out_.ranking) {
       StrategyAnalysis& s = out_.strategies[i];
       const double missed = std::log(TimeOf(i) / usual);
-      s.budget_doubt = Sensitivity(s) * std::hypot(runs_.strategies[i].count_spread,
-                                                   std::isfinite(missed) ? missed : 0);
+      s.budget_uncertainty =
+          Sensitivity(s) * std::hypot(runs_.strategies[i].count_spread,
+                                      std::isfinite(missed) ? missed : 0);
     }
   }
 
@@ -65,8 +66,8 @@ class Comparison {
   Interval Relative(std::span<const stat::Cost> other_costs,
                     std::span<const stat::Cost> baseline_costs, std::size_t other) const {
     if (other == out_.baseline) return WithoutBounds(1);  // nothing is estimated
-    const double doubt = std::hypot(out_.strategies[out_.baseline].budget_doubt,
-                                    out_.strategies[other].budget_doubt);
+    const double doubt = std::hypot(out_.strategies[out_.baseline].budget_uncertainty,
+                                    out_.strategies[other].budget_uncertainty);
     return stat::Widened(
         stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence), doubt,
         options_.confidence);
@@ -78,7 +79,7 @@ class Comparison {
     for (std::size_t i : out_.ranking) {
       const StrategyAnalysis& strategy = out_.strategies[i];
       costs.push_back(CostsOf(strategy.costs[strategy.at], repetitions_));
-      doubts.push_back(out_.strategies[i].budget_doubt);
+      doubts.push_back(out_.strategies[i].budget_uncertainty);
     }
     const auto trimmed = [&](std::size_t i) {
       return std::span(out_.strategies[i].trimmed).first(repetitions_);

@@ -35,7 +35,8 @@ void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
   const auto worse = [](const PixelError& a, const PixelError& b) {
     return a.raw > b.raw;
   };
-  const std::size_t worst = Count(kWorstShare, n), trimmed = Count(kTrimmedShare, n);
+  const std::size_t worst = Count(kWorstFraction, n),
+                    trimmed = Count(kTrimmedFraction, n);
   std::nth_element(errors.begin(), errors.begin() + trimmed - 1, errors.end(), worse);
   std::nth_element(errors.begin(), errors.begin() + worst - 1, errors.begin() + trimmed,
                    worse);

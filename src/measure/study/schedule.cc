@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kMostSpp = 1u << 20;
+constexpr std::uint64_t kMaxSpp = 1u << 20;
 constexpr double kMinSeconds = 1e-9;  // replaces 0 of a coarse clock
 
 std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
@@ -82,7 +82,7 @@ class TimedRenders {
     std::uint64_t spp = 1;
     Render(strategy, spp);
     // Stops at half the time, since the next render takes twice as long.
-    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMostSpp &&
+    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMaxSpp &&
            !Stopped()) {
       spp *= 2;
     }
@@ -109,7 +109,7 @@ class TimedRenders {
         SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
                         {double(timed.spp), stat::Median(timed.seconds)},
                         {double(timed.FewSpp()), stat::Median(timed.few)});
-    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, timed.for_small_error};
+    return {std::clamp(samples, 1.0, double(kMaxSpp)), spread, timed.for_small_error};
   }
 
   const Job& job_;

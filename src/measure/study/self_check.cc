@@ -52,7 +52,7 @@ void Calibrate(double confidence, SceneAnalysis& analysis) {
   for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
     const StrategyAnalysis& strategy = analysis.strategies[i];
     for (const LevelAnalysis& level : strategy.levels) {
-      if (level.reference_share > kMaxReferenceShare) continue;
+      if (level.reference_share > kMaxReferenceFraction) continue;
       analysis.calibration.inside += level.self.inside;
       analysis.calibration.total += level.self.total;
       analysis.calibration.refused += level.self.refused;
@@ -92,7 +92,7 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
         " Those of {} held in {} of {}: in the rest, {:g} % of the pixels had {:.0f} % "
         "of "
         "the error, and pixel ({}, {}) was the worst most often.",
-        runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstShare,
+        runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstFraction,
         100 * f.worst_share, f.pixel[0], f.pixel[1]);
   }
   return text;

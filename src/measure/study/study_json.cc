@@ -89,7 +89,7 @@ Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
               {"to_target", TargetJson(s.to_target)},
               {"efficiency", IntervalJson(s.efficiency)},
               {"efficiency_trimmed", IntervalJson(s.efficiency_trimmed)},
-              {"budget_doubt", NumberJson(s.budget_doubt)},
+              {"budget_uncertainty", NumberJson(s.budget_uncertainty)},
               {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
               {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
               {"heavy_tailed", s.heavy_tailed},

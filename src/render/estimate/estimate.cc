@@ -20,7 +20,7 @@ constexpr int kReach = 1;           // neighbours: 3 x 3 pixels
 constexpr int kSpread = 2;          // where their scatter is taken from: 5 x 5
 constexpr double kRounding = 1e-5;  // of a mean, at most (docs/numbers.md)
 constexpr double kTwoSided = 1.96;  // kEstimateConfidence of a normal is within
-constexpr int kMostDoublings = 12;  // of the samples, looked at for an interval
+constexpr int kMaxDoublings = 12;   // of the samples, looked at for an interval
 
 // 1 / x^2 of a noisy x is too large by three times its variance over the square, to
 // second order: `noise`, that variance, takes it away.
@@ -256,12 +256,12 @@ class PixelGrid {
 Interval WithWeights(const Interval& v, const Sums& sums) {
   if (!(v.value > 0)) return v;
   const double n = double(sums.pixels);
-  const double skew = kSkewDoubt * std::sqrt(std::min(v.value, 1.0));
+  const double skew = kSkewUncertainty * std::sqrt(std::min(v.value, 1.0));
   const double low = std::log(v.low / v.value);
   const double pooled = std::log(std::min(1.0, sums.pooled / sums.relative.sum));
   const double up = std::sqrt(sums.up_squares) / n;
   const double value =
-      v.value * std::exp(kSkew * std::sqrt(std::min(v.value, kMostSkewed)));
+      v.value * std::exp(kSkew * std::sqrt(std::min(v.value, kMaxSkewError)));
   return {value, value * std::exp(-std::hypot(low, pooled, skew)),
           value + std::hypot(v.high - v.value, up, value * skew)};
 }
@@ -283,8 +283,8 @@ ErrorEstimate FromSums(const Sums& sums) {
   out.rmse = {std::sqrt(mse.value), std::sqrt(mse.low), std::sqrt(mse.high)};
   out.relmse =
       WithWeights(ErrorInterval(relative.sum / n, relative.K1(), relative.K2()), sums);
-  out.has_interval = mse.high <= kMostTimes * mse.value &&
-                     out.relmse.high <= kMostTimes * out.relmse.value;
+  out.has_interval = mse.high <= kMaxUpperRatio * mse.value &&
+                     out.relmse.high <= kMaxUpperRatio * out.relmse.value;
   // Rounding is no noise, and shows where there is none.
   constexpr double kSquare = kRounding * kRounding;
   out.relmse.high += kSquare * sums.relative_squares / n;
@@ -317,12 +317,12 @@ int MoreSamples(const PixelGrid& grid) {
   const auto suffice = [&grid](int doublings) {
     return FromSums(grid.Total(std::ldexp(1.0, -doublings))).has_interval;
   };
-  int too_few = 0, enough = kMostDoublings + 1;
+  int too_few = 0, enough = kMaxDoublings + 1;
   while (enough - too_few > 1) {
     const int middle = (too_few + enough) / 2;
     (suffice(middle) ? enough : too_few) = middle;
   }
-  return enough > kMostDoublings ? 0 : 1 << enough;
+  return enough > kMaxDoublings ? 0 : 1 << enough;
 }
 
 }  // namespace
@@ -354,9 +354,9 @@ ErrorEstimate EstimateError(const PixelRect& window,
       x, y, most,
       more > 0 ? fmt::format("an interval takes about {} times the samples", more)
                : fmt::format("an interval takes more than {} times the samples",
-                             1 << kMostDoublings));
-  if (rmse * rmse > kMostTimes) out.rmse = AtLeast(out.rmse);
-  if (times(out.relmse) > kMostTimes) out.relmse = AtLeast(out.relmse);
+                             1 << kMaxDoublings));
+  if (rmse * rmse > kMaxUpperRatio) out.rmse = AtLeast(out.rmse);
+  if (times(out.relmse) > kMaxUpperRatio) out.relmse = AtLeast(out.relmse);
   return out;
 }
 
@@ -374,12 +374,13 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
       EstimateError(WindowOf(film), pixel, film.groups().dependents, stop);
   // The expected number of samples that have met a light.
   const double met = TotalSamples(film) * film.chance_of_light();
-  if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
+  if (!out.has_interval || film.chance_of_light() >= 1 || met >= kMinExpectedMeetings)
+    return out;
   return Unseen(std::move(out),
                 fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
                             "be missing: an interval needs {:.2g} times as many samples, "
                             "or directions=mis, which samples lights",
-                            met, kLeastMet / met));
+                            met, kMinExpectedMeetings / met));
 }
 
 Interval ErrorInterval(double estimate, double k1, double k2) {

@@ -12,8 +12,8 @@ namespace lanelight {
 namespace {
 
 constexpr int kFunctions = RegressionFilm::kFunctions;
-constexpr std::uint32_t kAtOnce = 32;  // samples
-constexpr float kCaution = 2;          // see Scatter::Fit
+constexpr std::uint32_t kAtOnce = 32;    // samples
+constexpr float kNoiseSafetyFactor = 2;  // see Scatter::Fit
 constexpr float kNeighbourFreedom = 24;
 
 // Orthonormal P1 in the middle of a cell.
@@ -57,10 +57,10 @@ struct RegressionFilm::Scatter {
   // Coefficients of a channel. That of noise alone has the variance sum (f - its mean)^2
   // phi^2 / (sum phi^2)^2, whatever f and phi have in common (White 1980): where both
   // live on the same few paths, samples that are neither tell nothing. They are shrunk
-  // as if kCaution times that had been seen, less the share that the function explains;
-  // neighbours weigh in with kNeighbourFreedom degrees of freedom at most. One sample
-  // more, with phi = 1 and f at its mean, keeps those of events that have hardly been
-  // seen finite.
+  // as if kNoiseSafetyFactor times that had been seen, less the share that the function
+  // explains; neighbours weigh in with kNeighbourFreedom degrees of freedom at most. One
+  // sample more, with phi = 1 and f at its mean, keeps those of events that have hardly
+  // been seen finite.
   void Fit(const Scatter& block, int c, Values& b) const {
     const float around = block.freedom - freedom;
     const float w = around > 0 ? std::min(1.0f, kNeighbourFreedom / around) : 0;
@@ -69,7 +69,8 @@ struct RegressionFilm::Scatter {
     };
     float g = 0;  // standard deviation, as if channels rose and fell together
     for (int k = 0; k < 3; ++k) g += std::sqrt(mix(ff[k], block.ff[k])) / 3;
-    const float f = mix(ff[c], block.ff[c]), scale = g > 0 ? kCaution * f / (g * g) : 0;
+    const float f = mix(ff[c], block.ff[c]),
+                scale = g > 0 ? kNoiseSafetyFactor * f / (g * g) : 0;
     for (std::size_t j = 0; j < b.size(); ++j) {
       const float square = mix(squares[j], block.squares[j]);
       const float product = mix(products[c][j], block.products[c][j]);
@@ -149,7 +150,7 @@ void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
       colors.f[c] += f;
       colors.ff[c] += f * f;
     }
-    if (sample >= kMostFitted) continue;
+    if (sample >= kMaxFittedSamples) continue;
     const float g = (samples.colors[0][begin + i] + samples.colors[1][begin + i] +
                      samples.colors[2][begin + i]) /
                     3;
@@ -184,8 +185,9 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   const std::uint64_t samples = colors.samples[pixel];
   const double all = SamplesOfHalf(samples, half);
   if (all < 2) return out;
-  // Beyond kMostFitted colours and functions know more than their products do.
-  const double n = SamplesOfHalf(std::min(samples, kMostFitted), half), share = n / all;
+  // Beyond kMaxFittedSamples colours and functions know more than their products do.
+  const double n = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half),
+               share = n / all;
   const auto side = std::size_t(half);
   const Colors& own = colors_[pixel][side];
   const Products& sums = products_[pixel][side];
@@ -218,7 +220,7 @@ void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t 
   Fitted& out = fitted_[pixel];
   const auto side = std::size_t(half);
   const Products& sums = products_[pixel][side];
-  const double fitted = SamplesOfHalf(std::min(samples, kMostFitted), half);
+  const double fitted = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half);
   const double more = fitted > 0 ? SamplesOfHalf(samples, half) / fitted : 0;
   for (int c = 0; c < 3; ++c) {
     for (std::size_t t = side; t < turns_; t += 2) {

@@ -19,8 +19,8 @@
 //               scene, and O(functions / n) of it for the errors of the coefficients
 //
 // Sums are of a half's samples in their order, so that they do not depend on how these
-// come in. Those of single precision that only coefficients need end with kMostFitted
-// samples: nothing more is to be learned.
+// come in. Those of single precision that only coefficients need end with
+// kMaxFittedSamples samples: nothing more is to be learned.
 #pragma once
 
 #include <array>
@@ -96,7 +96,7 @@ class RegressionFilm {
   /// Pixels of a block (kBlock x kBlock, from the image's origin on) share information,
   /// so the result is the same for any split of the render.
   static constexpr int kBlock = 4;
-  static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
+  static constexpr std::uint64_t kMaxFittedSamples = std::uint64_t{1} << 20;
 
   /// Requires units of single samples, or replicates (GroupsOf).
   RegressionFilm(const PixelRect& window, const SampleGroups& groups, double coefficient);
@@ -125,7 +125,7 @@ class RegressionFilm {
   struct Colors {
     double f[3] = {}, ff[3] = {};
   };
-  // Over the first kMostFitted samples, of which a half has half.
+  // Over the first kMaxFittedSamples samples, of which a half has half.
   struct Products {
     Values squares = {}, products[3] = {};  // of phi, of f and phi
     Values once = {}, twice = {};           // of g phi^2, of g^2 phi^2; g: mean of f

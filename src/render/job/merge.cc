@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostOpen = 256;
+constexpr std::size_t kMaxOpenFiles = 256;
 
 struct Input {
   std::string path;
@@ -169,7 +169,7 @@ class Merger {
     CheckIdentity(path, input.identity);
     window_ = file->window();  // the same for all: CheckSame
     // Opened again, it is read and checked once more.
-    if (inputs_.size() < kMostOpen) input.file = std::move(file);
+    if (inputs_.size() < kMaxOpenFiles) input.file = std::move(file);
     inputs_.push_back(std::move(input));
   }
 

@@ -18,7 +18,7 @@ std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
                                    int least_side) {
   LL_CHECK(part.index >= 1 && part.index <= part.count);
   const std::vector<int> equal(static_cast<std::size_t>(part.count), 1);
-  auto parts = DealTiles(TilesOf(window, kSide), equal, least_side);
+  auto parts = DistributeTiles(TilesOf(window, kSide), equal, least_side);
   // The last one has least.
   if (parts.back().empty()) {
     const auto tiles =

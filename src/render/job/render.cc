@@ -70,8 +70,9 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
 }
 
 // Keeps the state after the failure of a rank, and tells the user.
-[[noreturn]] void GiveUp(const RankFailure& failure, const CheckpointSettings& settings,
-                         Checkpoint& checkpoint) {
+[[noreturn]] void ReportRankFailure(const RankFailure& failure,
+                                    const CheckpointSettings& settings,
+                                    Checkpoint& checkpoint) {
   checkpoint.Finish();
   if (settings.path.empty() || !checkpoint.kept()) throw failure;
   throw RankFailure(fmt::format("{}\nthe state is kept: continue with --resume '{}'",
@@ -143,7 +144,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   try {
     out.report.result = Run(job.scene, job.plan, shown.options, film);
   } catch (const RankFailure& failure) {
-    if (checkpoint) GiveUp(failure, targets.checkpoint, *checkpoint);
+    if (checkpoint) ReportRankFailure(failure, targets.checkpoint, *checkpoint);
     throw;
   }
   if (checkpoint) {

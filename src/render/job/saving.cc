@@ -118,9 +118,9 @@ std::string FallbackPath(const std::string& path) {
   fs::path directory = fs::temp_directory_path(error);
   if (error) directory = "/tmp";
   // The end of a long name, with its extension.
-  constexpr std::size_t kMostOfName = 200;
+  constexpr std::size_t kMaxNameLength = 200;
   std::string name = fs::path(path).filename();
-  if (name.size() > kMostOfName) name.erase(0, name.size() - kMostOfName);
+  if (name.size() > kMaxNameLength) name.erase(0, name.size() - kMaxNameLength);
   // Results of one name, as those of a sweep's cells, each have a file of their own.
   for (int i = 0;; ++i) {
     const std::string number = i == 0 ? "" : fmt::format("-{}", i);

@@ -53,8 +53,8 @@ void CheckSpp(std::int64_t spp) {
 }
 
 void CheckSppSetting(std::uint64_t spp) {
-  constexpr auto kMost = std::uint64_t(std::numeric_limits<std::int64_t>::max());
-  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMost)));
+  constexpr auto kMaxInt64 = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMaxInt64)));
 }
 
 void CheckTarget(const std::optional<double>& target) {
@@ -148,7 +148,7 @@ bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& sc
     return false;
   }
   if (settings.decision == DefaultDecision::kAlways) return true;
-  if (settings.seconds) return *settings.seconds >= kLeastDecidedSeconds;
+  if (settings.seconds) return *settings.seconds >= kMinSecondsForTrial;
   const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
   // A render with a target takes at least this many.
   const std::uint64_t own =

@@ -31,7 +31,7 @@ inline int BalancePartner(int rank, int ranks, std::uint64_t turn) {
 inline constexpr double kMinSecondsGained = 0.005;
 /// Returns the samples that the first rank hands to the second so that both end together;
 /// 0 if the second would end later, or if too little time is won.
-inline std::uint64_t SamplesToGive(const RankLoad& from, const RankLoad& to) {
+inline std::uint64_t SamplesToTransfer(const RankLoad& from, const RankLoad& to) {
   if (from.speed <= 0) return 0;
   // A rank that has not ended a task yet, since it had none, is taken to be as fast.
   const double speed = to.speed > 0 ? to.speed : from.speed;

@@ -53,7 +53,7 @@ class WorkerWatch : public TaskWatcher {
 class RankWork::OwnRound {
  public:
   OwnRound(RankWork& work, const Round& round, TaskWatcher& watcher)
-      : work_(work), round_(round), watcher_(watcher), taken_before_(Taken()) {
+      : work_(work), round_(round), watcher_(watcher), claimed_before_(Taken()) {
     total_ = scheduler().Missing(scheduler().Snapshot(), round.end);
     Start();
   }
@@ -66,7 +66,7 @@ class RankWork::OwnRound {
     return done;
   }
   RankLoad load() const {
-    const std::uint64_t taken = Taken() - taken_before_;
+    const std::uint64_t taken = Taken() - claimed_before_;
     return {total_ - taken, busy_ > 0 ? double(taken) / busy_ : 0};
   }
   std::vector<TileProgress> Release(std::uint64_t samples) {
@@ -97,20 +97,21 @@ class RankWork::OwnRound {
   RankWork& work_;
   const Round round_;
   TaskWatcher& watcher_;
-  const std::uint64_t taken_before_;
+  const std::uint64_t claimed_before_;
   std::uint64_t total_ = 0;  // samples of this round
   double busy_ = 0;          // seconds
   Stopwatch since_;
   std::future<void> running_;  // ends before the rest
 };
 
-void RankWork::Deal(bool have_samples, int min_tile_side) {
+void RankWork::AssignTiles(bool have_samples, int min_tile_side) {
   if (have_samples) {
     for (const MutableStateColumn& column : films_.Columns()) {
       group_.Broadcast({static_cast<char*>(column.data), column.Bytes()});
     }
   }
-  const auto parts = DealTiles(tiles(), group_.AllGather(MaxThreads()), min_tile_side);
+  const auto parts =
+      DistributeTiles(tiles(), group_.AllGather(MaxThreads()), min_tile_side);
   std::vector<PixelRect> all;
   std::vector<TileProgress> own;
   for (std::size_t rank = 0; rank < parts.size(); ++rank) {
@@ -152,10 +153,10 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
     if (sum.failed + sum.interrupted > 0) stopped_ = true;
     failed_ |= sum.failed > 0;
     // Samples of other ranks are progress too.
-    if (taken_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
+    if (claimed_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
   });
   if (problem_) std::rethrow_exception(problem_);
-  if (gave_up_) {
+  if (aborted_) {
     stopped_ = true;
   } else if (all.behind > 0) {
     Gather();
@@ -169,7 +170,7 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
 RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
                             const OnStatus& on_status) {
   std::optional<Clock::time_point> signal;
-  const GivesUp gives_up = [&] {
+  const StopPredicate should_stop = [&] {
     if (!group_.leads() || !watcher.Interrupted()) return false;
     if (!signal) signal = Clock::now();
     return SecondsSince(*signal) > kAnswerSeconds;
@@ -180,34 +181,35 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
     const bool done = own.Wait(interval.UntilNext());
     RankStatus status = Status(round, watcher, done);
     status.left = own.load().left;
-    auto all = group_.Sum(status, gives_up);
-    gave_up_ = !all;
-    if (gave_up_) return {};
+    auto all = group_.Sum(status, should_stop);
+    aborted_ = !all;
+    if (aborted_) return {};
     interval.Update(*all);
     all->samples -= status.samples;  // of others
     on_status(*all);
     if (all->busy == 0) return *all;
     // All ranks have the same status, and decide alike.
     if (all->failed + all->interrupted + all->stopped > 0) continue;
-    gave_up_ = !Balance(step, own, gives_up);
-    if (gave_up_) return {};
+    aborted_ = !Balance(step, own, should_stop);
+    if (aborted_) return {};
   }
 }
 
 // Returns false if it gave up on the other rank.
-bool RankWork::Balance(std::uint64_t step, OwnRound& own, const GivesUp& gives_up) {
+bool RankWork::Balance(std::uint64_t step, OwnRound& own,
+                       const StopPredicate& should_stop) {
   const int partner = BalancePartner(group_.rank(), group_.ranks(), step);
   if (partner < 0) return true;
   RankLoad mine = own.load(), theirs;
-  const auto load = group_.Swap(partner, ToString(mine), gives_up);
+  const auto load = group_.Swap(partner, ToString(mine), should_stop);
   if (!load) return false;
   LL_CHECK_EQ(load->size(), sizeof(theirs));
   std::memcpy(&theirs, load->data(), sizeof(theirs));
-  const std::uint64_t samples = SamplesToGive(mine, theirs);
-  if (samples == 0 && SamplesToGive(theirs, mine) == 0) return true;
+  const std::uint64_t samples = SamplesToTransfer(mine, theirs);
+  if (samples == 0 && SamplesToTransfer(theirs, mine) == 0) return true;
   std::string packed;
   PackTiles(own.Release(samples), tiles(), films_, packed);
-  const auto bytes = group_.Swap(partner, std::move(packed), gives_up);
+  const auto bytes = group_.Swap(partner, std::move(packed), should_stop);
   if (!bytes) return false;
   own.Adopt(UnpackTiles(*bytes, tiles(), films_));
   return true;
@@ -227,11 +229,11 @@ RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
 }
 
 void RankWork::Gather() {
-  if (gathered_ || gave_up_) return;
+  if (gathered_ || aborted_) return;
   Share({Order::kGather, {}});
   other_counts_ = {};
   other_levels_ = {};
-  for (int piece = MostPieces(0); piece > 0; --piece) {
+  for (int piece = MaxPieces(0); piece > 0; --piece) {
     group_.Gather("", [this](int, std::string_view bytes) { ReceivePiece(bytes); });
   }
   gathered_ = true;
@@ -252,7 +254,7 @@ void RankWork::SendPieces() {
   RunCounts counts = threads_.Counts();
   counts.cpu_seconds = clock_.CpuSeconds();
   std::string bytes;
-  const auto all = std::size_t(MostPieces(int(pieces.size())));
+  const auto all = std::size_t(MaxPieces(int(pieces.size())));
   for (std::size_t i = 0; i < all; ++i) {
     bytes.clear();
     bytes += ToString(std::exchange(counts, {}));
@@ -263,14 +265,14 @@ void RankWork::SendPieces() {
 }
 
 // Returns the largest number of pieces of any rank.
-int RankWork::MostPieces(int own) {
+int RankWork::MaxPieces(int own) {
   const std::vector<int> all = group_.AllGather(own);
   return *std::ranges::max_element(all);
 }
 
 // All ranks meet once more, so that the leader learns of a failure.
 void RankWork::Finish() {
-  if (!gave_up_) {
+  if (!aborted_) {
     Share({Order::kLeave, {}});
     group_.AllGather(0);
   } else if (failed_) {

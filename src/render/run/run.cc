@@ -84,7 +84,7 @@ void Runner::Start() {
   if (ranks) {
     Group().Share(ToBytes(
         RunTraining{strategy.trained(), strategy.training().changes, strategy.Tables()}));
-    ranks->Deal(start.have_samples, min_tile_side);
+    ranks->AssignTiles(start.have_samples, min_tile_side);
   }
   watch->Start();
   schedule->Start(restored);
@@ -93,7 +93,7 @@ void Runner::Start() {
 bool Runner::Restore() {
   RunState state = {{}, films};
   if (!context->options.keeper->Restore(state)) return false;
-  clock.GoOn(state.counts.seconds);
+  clock.StartAt(state.counts.seconds);
   threads.Resume(state.counts);
   if (!state.trained) return !NeedsTraining(strategy.plan());
   strategy.Restore(std::move(state.training), state.tables);
@@ -128,7 +128,7 @@ void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
     training.changes = learned.changes;
     strategy.Restore(std::move(training), learned.tables);
   }
-  ranks->Deal(start.have_samples, min_tile_side);
+  ranks->AssignTiles(start.have_samples, min_tile_side);
   ranks->Serve([this](const Round& round) { strategy.BeginWith(round.begin); }, stop);
 }
 

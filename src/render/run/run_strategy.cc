@@ -103,7 +103,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
 void RunStrategy::Restore(TrainingOutcome training,
                           const std::vector<TrainedTable>& tables) {
   training_ = std::move(training);
-  PutTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
+  ImportTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
   UseTraining();
   CheckTrained(plan_, tables_);
 }
@@ -122,7 +122,7 @@ double RunStrategy::Dependents() const {
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {
-  return trained_ ? TakeTraining(tables_) : std::vector<TrainedTable>();
+  return trained_ ? ExportTraining(tables_) : std::vector<TrainedTable>();
 }
 
 void RunStrategy::Describe(RunResult& result) const {

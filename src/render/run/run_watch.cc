@@ -10,7 +10,7 @@ void RunWatch::Start() {
   limit_.emplace(context_.options.seconds, now);
   pixels_ = context_.pixels();
   const bool shown = context_.options.on_film && context_.options.group == nullptr;
-  show_at_ = shown ? now + kShowSeconds * double(pixels_) / kShowShare
+  show_at_ = shown ? now + kDisplaySecondsPerPixel * double(pixels_) / kMaxDisplayFraction
                    : std::numeric_limits<double>::infinity();
 }
 
@@ -20,7 +20,7 @@ void RunWatch::ShowIfDue() {
   context_.films.film().FitControl();
   context_.options.on_film(context_.films.film());
   const double now = context_.clock.Elapsed();
-  show_at_ = now + (now - since) / kShowShare;
+  show_at_ = now + (now - since) / kMaxDisplayFraction;
 }
 
 bool RunWatch::OutOfTime() const {

@@ -23,7 +23,7 @@ class RunClock {
  public:
   void Start() { watch_ = {}; }
   /// Adds the seconds that a resumed run took before.
-  void GoOn(double seconds) { before_ = seconds; }
+  void StartAt(double seconds) { before_ = seconds; }
 
   /// Seconds since Start().
   double Seconds() const { return watch_.Seconds(); }

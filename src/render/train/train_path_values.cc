@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t kMaxTrainingSamples = 240'000;
 // Fewer samples than this in a pass say too little of variances to choose by them.
-constexpr std::uint64_t kLeastPassSamples = 256;
+constexpr std::uint64_t kMinPassSamples = 256;
 // A splitting rule is chosen if the passes find it this much better: copies cost more
 // than their rays, and the passes are short.
 constexpr double kMargin = 0.87;
@@ -65,7 +65,7 @@ class Pilot {
   }
 
   TrainingOutcome Run() {
-    if (efficiency_ && samples_ < kLeastPassSamples && !options_.keep_roulette) {
+    if (efficiency_ && samples_ < kMinPassSamples && !options_.keep_roulette) {
       outcome_.changes = Change(Roulette::kThroughput);
       outcome_.note = "none, the image has too few samples: roulette=throughput";
       return outcome_;

@@ -63,7 +63,7 @@ constexpr std::uint64_t kHeadSize = 13;
 
 }  // namespace
 
-std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
+std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
   const PathValues& p = tables.path_values;
   const CellGrid& g = p.grid;
   std::vector<double> head;
@@ -162,8 +162,8 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
 
 }  // namespace
 
-void PutTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                 StrategyTables& tables) {
+void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
+                    StrategyTables& tables) {
   PutPathValues(trained, pixels, tables.path_values);
   if (!HasTable(trained, kShadowWorth)) return;
   const std::vector<double>& shadow = TableOf(trained, kShadowWorth);

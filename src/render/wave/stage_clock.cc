@@ -15,7 +15,7 @@ StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
   end_event_ = next_event_ + events_.size();
 }
 
-UntouchedVector<TraceEvent> StageClock::TakeEvents() {
+UntouchedVector<TraceEvent> StageClock::ReleaseEvents() {
   if (!events_.empty()) {
     events_.resize(std::size_t(next_event_ - events_.data()));
   }

@@ -15,8 +15,8 @@
 
 namespace lanelight {
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
-  constexpr std::uint32_t kMost = 16;
-  const std::uint32_t together = std::min(kMost, plan.wavefront);
+  constexpr std::uint32_t kMaxTogether = 16;
+  const std::uint32_t together = std::min(kMaxTogether, plan.wavefront);
   return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
 }
 
@@ -30,12 +30,12 @@ TaskRunner::TaskRunner(const PreparedScene& scene, const Plan& plan,
 
 void TaskRunner::Begin(std::size_t tiles) {
   if (plan_.Find(PhaseId::kVisibleLights) == nullptr) return;
-  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles);
+  visible_lights_ = std::make_unique<VisibleLightEdges>(scene_, tiles);
 }
 
-void TaskRunner::FindSeenLights(std::size_t tile, const PixelRect& rect) {
+void TaskRunner::FindVisibleLights(std::size_t tile, const PixelRect& rect) {
   Workspace& space = ThreadWorkspace();
-  seen_lights_->Find(tile, rect, *space.seen_lights, space.Clock());
+  visible_lights_->Find(tile, rect, *space.visible_lights, space.Clock());
 }
 
 Workspace& TaskRunner::ThreadWorkspace() {
@@ -93,10 +93,10 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
     if (plan_.features.Has(Feature::kSplitting)) {
-      FoldCopies(out.values.data(), buffer.stride, run_.planes);
+      SumSplitPaths(out.values.data(), buffer.stride, run_.planes);
       if (clock) clock->FinishPart(TaskPart::kCopies, stride);
     }
-    if (seen_lights_) SeeLights(range, rect, out, space);
+    if (visible_lights_) SeeLights(range, rect, out, space);
   }
   if (clock) clock->EndTask();
   return ended;
@@ -104,13 +104,13 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
 
 void TaskRunner::SeeLights(const SampleRange& range, const PixelRect& rect,
                            TaskSamples& out, Workspace& space) const {
-  const SeenLightTask seen = {
+  const VisibleLightTask seen = {
       range.tile,  space.pixels,      range.first % kSamplesPerSeed,
       range.count, out.values.data(), space.pixels.size() * range.count};
   StageClock* const clock = space.Clock();
-  seen_lights_->Find(range.tile, rect, *space.seen_lights, clock);
+  visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
   const bool corrected =
-      seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
+      visible_lights_->Correct(seen, *space.visible_lights, clock, out.counts);
   if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
 }
 

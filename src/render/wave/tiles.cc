@@ -133,9 +133,9 @@ std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
   return tiles;
 }
 
-std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
-                                              const std::vector<int>& threads,
-                                              int least_side) {
+std::vector<std::vector<PixelRect>> DistributeTiles(const std::vector<PixelRect>& tiles,
+                                                    const std::vector<int>& threads,
+                                                    int least_side) {
   // Each rank has as many turns as threads.
   std::vector<std::size_t> turns;
   const int most = *std::ranges::max_element(threads);

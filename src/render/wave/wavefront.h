@@ -39,6 +39,6 @@ class Wavefront {
 /// not depend on which path ended first: rows sample * kMostCopies + copy of a plane of
 /// `rows` become rows `sample` of a plane of rows / kMostCopies. Planes that are not sums
 /// (SamplePlanes::Sums) keep the first row.
-void FoldCopies(float* values, std::uint32_t rows, const SamplePlanes& planes);
+void SumSplitPaths(float* values, std::uint32_t rows, const SamplePlanes& planes);
 
 }  // namespace lanelight

@@ -8,7 +8,7 @@ namespace {
 
 // Least relative gain that justifies leaving the order along rays, which keeps the rays
 // of a packet together longest.
-constexpr float kLeastGain = 0.005f;
+constexpr float kMinGain = 0.005f;
 
 // Returns the expected cost of visiting slots 0 ^ first, 1 ^ first, ...
 float CostFrom(std::uint32_t first, const ChildOdds (&odds)[kBvhWidth]) {
@@ -38,7 +38,7 @@ void SetBlockerOrder(const ChildOdds (&odds)[kBvhWidth], WideNode& node) {
     if (cost < least) least = cost, best = first;
   }
   // The negation also catches areas that overflow.
-  if (!(least < (1 - kLeastGain) * along_rays)) return;
+  if (!(least < (1 - kMinGain) * along_rays)) return;
   node.shadow_octants = 0;
   node.shadow_first = best;
 }

@@ -166,9 +166,9 @@ std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
 
 }  // namespace
 
-BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
-                    BuildQuality quality, AlignedVector<WideNode>& nodes) {
-  BuiltTree result;
+BuiltBvh BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
+                   BuildQuality quality, AlignedVector<WideNode>& nodes) {
+  BuiltBvh result;
   if (items.empty()) return result;
   const auto count = static_cast<std::uint32_t>(items.size());
   CutPlan cuts;

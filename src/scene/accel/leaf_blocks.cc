@@ -66,10 +66,10 @@ class LeafVertices {
 std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
                           const AlignedVector<TriangleRecord>& records,
                           std::uint32_t most) {
-  constexpr std::uint32_t kSlots = 512, kMost = kSlots / 6;
+  constexpr std::uint32_t kSlots = 512, kMaxTriangles = kSlots / 6;
   std::uint32_t slots[kSlots] = {};
   std::uint32_t vertices = 0;
-  count = std::min(count, kMost);
+  count = std::min(count, kMaxTriangles);
   for (std::uint32_t i = 0; i < count; ++i) {
     for (const auto& p : records[items[i].id].p) {
       const std::uint32_t hash = HashOf(p) | 1;  // 0 is a free slot

@@ -132,18 +132,18 @@ void NoteUnlitInsides(const SceneDescription& description,
 void FindTrees(const CompileOptions& options, CompiledScene& scene) {
   const AccelOptions accel = {.quality = options.build,
                               .leaf_triangles = options.leaf_triangles};
-  FoundTree tree = FindTree(scene.geometry, accel, options.known_tree);
+  ReusedBvh tree = FindTree(scene.geometry, accel, options.known_tree);
   scene.accel = std::move(tree.accel);
   if (options.tree_report != nullptr) *options.tree_report = tree.report;
 }
 
 }  // namespace
 
-std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene) {
+std::shared_ptr<const CachedBvh> TreesOf(const CompiledScene& scene) {
   const AccelOptions options = {.quality = scene.accel.quality,
                                 .leaf_triangles = scene.accel.leaf_triangles};
-  return std::make_shared<const KnownTree>(
-      KnownTree{KeyOf(scene.geometry, options), scene.accel});
+  return std::make_shared<const CachedBvh>(
+      CachedBvh{KeyOf(scene.geometry, options), scene.accel});
 }
 
 CompiledScene CompileScene(const SceneDescription& description,

@@ -30,9 +30,9 @@ Foot FootOn(Vec3d center, double radius, Vec3d eye);
 void SeparateLargeSpheres(Placement& placement);
 
 /// Appends a note about emitting spheres that are too large. From a radius of
-/// kMostEmitterRange times the camera's distance on, their surface is off by more than 1
+/// kMaxEmitterRange times the camera's distance on, their surface is off by more than 1
 /// % of that distance. Needs `eye`.
-inline constexpr double kMostEmitterRange = 4e4;
+inline constexpr double kMaxEmitterRange = 4e4;
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
 
 /// Returns the frame of the scene; needs `eye` and `bounds`.

@@ -179,7 +179,7 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
   MediumTable table = builder.Finish(placement, notes);
   table.camera = camera;
   table.sides.assign(sides.begin(), sides.end());
-  DropUnusedReliefs(materials.table);  // phase functions have none
+  DropUnusedBumpMaps(materials.table);  // phase functions have none
   return table;
 }
 

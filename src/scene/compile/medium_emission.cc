@@ -22,12 +22,12 @@ constexpr int kEntries = 4096;
 void AddColors(const Medium& medium, double largest, BlackbodyTable& table) {
   const double kelvin =
       (largest - medium.temperature_offset) * medium.temperature_scale * (1 + 1e-5);
-  const double most = std::max(kelvin, 1.01 * kLeastKelvin);
-  const double step = std::log(most / kLeastKelvin) / (kEntries - 1);
+  const double most = std::max(kelvin, 1.01 * kMinKelvin);
+  const double step = std::log(most / kMinKelvin) / (kEntries - 1);
   table.entries_per_log = static_cast<float>(1 / step);
   table.colors.reserve(3 * kEntries);
   for (int i = 0; i < kEntries; ++i) {
-    const Rgb color = RgbOfBlackbody(kLeastKelvin * std::exp(step * i));
+    const Rgb color = RgbOfBlackbody(kMinKelvin * std::exp(step * i));
     for (int c = 0; c < 3; ++c) table.colors.push_back(static_cast<float>(color[c]));
   }
 }

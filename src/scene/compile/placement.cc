@@ -99,7 +99,7 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
 }
 
 void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placement) {
-  SetMesh(SeenTolerance(placed, d.camera, d.film), &placed);
+  SetMesh(CameraTolerance(placed, d.camera, d.film), &placed);
   if (placed.mesh != nullptr) return placement.meshes.push_back(placed);
   switch (placed.shape->kind) {
     case ShapeKind::kMesh:

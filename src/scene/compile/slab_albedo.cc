@@ -15,7 +15,7 @@ constexpr int kNodes = 10;          // of each part of the directions
 constexpr int kTerms = 2 * kNodes;  // of the phase function
 constexpr int kAlbedos = 33;
 constexpr double kThinLayer = 0x1p-26;
-constexpr int kMostDoublings = 60;
+constexpr int kMaxDoublings = 60;
 
 using Row = std::vector<double>;
 using Matrix = std::vector<Row>;
@@ -143,7 +143,7 @@ double Largest(const Matrix& a) {
 
 // Returns the reflectance of a half space, by doubling a layer until nothing passes.
 Matrix Deep(Layer layer) {
-  for (int i = 0; i < kMostDoublings && Largest(layer.t) > 1e-7; ++i) {
+  for (int i = 0; i < kMaxDoublings && Largest(layer.t) > 1e-7; ++i) {
     const Matrix many = Solve(OneMinus(layer.r * layer.r), layer.t);
     const Matrix back = layer.t * layer.r * many;
     layer.t = layer.t * many;

@@ -59,7 +59,7 @@ inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
 inline constexpr float kRoughestCoat = 1e4f;
 
 /// Largest asymmetry of the phase function of a coat's medium.
-inline constexpr float kMostCoatAsymmetry = 0.9999f;
+inline constexpr float kMaxCoatAsymmetry = 0.9999f;
 
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the
 /// constant. What color0 and color1 are depends on the kind:

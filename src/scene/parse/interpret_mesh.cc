@@ -81,16 +81,16 @@ BilinearPatch PatchOf(const TriangleMesh& in, std::size_t first) {
 }
 
 // Limits the memory that a mistyped level can take.
-constexpr double kMostTriangles = 1e8;
+constexpr double kMaxTriangles = 1e8;
 
 int SubdivisionLevels(ParamSet& params, std::size_t faces) {
-  constexpr int kMost = 12;
-  const int levels = params.Integer("levels", 3, {0, kMost});
+  constexpr int kMaxLevels = 12;
+  const int levels = params.Integer("levels", 3, {0, kMaxLevels});
   const double triangles = std::ldexp(static_cast<double>(faces), 2 * levels);
-  if (triangles <= kMostTriangles) return levels;
+  if (triangles <= kMaxTriangles) return levels;
   params.Fail(*params.Find("levels", {}),
               "{} levels make {:g} triangles of {}; at most {:g} are supported", levels,
-              triangles, faces, kMostTriangles);
+              triangles, faces, kMaxTriangles);
 }
 
 }  // namespace

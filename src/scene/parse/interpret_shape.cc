@@ -54,12 +54,12 @@ void ReadDisk(ParseState&, ParamSet& params, Shape* shape) {
 
 // Longest side of displaced triangles. pbrt-v4 has the second name on GPUs only.
 double EdgeLength(ParseState& state, ParamSet& params) {
-  constexpr const char* kOfGpus = "displacement.edgelength";
+  constexpr const char* kGpuParameter = "displacement.edgelength";
   const Limits limits = {kTiny, kHuge};
-  const double other = params.Float(kOfGpus, 1, limits);
-  if (const Param* given = params.Find(kOfGpus, {})) {
+  const double other = params.Float(kGpuParameter, 1, limits);
+  if (const Param* given = params.Find(kGpuParameter, {})) {
     state.AddNote(given->where, "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
-                  kOfGpus);
+                  kGpuParameter);
   }
   return params.Float("edgelength", other, limits) * state.edge_scale;
 }

@@ -156,10 +156,10 @@ void ReadBilinear(ParseState& state, ParamSet& params, Texture* texture) {
   ReadMapping(params, &texture->mapping);
 }
 
-constexpr int kMostOctaves = 64;
+constexpr int kMaxOctaves = 64;
 
 void ReadOctaves(ParseState&, ParamSet& params, Texture* texture) {
-  texture->octaves = params.Integer("octaves", 8, {0, kMostOctaves});
+  texture->octaves = params.Integer("octaves", 8, {0, kMaxOctaves});
   texture->roughness = params.Float("roughness", 0.5, Limits());
 }
 

@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kMostParams = 1000;  // of one object; no real object has 30
+constexpr std::size_t kMaxParams = 1000;  // of one object; no real object has 30
 
 struct TypeInfo {
   const char* name;
@@ -175,8 +175,8 @@ ParamList ReadParams(Lexer& lexer, const std::string& color_space,
     CheckCount(param);
     Replace(params, param, notes);
     params.push_back(std::move(param));
-    if (params.size() > kMostParams) {
-      throw InputError(params.back().where, "more than {} parameters", kMostParams);
+    if (params.size() > kMaxParams) {
+      throw InputError(params.back().where, "more than {} parameters", kMaxParams);
     }
   }
   return params;

@@ -12,10 +12,10 @@ namespace {
 // Cells per side of a coarse cell.
 constexpr std::int32_t kCoarse = 4;
 // Weight, in records, of the coarser cell in the estimate of a finer one.
-constexpr double kBorrowed = 8;
+constexpr double kCoarseCellWeight = 8;
 // Least value of a cell relative to the mean of all cells: a short training pass may have
 // missed its light.
-constexpr double kLeastValue = 0.1;
+constexpr double kMinCellValue = 0.1;
 
 CellGrid Coarser(const CellGrid& fine) {
   CellGrid coarse;
@@ -46,7 +46,7 @@ struct CellMeans {
 
 CellMeans Blend(const CellSums& s, const CellMeans& prior) {
   if (s.count == 0) return prior;
-  const double borrowed = prior.known ? kBorrowed : 0;
+  const double borrowed = prior.known ? kCoarseCellWeight : 0;
   const auto mean = [&](double sum, double before) {
     return (sum + borrowed * before) / (s.count + borrowed);
   };
@@ -99,7 +99,7 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
   const auto survival = [efficiency](const CellMeans& m) {
     return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
   };
-  const double least = kLeastValue * survival(Blend(all, {}));
+  const double least = kMinCellValue * survival(Blend(all, {}));
   values.survive.assign(fine.cells(), -1.0f);
   if (efficiency) values.split.assign(fine.cells(), 0.0f);
   next = sums.begin();

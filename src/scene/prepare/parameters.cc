@@ -48,14 +48,14 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
 
 }  // namespace
 
-PointsParameters MakePointsParameters(Points points) {
-  PointsParameters p;
+SamplerParameters MakeSamplerParameters(Points points) {
+  SamplerParameters p;
   p.group_shift = LogSequence(points);
   if (points == Points::kPmj02) p.pmj02 = Pmj02Table().data();
   return p;
 }
 
-PairParameters MakePairParameters(const Strategy& strategy) {
+AntitheticParameters MakeAntitheticParameters(const Strategy& strategy) {
   if (strategy.pairs == Pairs::kNone) return {};
   constexpr std::uint64_t kPixel =
       Bit(Dimension::kFilm) | Bit(Dimension::kLens) | Bit(Dimension::kTime);

@@ -160,7 +160,7 @@ class Parser {
     strategy_.candidates = kDefaultLightCandidates;
     if (!Has(parts, candidates == LightCandidates::kSingle ? 0 : 1)) return;
     const double m =
-        Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
+        Number("light-candidates=resampled", parts[1], 2, kMaxLightCandidates);
     if (m != std::floor(m)) Fail("the number of light candidates must be whole");
     strategy_.candidates = static_cast<std::uint32_t>(m);
   }
@@ -169,7 +169,7 @@ class Parser {
     strategy_.reused_paths = kDefaultReusedPaths;
     strategy_.block_layout = BlockLayout::kRandom;
     if (!Has(parts, reuse == Reuse::kNone ? 0 : 2)) return;
-    const double n = Number("reuse=block", parts[1], kLeastReusedPaths, kMostReusedPaths);
+    const double n = Number("reuse=block", parts[1], kMinReusedPaths, kMaxReusedPaths);
     strategy_.reused_paths = static_cast<std::uint32_t>(n);
     if (n != strategy_.reused_paths || !std::has_single_bit(strategy_.reused_paths)) {
       Fail(

@@ -100,15 +100,15 @@ TEST_CASE("waiting ends when it is told to", "[core][lock]") {
   const LockFile a(folder.File("a")), b(folder.File("a"));
   const auto held = a.Take("x");
   std::vector<double> waited;
-  const auto go_on = [&](double seconds) {
+  const auto keep_waiting = [&](double seconds) {
     waited.push_back(seconds);
     return waited.size() < 4;
   };
-  CHECK_FALSE(b.Wait("x", go_on));
+  CHECK_FALSE(b.Wait("x", keep_waiting));
   REQUIRE(waited.size() == 4);
   CHECK(waited[0] < waited[1]);
   CHECK(waited[3] >= 0.007);  // pauses of 1, 2 and 4 ms
-  CHECK(b.Wait("y", go_on));
+  CHECK(b.Wait("y", keep_waiting));
   CHECK(waited.size() == 4);
 }
 

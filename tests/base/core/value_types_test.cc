@@ -48,8 +48,9 @@ TEST_CASE("numbers are decimal, of their range, and nothing else", "[core]") {
   }
   CHECK(RefusalOf(count, "0").starts_with("0 is not"));
   CHECK(RefusalOf(count, "no").starts_with("\"no\" is not"));
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  CHECK(ReadValue(NumberType<std::uint64_t>{0, kMost}, "18446744073709551615") == kMost);
+  constexpr std::uint64_t kMaxValue = std::numeric_limits<std::uint64_t>::max();
+  CHECK(ReadValue(NumberType<std::uint64_t>{0, kMaxValue}, "18446744073709551615") ==
+        kMaxValue);
 }
 
 TEST_CASE("sizes and windows are read whole", "[core]") {

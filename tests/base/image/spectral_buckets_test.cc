@@ -56,7 +56,7 @@ TEST_CASE("buckets: the mean over triples is that over a bucket's wavelengths",
   for (const SpectralBuckets& buckets :
        {SpectralBuckets{16}, SpectralBuckets{1}, SpectralBuckets{7, 391.3, 702.9},
         SpectralBuckets{100, 500, 520}, SpectralBuckets{3, 790, 830}}) {
-    const BucketShares shares(buckets);
+    const BucketFractions shares(buckets);
     std::vector<double> sums(static_cast<std::size_t>(buckets.count));
     for (int t = 0; t < kTriples; ++t) {
       for (int b = t; b < kWavelengthBins; b += kTriples) {
@@ -87,7 +87,7 @@ TEST_CASE("buckets: a film has them by pixel, and nothing of them without",
               triple[] = {5};
   const float* const planes[] = {color, color, color, at_long, middle, at_short, triple};
   film.AddSamples(1, 0, planes, 1);
-  const BucketShares shares({4, 400, 600});
+  const BucketFractions shares({4, 400, 600});
   std::vector<double> sums(4);
   shares.Add(5, 5, sums.data());
   shares.Add(kTriples + 5, 3, sums.data());

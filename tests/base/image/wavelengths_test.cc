@@ -34,7 +34,7 @@ double Largest(Rgb c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(
 Rgb UnderWhite(const Spectrum& reflectance) {
   Rgb sum;
   for (double nm = 380.125; nm < 780; nm += 0.25) {
-    sum += WhiteShare(nm) * (reflectance(nm) * 0.25);
+    sum += WhiteFraction(nm) * (reflectance(nm) * 0.25);
   }
   return sum;
 }
@@ -93,7 +93,7 @@ TEST_CASE("wavelengths: bins meet light of a single line", "[spectrum]") {
   Rgb exact;
   constexpr int kSteps = 2000;
   for (int i = 0; i < kSteps; ++i) {
-    exact += WhiteShare(545.1 + 2.0 * (i + 0.5) / kSteps) * (2.0 / kSteps);
+    exact += WhiteFraction(545.1 + 2.0 * (i + 0.5) / kSteps) * (2.0 / kSteps);
   }
   CHECK(Largest(found - exact) < 0.02 * Largest(exact));
 }

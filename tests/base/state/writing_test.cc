@@ -30,7 +30,8 @@ class WithoutPrivileges {
  public:
   explicit WithoutPrivileges(const std::string& folder) {
     if (root_)
-      REQUIRE((chown(folder.c_str(), kNobody, kNobody) == 0 && seteuid(kNobody) == 0));
+      REQUIRE((chown(folder.c_str(), kUnprivilegedUser, kUnprivilegedUser) == 0 &&
+               seteuid(kUnprivilegedUser) == 0));
   }
   ~WithoutPrivileges() {
     if (root_) CHECK(seteuid(0) == 0);
@@ -39,7 +40,7 @@ class WithoutPrivileges {
   WithoutPrivileges& operator=(const WithoutPrivileges&) = delete;
 
  private:
-  static constexpr uid_t kNobody = 65534;
+  static constexpr uid_t kUnprivilegedUser = 65534;
   const bool root_ = geteuid() == 0;
 };
 

@@ -74,7 +74,7 @@ struct PairedPaths {
   void Run(const std::string& choice) {
     Strategy strategy;
     ApplyStrategy("pairs=antithetic:" + choice, {}, strategy);
-    fixture.run.pairs = MakePairParameters(strategy);
+    fixture.run.pairs = MakeAntitheticParameters(strategy);
     for (QueueId id : {QueueId::kCamera, QueueId::kSurface}) {
       Queue& queue = fixture.wave.queue(id);
       queue.size = 0;

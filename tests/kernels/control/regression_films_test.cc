@@ -129,7 +129,7 @@ TEST_CASE("regression: a million samples are learned from, and no more", "[contr
     return bytes;
   };
   std::vector<char> last;
-  const std::uint64_t calls = RegressionFilm::kMostFitted / kAtOnce;
+  const std::uint64_t calls = RegressionFilm::kMaxFittedSamples / kAtOnce;
   for (std::uint64_t call = 0; call < calls + 64; ++call) {
     if (call == calls) last = products();
     Samples s(1, kAtOnce, groups, static_cast<unsigned>(call));

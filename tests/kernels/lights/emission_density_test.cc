@@ -104,7 +104,7 @@ TEST_CASE("a sample on a pictured shape and the ray to it say the same", "[light
       const PictureSamples samples(shape, from);
       const std::vector<Vec3d> directions = samples.Directions();
       const auto pdf = DensitiesAlong(samples.scene(), from, directions);
-      const auto seen = SeenAlong(samples.scene(), from, directions, kSurePdf);
+      const auto seen = SeenAlong(samples.scene(), from, directions, kLargePdf);
       const PictureTruth truth(shape);
       int off = 0;  // at the outline, where one sees what the other does not
       for (std::uint32_t i = 0; i < kPictureSamples; ++i) {

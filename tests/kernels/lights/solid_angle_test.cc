@@ -20,7 +20,7 @@ constexpr int kBins = 8;  // along each side
 double ErrorOfAngle(const Flat& f) {
   const double cosine = std::abs(Dot(f.Normal(), Normalize(f.corner)));
   const double error = 2e-6 * (1 + 1 / cosine);
-  if (AngleOf(f) > kLeast) return error;
+  if (AngleOf(f) > kMinSolidAngle) return error;
   return error + 4 * (Length(f.x) + Length(f.y)) / Length(f.corner);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
     // As dense as the ray: half of the radiance. By area, the ray has missed the light
     // by the clearance of the shadow ray.
     const double tolerance =
-        AngleOf(f) > kLeast ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
+        AngleOf(f) > kMinSolidAngle ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
     for (std::uint32_t i = 0; i < kCount; ++i) {
       CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
     }
@@ -144,7 +144,7 @@ TEST_CASE("lights that are too small for solid angles are sampled by area", "[li
   for (const double part : {0.9, 1.1}) {
     for (const double height : {1.0, 0.01}) {
       for (const bool rectangle : {true, false}) {
-        const double away = height < 1 ? 1 : 0, omega = part * kLeast;
+        const double away = height < 1 ? 1 : 0, omega = part * kMinSolidAngle;
         const double d = std::hypot(away, height);
         const double side = std::sqrt(omega * d * d * d / height * (rectangle ? 1 : 2));
         const Flat f = {"", {away, 0, height}, {side, 0, 0}, {0, side, 0}, rectangle};

@@ -140,9 +140,9 @@ TEST_CASE("what a shadow ray must add follows the pixel and the cost", "[roulett
 
 TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
   StrategyTables tables, back;
-  CHECK(TakeTraining(tables).size() == 4);
+  CHECK(ExportTraining(tables).size() == 4);
   tables.shadow_worth.inverse = {0.5f, 3, 1e-7f};
-  PutTraining(TakeTraining(tables), 1, back);
+  ImportTraining(ExportTraining(tables), 1, back);
   CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
 }
 

@@ -4,7 +4,7 @@
 
 #include "kernels/stages.h"
 #include "src/scene/compile/texture_programs.h"
-#include "tests/kernels/surface/relief_files.h"
+#include "tests/kernels/surface/bump_files.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 

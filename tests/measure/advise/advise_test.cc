@@ -104,15 +104,15 @@ TEST_CASE("what pays is advised, and what loses is not", "[advise]") {
 
 TEST_CASE("what misses light is not advised, however even it looks", "[advise]") {
   TriedStrategy entry;
-  entry.usual = {1, std::vector<double>(1000, 1.0)};
+  entry.baseline = {1, std::vector<double>(1000, 1.0)};
   entry.measure = {1, std::vector<double>(1000, 0.01)};
-  entry.usual_light = {100, 1};
+  entry.baseline_light = {100, 1};
   entry.light = {99, 0.1};
-  CHECK(entry.Beyond(kMustGain, 1.645) == Approx(std::log(100 / kMustGain)));
+  CHECK(entry.Beyond(kMinChangeGain, 1.645) == Approx(std::log(100 / kMinChangeGain)));
   entry.light.sum = 96;
   CHECK(entry.MissesLight());
-  CHECK(entry.Beyond(kMustGain, 1.645) == 0);
-  // More than that may be the usual strategy's lack.
+  CHECK(entry.Beyond(kMinChangeGain, 1.645) == 0);
+  // More than that may be the baseline strategy's lack.
   entry.light.sum = 104;
   CHECK_FALSE(entry.MissesLight());
 }

@@ -66,7 +66,7 @@ TEST_CASE("renders that differ by noise alone agree", "[agreement]") {
   int alarms = 0;
   for (int pair = 0; pair < 200; ++pair) {
     const Agreement a = TestAgreement(render.Make(), render.Make(), false);
-    REQUIRE(a.verdict != AgreementVerdict::kCannotTell);
+    REQUIRE(a.verdict != AgreementVerdict::kInconclusive);
     CHECK(a.untested == 0);
     CHECK(a.tests == 3 * (a.layout.size() + 1));
     CHECK((a.p <= a.level) == (a.verdict == AgreementVerdict::kDiffer));
@@ -124,7 +124,7 @@ TEST_CASE("without variances nothing can be told", "[agreement]") {
   const auto why = [](const Image& a, const Image& b, bool exact) {
     const Agreement agreement = TestAgreement(a, b, exact);
     CHECK(std::isnan(agreement.p));
-    CHECK(agreement.verdict == AgreementVerdict::kCannotTell);
+    CHECK(agreement.verdict == AgreementVerdict::kInconclusive);
     return agreement.why;
   };
   CHECK(why(plain, plain, false) == "neither image has variances");

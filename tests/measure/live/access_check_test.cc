@@ -7,18 +7,18 @@
 namespace lanelight::live {
 namespace {
 
-const std::string kDoorToken = "0123456789abcdef0123456789abcdef";
+const std::string kAccessToken = "0123456789abcdef0123456789abcdef";
 
 HttpRequest PageVisit() {
-  return {"GET", "/" + kDoorToken + "/", "127.0.0.1:8080", "", false};
+  return {"GET", "/" + kAccessToken + "/", "127.0.0.1:8080", "", false};
 }
 HttpRequest SocketVisit() {
-  return {"GET", "/" + kDoorToken + "/socket", "127.0.0.1:8080", "http://127.0.0.1:8080",
-          true};
+  return {"GET", "/" + kAccessToken + "/socket", "127.0.0.1:8080",
+          "http://127.0.0.1:8080", true};
 }
 
 unsigned StatusOf(const HttpRequest& request) {
-  return AccessCheck(8080, kDoorToken).Decide(request).status;
+  return AccessCheck(8080, kAccessToken).Decide(request).status;
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ TEST_CASE("tokens are long, different, and compared as a whole", "[live]") {
 }
 
 TEST_CASE("the page and its socket are behind the token", "[live]") {
-  const AccessCheck access(8080, kDoorToken);
-  CHECK(access.Address() == "http://127.0.0.1:8080/" + kDoorToken + "/");
+  const AccessCheck access(8080, kAccessToken);
+  CHECK(access.Address() == "http://127.0.0.1:8080/" + kAccessToken + "/");
   CHECK(access.Decide(PageVisit()).answer == Answer::kPage);
   CHECK(access.Decide(SocketVisit()).answer == Answer::kSocket);
   for (const char* target : {"/", "", "x", "//", "/0123456789abcdef0123456789abcdee/",

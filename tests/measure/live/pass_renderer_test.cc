@@ -11,14 +11,14 @@
 namespace lanelight::live {
 namespace {
 
-class NoAttendant : public PassObserver {
+class PlainObserver : public PassObserver {
  public:
   bool Due() const override { return false; }
   void Observe() override {}
 };
 
 // Wants to look all the time.
-class CuriousAttendant : public PassObserver {
+class QueryingObserver : public PassObserver {
  public:
   bool Due() const override { return due_; }
   void Observe() override {
@@ -66,15 +66,15 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
     // Another one uses the same scene in between.
     PassRenderer other(live_scene, MakeView(live_scene, live_scene.pose, 2),
                        ChangedStrategy("light-selection=uniform"));
-    NoAttendant observer;
-    CuriousAttendant curious;
+    PlainObserver observer;
+    QueryingObserver querying;
     for (const int spp : {2, 4, 10, 16}) {
       renderer.Pass(std::uint64_t(spp),
-                    spp == 10 ? static_cast<PassObserver&>(curious) : observer, never);
+                    spp == 10 ? static_cast<PassObserver&>(querying) : observer, never);
       other.Pass(std::uint64_t(spp), observer, never);
       CHECK(renderer.spp() == std::uint64_t(spp));
     }
-    CHECK(curious.looks > 0);
+    CHECK(querying.looks > 0);
     renderer.Fit();
     CheckSameFilms(renderer.film(), WholeRender(live_scene, strategy, 16).film);
     CHECK(renderer.record().counts.samples == 16u * 32 * 24);
@@ -85,7 +85,7 @@ TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   const Strategy strategy;
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), strategy);
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false}, at_once{true};
   renderer.Pass(3, observer, never);
   renderer.Pass(8, observer, at_once);
@@ -102,7 +102,7 @@ TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
   pose.fov = 45;
   const View view = MakeView(live_scene, pose, 1);
   PassRenderer renderer(live_scene, view, Strategy{});
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false};
   renderer.Pass(4, observer, never);
   SceneDescription scene =
@@ -119,7 +119,7 @@ TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
 TEST_CASE("a renderer counts stages, rays by places, and its errors", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false};
   renderer.Pass(8, observer, never);
   renderer.Pass(9, observer, never);

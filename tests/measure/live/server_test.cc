@@ -56,8 +56,8 @@ int Connect(std::uint32_t address, std::uint16_t port, std::uint32_t client = 0)
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
   to.sin_addr.s_addr = htonl(address);
-  const timeval patience = {20, 0};
-  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  const timeval timeout = {20, 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
   if (connect(fd, reinterpret_cast<sockaddr*>(&to), sizeof(to)) == 0) return fd;
   close(fd);
   return -1;
@@ -144,7 +144,7 @@ TEST_CASE("one client cannot keep others out", "[live]") {
   const RunningServer server;
   // Half-open requests from 127.0.0.1: half of all connections, however many it asks for.
   std::vector<int> open;
-  for (int i = 0; i < 2 * kMostConnections; ++i) {
+  for (int i = 0; i < 2 * kMaxConnections; ++i) {
     open.push_back(Connect(INADDR_LOOPBACK, server.port));
     REQUIRE(send(open.back(), "GET /", 5, MSG_NOSIGNAL) == 5);
   }
@@ -154,7 +154,7 @@ TEST_CASE("one client cannot keep others out", "[live]") {
     char byte;
     refused += recv(fd, &byte, 1, MSG_DONTWAIT) == 0 || errno == ECONNRESET;
   }
-  CHECK(refused == 2 * kMostConnections - kMostFromOne);
+  CHECK(refused == 2 * kMaxConnections - kMaxPerAddress);
   // 127.0.0.2 of the same machine.
   const std::string page =
       Request(server, GetText(server.path, server.host), {.client = INADDR_LOOPBACK + 1});
@@ -163,12 +163,12 @@ TEST_CASE("one client cannot keep others out", "[live]") {
 }
 
 TEST_CASE("connections are limited in all, and from one address", "[live]") {
-  std::map<int, int> connections = {{1, kMostFromOne - 1}};
+  std::map<int, int> connections = {{1, kMaxPerAddress - 1}};
   CHECK(MayConnect(connections, 1));
-  connections[1] = kMostFromOne;
+  connections[1] = kMaxPerAddress;
   CHECK_FALSE(MayConnect(connections, 1));
   CHECK(MayConnect(connections, 2));
-  connections[2] = kMostFromOne;
+  connections[2] = kMaxPerAddress;
   CHECK_FALSE(MayConnect(connections, 3));
 }
 

@@ -39,7 +39,7 @@ struct Studied {
     }
     StrategyAnalysis strategy;
     strategy.levels.push_back(level);
-    if (reference_share <= kMaxReferenceShare) strategy.self.Add(renders);
+    if (reference_share <= kMaxReferenceFraction) strategy.self.Add(renders);
     analysis.strategies.push_back(strategy);
     runs.strategies.emplace_back();
     runs.strategies.back().named.name = name;

@@ -125,7 +125,7 @@ Coverage MeasureCoverage(const SimulatedImage& image, int trials) {
 // A coverage of 0.93 or more gives less than this in 150 trials once in 10^6 times
 // (binomial distribution); mistakes give much less.
 constexpr int kTrials = 150;
-constexpr double kLeast = 0.81;
+constexpr double kMinCoverage = 0.81;
 
 }  // namespace
 
@@ -137,8 +137,8 @@ TEST_CASE("intervals contain the true error for any distribution", "[study]") {
       image.groups = groups;
       const Coverage honest = MeasureCoverage(image, kTrials);
       INFO(groups << " groups");
-      CHECK(honest.rmse >= kLeast);
-      CHECK(honest.relmse >= kLeast);
+      CHECK(honest.rmse >= kMinCoverage);
+      CHECK(honest.relmse >= kMinCoverage);
     }
   }
 }
@@ -151,9 +151,9 @@ TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[st
     image.groups = groups;
     const Coverage c = MeasureCoverage(image, kTrials);
     INFO(groups << " groups");
-    CHECK(c.relmse + c.refused >= kLeast);
+    CHECK(c.relmse + c.refused >= kMinCoverage);
     CHECK(c.refused < 0.2);
-    CHECK(c.half + c.refused < kLeast);
+    CHECK(c.half + c.refused < kMinCoverage);
   }
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("noise as large as the image is in the interval", "[study]") {
   image.equal = true;
   image.width = 48, image.height = 32;
   const Coverage c = MeasureCoverage(image, kTrials);
-  CHECK(c.relmse >= kLeast);
+  CHECK(c.relmse >= kMinCoverage);
   CHECK(c.refused == 0);
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("dividing by the noisy means themselves is rejected", "[study]") {
   image.equal = true;
   image.width = 48, image.height = 32;
   const Coverage c = MeasureCoverage(image, kTrials);
-  CHECK(c.relmse >= kLeast);
+  CHECK(c.relmse >= kMinCoverage);
   CHECK(c.plain < 0.5);
 }
 
@@ -323,7 +323,8 @@ TEST_CASE("an image of one pixel has the estimate of that pixel", "[study]") {
   CHECK(one.available);
   CHECK(one.rmse.value == Approx(2));
   // The correction for skewness is undone here.
-  CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));
+  CHECK(one.relmse.value ==
+        Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMaxSkewError))));
 }
 
 ErrorEstimate OfAllPixels(double value) {

@@ -261,14 +261,15 @@ TEST_CASE("localhost is a viewer that listens on IPv4 alone, as tev does", "[ren
   CHECK(Decode(viewer.Bytes()).rgb == std::vector<float>(3 * 8 * 8, 2.0f));
 }
 
-TEST_CASE("where nobody listens, that is said once and the image is made", "[render]") {
-  Endpoint nobody;
+TEST_CASE("where unused_port listens, that is said once and the image is made",
+          "[render]") {
+  Endpoint unused_port;
   {
-    nobody = Viewer(0, false).endpoint();  // whose port is free again
+    unused_port = Viewer(0, false).endpoint();  // whose port is free again
   }
   const TemporaryFolder folder;
   const std::string exr = folder.File("shown.exr");
-  const ShownRender render = RenderShown(nobody, exr);
+  const ShownRender render = RenderShown(unused_port, exr);
   CHECK(render.image.width == 48);
   REQUIRE(render.problems.size() == 1);
   CHECK_THAT(render.problems[0], Contains("no display server at 127.0.0.1:") &&

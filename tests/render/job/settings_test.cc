@@ -48,7 +48,7 @@ TEST_CASE("settings out of range are refused", "[render]") {
     CHECK_THROWS_WITH(ApplySettings(settings, scene), Contains(message));
   };
   refused([](auto& s, auto&) { s.spp = 0; }, "samples per pixel");
-  refused([](auto& s, auto&) { s.spp = kMostSamplesPerPixel + 1; }, "1099511627777");
+  refused([](auto& s, auto&) { s.spp = kMaxSamplesPerPixel + 1; }, "1099511627777");
   refused([](auto& s, auto&) { s.spp = ~std::uint64_t{0}; }, "samples per pixel");
   refused([](auto&, auto& d) { d.sampler.spp = -1; }, "-1 samples per pixel");
   refused([](auto& s, auto&) { s.seconds = 0; }, "time budget");

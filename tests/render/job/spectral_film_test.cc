@@ -66,7 +66,7 @@ Rgb ColorOfBuckets(const FilmAccumulator& film, int x, int y) {
   for (int k = 0; k < buckets.count; ++k) {
     const double low = buckets.Edge(k), high = buckets.Edge(k + 1);
     for (int c = 0; c < 3; ++c) {
-      const Spectrum seen = [&](double nm) { return WhiteShare(nm)[c] / white(nm); };
+      const Spectrum seen = [&](double nm) { return WhiteFraction(nm)[c] / white(nm); };
       sum[c] += film.Bucket(x, y, k) * MeanOver(seen, low, high) * (high - low);
     }
   }

@@ -169,7 +169,7 @@ class Checker {
 
   void Compare(const Stage& stage, const WaveState& before, const WaveState& after,
                const WaveState& scrambled) {
-    PathCopies copies(before, after);
+    SplitPaths copies(before, after);
     if (after.queues != scrambled.queues) findings_.insert(stage.name + kQueues);
     if (!SameBits(after.samples, scrambled.samples)) {
       findings_.insert(stage.name + kOutput);

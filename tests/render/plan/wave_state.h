@@ -23,9 +23,9 @@ struct WaveState {
 
 /// Where a path splits, its copies take over all that it has, whatever the columns: what
 /// a stage writes into a slot that was free is no access of its own if it is a copy.
-class PathCopies {
+class SplitPaths {
  public:
-  PathCopies(const WaveState& before, const WaveState& after)
+  SplitPaths(const WaveState& before, const WaveState& after)
       : before_(before), after_(after) {
     for (std::uint32_t slot : Free(before)) taken_.insert(slot);
     for (std::uint32_t slot : Free(after)) taken_.erase(slot);

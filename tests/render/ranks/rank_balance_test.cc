@@ -26,16 +26,16 @@ TEST_CASE("partners name each other, and meet all neighbours", "[ranks]") {
 
 TEST_CASE("what is given lets both end at the same time", "[ranks]") {
   const RankLoad slow = {3000000, 1e6}, fast = {3000000, 2e6};
-  const auto samples = SamplesToGive(slow, fast);
+  const auto samples = SamplesToTransfer(slow, fast);
   CHECK(double(slow.left - samples) / slow.speed ==
         Approx(double(fast.left + samples) / fast.speed));
-  CHECK(SamplesToGive(fast, slow) == 0);
-  CHECK(SamplesToGive(slow, slow) == 0);
+  CHECK(SamplesToTransfer(fast, slow) == 0);
+  CHECK(SamplesToTransfer(slow, slow) == 0);
   // The speed of this rank and the time of the other are unknown.
-  CHECK(SamplesToGive({3000000, 0}, fast) == 0);
-  CHECK(SamplesToGive(slow, {0, 0}) == slow.left / 2);
+  CHECK(SamplesToTransfer({3000000, 0}, fast) == 0);
+  CHECK(SamplesToTransfer(slow, {0, 0}) == slow.left / 2);
   // A message for a millisecond.
-  CHECK(SamplesToGive({2000, 1e6}, {0, 1e6}) == 0);
+  CHECK(SamplesToTransfer({2000, 1e6}, {0, 1e6}) == 0);
 }
 
 TEST_CASE("a few turns even out any number of ranks", "[ranks]") {
@@ -48,7 +48,7 @@ TEST_CASE("a few turns even out any number of ranks", "[ranks]") {
         if (partner < 0) continue;
         RankLoad& from = loads[static_cast<std::size_t>(r)];
         RankLoad& to = loads[static_cast<std::size_t>(partner)];
-        const auto samples = SamplesToGive(from, to);
+        const auto samples = SamplesToTransfer(from, to);
         from.left -= samples;
         to.left += samples;
       }

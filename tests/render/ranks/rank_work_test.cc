@@ -88,7 +88,7 @@ TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
     }
     own.threads.Resume({});
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     const auto rank = static_cast<std::size_t>(group.rank());
     const Scheduler& scheduler = own.threads.scheduler();
     Expect(scheduler.Snapshot().size() == (scheduler.tiles().size() + 2 - rank) / 3);
@@ -110,7 +110,7 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
     RankFixture own;
     if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     if (!group.leads()) {
       std::vector<std::uint64_t> firsts;
       work.Serve([&](const Round& round) { firsts.push_back(round.begin); }, nullptr);
@@ -148,7 +148,7 @@ TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]
     RankFixture own;
     if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     if (!group.leads()) return work.Serve([](const Round&) {}, nullptr);
     const std::uint64_t dealt = Missing(own.threads, kSpp);
     CHECK(dealt < kSpp * kPixels / 2);

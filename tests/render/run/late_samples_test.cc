@@ -71,7 +71,7 @@ TEST_CASE("samples beyond the indices of kernels go on under another seed", "[re
     const std::vector<double> first = SumsOf(strategy, 0, 8);
     const std::vector<double> next = SumsOf(strategy, 2 * end, 2 * end + 8);
     const std::vector<double> last =
-        SumsOf(strategy, kMostSamplesPerPixel - 8, kMostSamplesPerPixel);
+        SumsOf(strategy, kMaxSamplesPerPixel - 8, kMaxSamplesPerPixel);
     const std::vector<double>* const all[] = {&before, &after, &first, &next, &last};
     for (const auto* a : all) {
       for (const auto* b : all) CHECK((Difference(*a, *b) > 0.1) == (a != b));

@@ -23,8 +23,8 @@ struct Rest : RunRecord {
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
 class Pauser : public RunKeeper {
  public:
-  Pauser(Rest& rest, int patience, bool stops)
-      : rest_(rest), limit_(patience), stops_(stops) {}
+  Pauser(Rest& rest, int max_calls, bool stops)
+      : rest_(rest), limit_(max_calls), stops_(stops) {}
 
   bool Restore(RunState& state) override {
     if (!rest_.taken) return false;

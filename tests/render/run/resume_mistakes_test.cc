@@ -13,9 +13,9 @@ using Catch::Contains;
 constexpr std::size_t kPerPixel = 3 * kWidth * kHeight;  // 7770
 
 // Half a run, and what is left of it.
-Rest HalfOf(const Request& request, int patience = 7) {
+Rest HalfOf(const Request& request, int max_calls = 7) {
   Rest rest;
-  Pauser pauser(rest, patience, true);
+  Pauser pauser(rest, max_calls, true);
   Request half = request;
   half.keeper = &pauser;
   half.stop = &pauser.stop();

@@ -204,7 +204,7 @@ TEST_CASE("the pilot of a decision takes a few percent of what it is planned for
     const Rendered r = Decide(plane, "decide=pilot", planned);
     const auto samples = double(r.result.training.samples);
     CHECK((samples > 0) == (planned > (1u << 14)));
-    CHECK(samples < 0.05 * double(std::min(planned, kMostDecidedBy)));
+    CHECK(samples < 0.05 * double(std::min(planned, kMaxTrialSamples)));
   }
   // Nothing to choose from: paths end after one event.
   SceneDescription direct = SmallRoom(8, 1);

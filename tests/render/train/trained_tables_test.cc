@@ -33,7 +33,7 @@ StrategyTables SmallTables() {
 std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixels) {
   StrategyTables tables;
   try {
-    PutTraining(trained, pixels, tables);
+    ImportTraining(trained, pixels, tables);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -45,7 +45,7 @@ std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixe
 TEST_CASE("trained tables come back with the same bits", "[state]") {
   const StrategyTables tables = SmallTables();
   StrategyTables back;
-  PutTraining(TakeTraining(tables), kPixels, back);
+  ImportTraining(ExportTraining(tables), kPixels, back);
   CHECK(back.path_values.grid.size[1] == 2);
   CHECK(back.path_values.scale == 0.75f);
   CHECK(back.path_values.survive == tables.path_values.survive);
@@ -53,11 +53,11 @@ TEST_CASE("trained tables come back with the same bits", "[state]") {
   CHECK(back.path_values.inverse_pixel == tables.path_values.inverse_pixel);
   CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
   // Nothing has been learned.
-  CHECK(ErrorOf(TakeTraining(StrategyTables()), kPixels) == "");
+  CHECK(ErrorOf(ExportTraining(StrategyTables()), kPixels) == "");
 }
 
 TEST_CASE("a trained table of the wrong size is named, with the right one", "[state]") {
-  const std::vector<TrainedTable> good = TakeTraining(SmallTables());
+  const std::vector<TrainedTable> good = ExportTraining(SmallTables());
   REQUIRE(good.size() == 5);
   using Values = std::vector<double>;
   const std::function<void(Values&)> faults[] = {
@@ -80,7 +80,7 @@ TEST_CASE("a trained table of the wrong size is named, with the right one", "[st
 }
 
 TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[state]") {
-  std::vector<TrainedTable> bad = TakeTraining(SmallTables());
+  std::vector<TrainedTable> bad = ExportTraining(SmallTables());
   bad[3].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),
              Contains("'path_values_inverse' has 0 values: 18 are right, 3 for each of "

@@ -53,7 +53,7 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
                                           {8, 0, 8},
                                           std::vector<int>(40, 2)}) {
     for (const int least : {1, 16}) {
-      const auto parts = DealTiles(tiles, threads, least);
+      const auto parts = DistributeTiles(tiles, threads, least);
       REQUIRE(parts.size() == threads.size());
       std::vector<std::uint32_t> all, pixels;
       int seats = 0;
@@ -79,13 +79,13 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
 
 TEST_CASE("parts have neighbours in turn, and tiles enough", "[tiles]") {
   const std::vector<PixelRect> tiles = TilesOf({0, 0, 64, 64}, 16);
-  const auto parts = DealTiles(tiles, {1, 1, 1, 1}, 1);
+  const auto parts = DistributeTiles(tiles, {1, 1, 1, 1}, 1);
   for (const auto& part : parts) CHECK(part.size() == 64);
   // Tiles of 4 x 4 pixels: of each block of 8 x 8 every part has one.
   CHECK(parts[0][5].x0 / 8 == parts[3][5].x0 / 8);
   CHECK(parts[0][5].y0 / 8 == parts[3][5].y0 / 8);
   // The tiles of reuse=block stay whole, whoever has none then.
-  const auto whole = DealTiles(tiles, std::vector<int>(20, 1), 16);
+  const auto whole = DistributeTiles(tiles, std::vector<int>(20, 1), 16);
   CHECK(whole[15].size() == 1);
   CHECK(whole[16].empty());
 }

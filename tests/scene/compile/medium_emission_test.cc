@@ -155,7 +155,7 @@ TEST_CASE("the table of black bodies", "[compile][media]") {
   medium.emission = {1, 1, 1};
   const BlackbodyTable table = CompileMediumEmission(medium, Transport::kRgb).blackbody;
   for (double kelvin = 1000; kelvin < 20000; kelvin *= 1.0117) {
-    const double at = std::log(kelvin / kLeastKelvin) * table.entries_per_log;
+    const double at = std::log(kelvin / kMinKelvin) * table.entries_per_log;
     const auto i = static_cast<std::size_t>(at);
     const Rgb expected = RgbOfBlackbody(kelvin);
     const double most = std::max({expected.x, expected.y, expected.z});

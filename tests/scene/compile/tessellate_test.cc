@@ -234,7 +234,7 @@ TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
       placed.shape = &shape;
       placed.transform = Transform::Translate({0, 0, (5 + distance + 3) * unit}) *
                          Transform::Scale({unit, 2 * unit, unit});
-      return SeenTolerance(placed, d.camera, d.film);
+      return CameraTolerance(placed, d.camera, d.film);
     };
     const Shape tube = Cylinder(1.5, 0, 0, 360), ball = PartOfSphere(1.5, 0, 1, 360);
     // Largest radius 3; a pixel is 1/50 of the distance.

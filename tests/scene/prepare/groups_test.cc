@@ -37,7 +37,7 @@ void CheckCounts(const SampleGroups& groups) {
 TEST_CASE("sequences are as long as the samplers are good for", "[points]") {
   for (Points points : kAllPoints) {
     INFO(Name(points));
-    CHECK(MakePointsParameters(points).group_shift == LogSequence(points));
+    CHECK(MakeSamplerParameters(points).group_shift == LogSequence(points));
     // Sample counts begin anew after whole turns.
     CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(points)) == 0);
     CHECK(LogSequence(points) < 24);  // PermuteOctaves, CmjPoints

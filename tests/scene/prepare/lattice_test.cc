@@ -65,7 +65,7 @@ namespace {
 
 // The least error of all odd numbers below 2^m, or what the search around the golden
 // ratio finds where these are too many.
-double LeastError(std::uint32_t m) {
+double MinError(std::uint32_t m) {
   const std::uint32_t n = 1u << m;
   double least = LatticeError(n, LatticeGenerator(n));
   for (std::uint32_t z = 1; m <= 16 && z < n; z += 2) {
@@ -78,7 +78,7 @@ double WorstRatio(std::uint32_t generator) {
   double worst = 0;
   for (std::uint32_t m = 3; m <= 24; ++m) {
     const std::uint32_t n = 1u << m;
-    worst = std::max(worst, LatticeError(n, generator % n) / LeastError(m));
+    worst = std::max(worst, LatticeError(n, generator % n) / MinError(m));
   }
   return worst;
 }

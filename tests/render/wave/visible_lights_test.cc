@@ -5,7 +5,7 @@
 #include <set>
 
 #include "src/render/plan/plan_features.h"
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/render/run/render_fixture.h"
 
@@ -53,7 +53,7 @@ TEST_CASE("rays of a light's edge are dealt out once each, to their own replicat
           "[seen-lights]") {
   for (const SampleGroups groups :
        {SampleGroups{1, false}, {2, false}, {1, true}, {2, true}}) {
-    const SeenLightSamples samples{groups, 4};
+    const VisibleLightSamples samples{groups, 4};
     const std::uint64_t n = 24;
     std::multiset<std::uint64_t> taken;
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ TEST_CASE("the edge of a lamp is its share of the pixels", "[seen-lights]") {
         // Six standard errors, of the independent samples that a pixel has at least: a
         // false alarm in 10^8. Half a pixel of a lamp's edge is 0.25 radiance^2 a sample.
         const double error =
-            kRadiance * std::sqrt(0.25 * 2 * kSize / (double(spp) * kSeenLightRays));
+            kRadiance * std::sqrt(0.25 * 2 * kSize / (double(spp) * kVisibleLightRays));
         CHECK(std::abs(SumOfMeans(apart.film) - exact) < 6 * error);
         CHECK(apart.result.rays_closest > 2 * paths.result.rays_closest);
         if (spp < 64) continue;
@@ -92,7 +92,7 @@ TEST_CASE("the edge of a lamp is its share of the pixels", "[seen-lights]") {
     }
   }
   // What a path's own camera ray sees, left in: all edge pixels twice as bright.
-  CHECK(6 * kRadiance * std::sqrt(0.25 * 2 * kSize / (7.0 * kSeenLightRays)) <
+  CHECK(6 * kRadiance * std::sqrt(0.25 * 2 * kSize / (7.0 * kVisibleLightRays)) <
         0.25 * kRadiance * kSize);
 }
 

@@ -48,10 +48,11 @@ double DistanceTo(const PlacedShape& placed, Vec3d eye) {
 
 }  // namespace
 
-double SeenTolerance(const PlacedShape& placed, const Camera& camera, const Film& film) {
+double CameraTolerance(const PlacedShape& placed, const Camera& camera,
+                       const Film& film) {
   const double distance = DistanceTo(placed, camera.world_from_camera.Point({0, 0, 0}));
   const double radius = placed.shape->radius * LargestScale(placed.transform);
-  const double seen = kSeenPixels * PixelSize(camera, film, distance) / radius;
+  const double seen = kTolerancePixels * PixelSize(camera, film, distance) / radius;
   const bool is_sphere = placed.shape->kind == ShapeKind::kSphere;
   const double finest = is_sphere ? kFinestSphere : kFinestCylinder;
   return seen > finest ? std::min(seen, kCoarsest) : finest;

@@ -1,4 +1,4 @@
-#include "tests/reference/relief.h"
+#include "tests/reference/bump_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,9 +124,9 @@ UvSteps HalfFootprint(const SceneDescription& scene, const SurfacePoint& at) {
   return {sum.u == 0 ? absent.u : sum.u, sum.v == 0 ? absent.v : sum.v};
 }
 
-SurfacePoint WithRelief(const SceneDescription& scene, const Material& material,
-                        const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
-                        const NormalMapLookup& normal_map) {
+SurfacePoint WithBumpMaps(const SceneDescription& scene, const Material& material,
+                          const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
+                          const NormalMapLookup& normal_map) {
   const bool mapped = !material.normal_map.empty();
   if (!mapped && material.displacement.texture == kNone) return at;
   SurfacePoint out =

@@ -5,7 +5,7 @@
 
 #include "src/render/plan/plan.h"
 #include "tests/agreement/agreement.h"
-#include "tests/kernels/surface/relief_files.h"
+#include "tests/kernels/surface/bump_files.h"
 
 namespace lanelight::test {
 namespace {
@@ -31,7 +31,7 @@ Material Metal() {
 
 // Bumps on a quad, a smooth mesh, a ball, a disk, and a normal map on a metal plate, all
 // before the camera, under lights that glance off them.
-SceneDescription ReliefScene(const TemporaryFolder& folder, double height = 1) {
+SceneDescription BumpMapScene(const TemporaryFolder& folder, double height = 1) {
   WriteWaves(folder.File("waves.exr"), 1);
   WriteColorImage(folder.File("n.exr"), {0.65, 0.45, 0.9});
   SceneBuilder b(12, 12);
@@ -90,7 +90,7 @@ SceneDescription NoisyFloor(const TemporaryFolder& folder, ImageFilter filter) {
 
 TEST_CASE("bump and normal maps agree with the reference", "[relief][agreement]") {
   const TemporaryFolder folder;
-  const SceneDescription scene = ReliefScene(folder);
+  const SceneDescription scene = BumpMapScene(folder);
   const auto result = CompareWithReference(scene, 16384, 4000, 2e-3);
   INFO(result.ToString());
   CHECK(result.same);
@@ -98,7 +98,7 @@ TEST_CASE("bump and normal maps agree with the reference", "[relief][agreement]"
 
 TEST_CASE("bumps of twice the height are found out", "[relief][agreement]") {
   const TemporaryFolder folder, other;
-  const SceneDescription scene = ReliefScene(folder), wrong = ReliefScene(other, 2);
+  const SceneDescription scene = BumpMapScene(folder), wrong = BumpMapScene(other, 2);
   const auto result = stat::CompareMeans(RenderWavefront(scene, 4096),
                                          RenderWavefront(wrong, 4096), {4, 1e-6, 2e-3});
   INFO(result.ToString());

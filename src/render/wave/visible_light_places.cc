@@ -1,4 +1,4 @@
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 
 #include <algorithm>
 #include <cmath>
