@@ -96,7 +96,7 @@ TEST_CASE("bump and normal maps agree with the reference", "[relief][agreement]"
   CHECK(result.same);
 }
 
-TEST_CASE("bumps of twice the height are found out", "[relief][agreement]") {
+TEST_CASE("bumps of twice the height are detected", "[relief][agreement]") {
   const TemporaryFolder folder, other;
   const SceneDescription scene = BumpMapScene(folder), wrong = BumpMapScene(other, 2);
   const auto result = stat::CompareMeans(RenderWavefront(scene, 4096),
@@ -128,7 +128,7 @@ TEST_CASE("a white bumped ball in a white world stays nearly white", "[relief]")
   CHECK(mean < 1.001);
 }
 
-TEST_CASE("filtered images have the mean and little of the noise", "[relief]") {
+TEST_CASE("filtered textures keep the mean and reduce the noise", "[relief]") {
   const TemporaryFolder folder;
   TestRender options;
   options.spp = 1024;
@@ -157,7 +157,8 @@ TEST_CASE("footprints exist where an image is filtered", "[relief][plan]") {
   CHECK(plan(ImageFilter::kEwa).features.Has(Feature::kTextureFootprints));
 }
 
-TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
+TEST_CASE("scenes without bump and normal maps have no stages for them",
+          "[relief][plan]") {
   SceneBuilder b(8, 8);
   b.AddSphere({0, 0, 5}, 1, b.AddDiffuse(Grey(0.5)));
   b.AddPoint({0, 0, 0}, Grey(1));

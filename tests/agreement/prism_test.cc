@@ -102,7 +102,7 @@ Rgb ByLaw(double cut) {
 
 }  // namespace
 
-TEST_CASE("prism: colours part by Snell's law", "[spectral]") {
+TEST_CASE("prism: colours are refracted by Snell's law", "[spectral]") {
   const Spectrum index = *SpectrumOfName("glass-F11");
   // Blue is bent more, towards the base.
   REQUIRE(Through(index(450)).height < Through(index(650)).height - 0.05);
@@ -126,7 +126,7 @@ TEST_CASE("prism: colours part by Snell's law", "[spectral]") {
   }
 }
 
-TEST_CASE("prism: RGB has one index for all", "[spectral]") {
+TEST_CASE("prism: RGB rendering uses one index of refraction", "[spectral]") {
   const Spectrum index = *SpectrumOfName("glass-F11");
   SceneDescription scene = PrismScene(Through(index(587.6)).height - 0.01);
   scene.integrator.transport = Transport::kRgb;

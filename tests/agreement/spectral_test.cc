@@ -96,7 +96,7 @@ Rgb ColorUnder(const Spectrum& light, const Spectrum& reflectance) {
 
 }  // namespace
 
-TEST_CASE("spectral: what is grey is as in RGB", "[spectral]") {
+TEST_CASE("spectral: grey scenes equal those in RGB", "[spectral]") {
   const SceneDescription room = SmallRoom(16, 4);
   SceneDescription grey = room;
   for (Material& m : grey.materials) {
@@ -234,7 +234,7 @@ TEST_CASE("spectral: measured materials agree with the scalar tracer", "[spectra
   CHECK(shared.same);
 }
 
-TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {
+TEST_CASE("spectral: dispersive glass conserves energy", "[spectral]") {
   for (double roughness : {0.0, 0.3}) {
     Material glass;
     glass.kind = MaterialKind::kDielectric;
@@ -255,7 +255,7 @@ TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {
   }
 }
 
-TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
+TEST_CASE("spectral: a thin sheet also disperses", "[spectral]") {
   Material sheet;
   sheet.kind = MaterialKind::kThinDielectric;
   sheet.dispersion = Own(*SpectrumOfName("glass-F11"));
@@ -265,7 +265,8 @@ TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
   for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(1).margin(0.015));
 }
 
-TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spectral]") {
+TEST_CASE("spectral: every strategy that supports wavelengths is unbiased",
+          "[spectral]") {
   const SceneDescription room = Spectral(ColorfulRoom());
   const auto reference = RenderWavefront(room, 8192);
   const char* const strategies[] = {"directions=bsdf",
@@ -290,7 +291,7 @@ TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spect
   }
 }
 
-TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
+TEST_CASE("spectral: images agree on every SIMD target", "[spectral]") {
   const SceneDescription room = Spectral(ColorfulRoom());
   const auto reference = RenderWavefront(room, 256);
   for (const std::string& target : AvailableTargets()) {
@@ -304,7 +305,7 @@ TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
 }
 
 // A sky whose colour differs by triple has no edges that the camera sees.
-TEST_CASE("spectral: edges of lights are where they are in RGB", "[spectral]") {
+TEST_CASE("spectral: edges of lights are found as in RGB", "[spectral]") {
   SceneBuilder b(16, 16);
   b.Depth(1).Perspective({0, -4, 0}, {0, 0, 0}, {0, 0, 1}, 40);
   b.AddSphere({0, 0, 0}, 0.5, b.AddDiffuse(Grey(0)));
@@ -317,7 +318,7 @@ TEST_CASE("spectral: edges of lights are where they are in RGB", "[spectral]") {
   CHECK(rays(Spectral(scene)) == rays(scene));
 }
 
-TEST_CASE("spectral: albedo of first hits is the colour that is seen", "[spectral]") {
+TEST_CASE("spectral: the albedo output is the visible colour", "[spectral]") {
   TestRender options;
   options.spp = 1024;
   options.auxiliary = Auxiliary::kAov;

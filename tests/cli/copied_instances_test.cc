@@ -49,7 +49,7 @@ std::vector<float> RenderWith(const std::string& scene, const std::string& most)
   return {image.pixels.begin(), image.pixels.end()};
 }
 
-TEST_CASE("copies of instances give the image of the instances", "[cli]") {
+TEST_CASE("copied instances render the same image as instances", "[cli]") {
   const TempDirectory directory;
   const std::string scene = WriteText(directory / "strips.pbrt", kScene);
   const std::vector<float> kept = RenderWith(scene, "0"), copied = RenderWith(scene, "9");

@@ -167,7 +167,9 @@ TEST_CASE("extremes: slabs of optical depth 1e-6 to 1e6") {
 TEST_CASE("extremes: a slab lit by a lamp, in units of 1e-12 to 1e12") {
   Hold(Decades(-12, 12, 6), ByUnit);
 }
-TEST_CASE("extremes: a white ball of optical depth up to 1000 is not seen in the sky") {
+TEST_CASE(
+    "extremes: a white ball of optical depth up to 1000 is invisible under a uniform "
+    "sky") {
   Hold({1e-6, 1e-3, 1, 10, 100, 1000}, ByDepthOfBall);
 }
 TEST_CASE("extremes: asymmetries of scattering up to 1 - 1e-3 either way") {

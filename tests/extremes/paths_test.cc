@@ -189,7 +189,7 @@ TEST_CASE("extremes: a sky behind sheets that let 1 to 1e-30 of it through") {
   Hold(Decades(-30, 0, 6), BehindSheets);
 }
 // pbrt-v4 #211.
-TEST_CASE("extremes: of 260 000 samples of rough materials all are numbers") {
+TEST_CASE("extremes: 260 000 samples of rough materials are finite") {
   Hold({1 << 18}, NoInvalid);
 }
 // Ignis #16.
@@ -199,7 +199,7 @@ TEST_CASE("extremes: indices of refraction of 1 +- 0.5 to 1 +- 1e-7 lose no ligh
 TEST_CASE("extremes: indices of refraction of 1 to 100 lose no light") {
   Hold(Decades(0, 2), Large);
 }
-TEST_CASE("extremes: the walk over layers has its limits") {
+TEST_CASE("extremes: the random walk over layers has the expected limits") {
   const double slab[] = {1, 1.5, 1};
   CHECK(LayersAtNormal(slab, 1000) == Approx(1).epsilon(1e-12));
   // Two events: off the upper face at once, or through both.

@@ -214,7 +214,7 @@ TEST_CASE("extremes: an instance 1e-6 times the size of another") {
 TEST_CASE("extremes: instances sheared, stretched and flattened up to 1e6 times") {
   Hold(Decades(0, 6), Sheared);
 }
-TEST_CASE("extremes: a lamp shines to its own side however it is mirrored") {
+TEST_CASE("extremes: a lamp emits to its own side under any mirroring") {
   Hold(Mirrored);
 }
 TEST_CASE("extremes: two lights side by side are one light, in both orders") {

@@ -260,7 +260,7 @@ TEST_CASE("extremes: no grazing ray passes between two triangles") {
   Hold(Decades(-7, 0), SharedEdge);
 }
 TEST_CASE("extremes: grazing rays leave a square") { Hold(Decades(-6, 0), LeaveGrazing); }
-TEST_CASE("extremes: squares 1e-6 of their side apart are told apart") {
+TEST_CASE("extremes: squares 1e-6 of their side apart are distinguished") {
   Hold(Decades(-6, 0), Gap);
 }
 TEST_CASE("extremes: of 100 000 coincident squares the first is hit, and left") {

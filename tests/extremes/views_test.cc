@@ -174,7 +174,8 @@ TEST_CASE("extremes: lenses of radius 1e-6 to 1e3, in focus and out of it") {
 TEST_CASE("extremes: focal distances of 1e-6 to 1e9") {
   Hold(Decades(-6, 9, 3), ByFocus);
 }
-TEST_CASE("extremes: pairs keep the mean of edges 1e-6 to 0.5 pixels aside") {
+TEST_CASE(
+    "extremes: antithetic pairs keep the mean of edges 1e-6 to 0.5 pixels off centre") {
   Hold({1e-6, 1e-4, 0.01, 0.1, 0.5}, ByEdge);
 }
 

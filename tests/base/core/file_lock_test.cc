@@ -31,7 +31,7 @@ TEST_CASE("a lock has one owner at a time", "[core][lock]") {
   CHECK(a.Take("z"));
 }
 
-TEST_CASE("a lock goes where it is moved to", "[core][lock]") {
+TEST_CASE("a moved lock has the new owner", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
   std::optional<HeldLock> kept;
@@ -48,7 +48,7 @@ TEST_CASE("a lock goes where it is moved to", "[core][lock]") {
   CHECK(b.Take("y"));
 }
 
-TEST_CASE("a lock goes away with its object, however often the file was opened",
+TEST_CASE("a lock is released with its object, however often the file is open",
           "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
@@ -66,7 +66,7 @@ TEST_CASE("a lock goes away with its object, however often the file was opened",
   CHECK(one.Take("x"));
 }
 
-TEST_CASE("locks of a process that is killed are free at once", "[core][lock]") {
+TEST_CASE("locks of a killed process are released immediately", "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
   int ready[2];
@@ -95,7 +95,7 @@ TEST_CASE("locks of a process that is killed are free at once", "[core][lock]") 
   close(ready[1]);
 }
 
-TEST_CASE("waiting ends when it is told to", "[core][lock]") {
+TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
   const auto held = a.Take("x");
@@ -112,7 +112,7 @@ TEST_CASE("waiting ends when it is told to", "[core][lock]") {
   CHECK(waited.size() == 4);
 }
 
-TEST_CASE("ten thousand locks take one file", "[core][lock]") {
+TEST_CASE("ten thousand locks use one file", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
   std::vector<HeldLock> taken;
@@ -127,7 +127,7 @@ TEST_CASE("ten thousand locks take one file", "[core][lock]") {
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("a lock file knows whether its path still names it", "[core][lock]") {
+TEST_CASE("a lock file detects that its path was replaced", "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
   const LockFile one(path);
@@ -141,7 +141,7 @@ TEST_CASE("a lock file knows whether its path still names it", "[core][lock]") {
                     Catch::Contains("none/a") && Catch::Contains("No such file"));
 }
 
-TEST_CASE("a note is replaced as a whole", "[core][lock]") {
+TEST_CASE("a note in a lock file is replaced completely", "[core][lock]") {
   const TemporaryFolder folder;
   LockFile file(folder.File("a"));
   CHECK(file.Note().empty());

@@ -73,7 +73,7 @@ TEST_CASE("buckets: the mean over triples is that over a bucket's wavelengths",
   }
 }
 
-TEST_CASE("buckets: a film has them by pixel, and nothing of them without",
+TEST_CASE("buckets: films store them per pixel, only where requested",
           "[image][buckets]") {
   FilmAccumulator film(0, 0, 2, 1, {}, Auxiliary::kNone);
   const auto without = film.Columns().size();

@@ -96,7 +96,8 @@ bool ClaimsAnything(const std::vector<RankRange>& ranks) {
 
 }  // namespace
 
-TEST_CASE("ratios of efficiency hold as often as stated, four pairs", "[stat]") {
+TEST_CASE("intervals of efficiency ratios have the stated coverage with four pairs",
+          "[stat]") {
   const int trials = 20000;
   for (const Shape& shape : kShapes) {
     const double held = Coverage(shape, 4, 0.95, trials);
@@ -109,7 +110,8 @@ TEST_CASE("ratios of efficiency hold as often as stated, four pairs", "[stat]") 
   }
 }
 
-TEST_CASE("ratios of efficiency hold as often as stated, more pairs", "[stat][slow]") {
+TEST_CASE("intervals of efficiency ratios have the stated coverage with more pairs",
+          "[stat][slow]") {
   const int trials = 800;
   for (const Shape& shape : kShapes) {
     for (std::size_t n : {std::size_t{8}, std::size_t{16}}) {
@@ -124,7 +126,7 @@ TEST_CASE("ratios of efficiency hold as often as stated, more pairs", "[stat][sl
   }
 }
 
-TEST_CASE("the percentile bootstrap of four pairs is found too short", "[stat]") {
+TEST_CASE("the percentile bootstrap of four pairs is shown to be too narrow", "[stat]") {
   const int trials = 2000;
   Costs a, b;
   const double held = Share(trials, 6, [&](Random& random) {
@@ -170,7 +172,7 @@ TEST_CASE("the inverse of a ratio has the inverse interval", "[stat]") {
   }
 }
 
-TEST_CASE("identical strategies are rarely ranked apart", "[stat]") {
+TEST_CASE("identical strategies rarely get different ranks", "[stat]") {
   const int trials = 4000;
   for (std::size_t n : {std::size_t{3}, std::size_t{6}}) {
     const double claims = Share(trials, 9, [&](Random& random) {
@@ -192,7 +194,7 @@ TEST_CASE("identical strategies are rarely ranked apart", "[stat]") {
   CHECK(claims > 0.1 + FiveSigma(0.1, 1000));
 }
 
-TEST_CASE("strategies that differ by a factor of three are told apart", "[stat]") {
+TEST_CASE("strategies that differ by a factor of three get different ranks", "[stat]") {
   const int trials = 20;
   const double right = Share(trials, 10, [&](Random& random) {
     const auto ranks = RankByEfficiency(Strategies(random, 4, 12, 3), 0.95);

@@ -32,7 +32,7 @@ bool WrongHolds(const std::vector<double>& values, bool normal, bool by_n) {
 
 }  // namespace
 
-TEST_CASE("intervals of means hold as often as stated", "[stat]") {
+TEST_CASE("intervals of means have the stated coverage", "[stat]") {
   const int trials = 20000;
   for (int n : {2, 3, 5, 12}) {
     for (double confidence : {0.8, 0.95, 0.999}) {
@@ -71,7 +71,7 @@ TEST_CASE("intervals of means have defined ends", "[stat]") {
   CHECK((same.value == 4 && same.low == 4 && same.high == 4));
 }
 
-TEST_CASE("intervals of medians hold at least as often as stated", "[stat]") {
+TEST_CASE("intervals of medians have at least the stated coverage", "[stat]") {
   const int trials = 20000;
   for (int n : {2, 5, 6, 7, 20, 21, 100}) {
     // Skewed, and without a mean: only order matters.
@@ -113,7 +113,8 @@ TEST_CASE("intervals of medians take the order statistics of the tables", "[stat
   CHECK_FALSE(MedianInterval(values, 0.95).HasBounds());
 }
 
-TEST_CASE("intervals of proportions hold on the average over proportions", "[stat]") {
+TEST_CASE("intervals of proportions have the stated coverage averaged over proportions",
+          "[stat]") {
   const int trials = 20000;
   for (int n : {10, 40, 100}) {
     const auto share = [&](bool wald) {
@@ -143,7 +144,7 @@ TEST_CASE("intervals of proportions have defined ends", "[stat]") {
   CHECK(all.low == Approx(1 - none.high));
 }
 
-TEST_CASE("proportions of clusters hold where trials depend on each other", "[stat]") {
+TEST_CASE("intervals of clustered proportions have the stated coverage", "[stat]") {
   // The ten trials of a cluster succeed together, but for one.
   const int trials = 4000;
   constexpr double kMean = 0.8;
@@ -169,7 +170,7 @@ TEST_CASE("proportions of clusters hold where trials depend on each other", "[st
   CHECK(as_independent < 0.6);
 }
 
-TEST_CASE("proportions of clusters have defined ends", "[stat]") {
+TEST_CASE("intervals of clustered proportions have defined ends", "[stat]") {
   CHECK(std::isnan(ClusteredProportion({}, 0.95).value));
   const std::vector<Cluster> one = {{3, 4}}, equal = {{4, 4}, {4, 4}, {4, 4}};
   CHECK(ClusteredProportion(one, 0.95).value == 0.75);

@@ -18,7 +18,7 @@ TEST_CASE("Holm's procedure steps down", "[stat]") {
   CHECK(HolmRejections({}, 0.05).empty());
 }
 
-TEST_CASE("Holm's procedure keeps the family-wise error and finds more", "[stat]") {
+TEST_CASE("Holm's procedure keeps the family-wise error and has more power", "[stat]") {
   // Six true hypotheses beside four that are false.
   const int trials = 20000;
   int false_rejections = 0, uncorrected = 0, found = 0, bonferroni = 0;

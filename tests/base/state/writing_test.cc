@@ -46,7 +46,7 @@ class WithoutPrivileges {
 
 }  // namespace
 
-TEST_CASE("a full disk leaves the old state and nothing else", "[state]") {
+TEST_CASE("a full disk keeps the old state and leaves no other file", "[state]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("state");
   const std::string first = BytesOfState(1), second = BytesOfState(2);
@@ -73,7 +73,7 @@ TEST_CASE("a full disk leaves the old state and nothing else", "[state]") {
   CHECK(ReadWholeFile(path) == second);
 }
 
-TEST_CASE("places that cannot be written are input errors with the reason", "[state]") {
+TEST_CASE("paths that cannot be written are input errors with the reason", "[state]") {
   const TemporaryFolder folder;
   const StateCopy state = State(1);
   CHECK_THROWS_WITH(state.Write(folder.File("gone/state")),
@@ -84,7 +84,7 @@ TEST_CASE("places that cannot be written are input errors with the reason", "[st
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("a folder needs permission to write, none to list", "[state]") {
+TEST_CASE("a folder needs write permission but no read permission", "[state]") {
   const TemporaryFolder folder;
   const std::string inner = folder.File("inner"), path = inner + "/state";
   std::filesystem::create_directory(inner);

@@ -90,7 +90,7 @@ struct PairedPaths {
 
 }  // namespace
 
-TEST_CASE("antithetic: odd samples are reflected, in the paired dimensions alone",
+TEST_CASE("antithetic: odd samples are reflected in the paired dimensions only",
           "[pairs]") {
   const std::pair<const char*, char> choices[] = {
       {"all", 'a'}, {"pixel", 'p'}, {"light", 'l'}, {"bsdf", 'b'}, {"first-bounce", 'f'}};

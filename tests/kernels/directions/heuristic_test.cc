@@ -87,8 +87,7 @@ TEST_CASE("the weights of both techniques add up to one", "[directions]") {
   }
 }
 
-TEST_CASE("directions=light leaves nothing to hits, and everything to samples",
-          "[directions]") {
+TEST_CASE("directions=light counts light samples only", "[directions]") {
   const EachTarget target;
   const Weights w("directions=light");
   for (int i = 0; i < kPairs; ++i) {

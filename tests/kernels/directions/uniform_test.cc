@@ -136,7 +136,8 @@ TEST_CASE("uniform: throughput times density is f cos, path by path", "[directio
   }
 }
 
-TEST_CASE("uniform: directions are even, on the side of wo or on both", "[directions]") {
+TEST_CASE("uniform: directions are uniform on the side of wo or on both sides",
+          "[directions]") {
   const auto materials = Materials();
   const double n = kPaths;
   const EachTarget target;
@@ -167,7 +168,7 @@ TEST_CASE("uniform: directions are even, on the side of wo or on both", "[direct
   }
 }
 
-TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
+TEST_CASE("uniform: scattered radiance agrees with the reference on average",
           "[directions][stat]") {
   const auto materials = Materials();
   static std::vector<std::vector<Sums>> reference;  // the same for all targets

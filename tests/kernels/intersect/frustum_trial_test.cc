@@ -23,7 +23,7 @@ Accel LeavesOf(int triangles) {
   return accel;
 }
 
-TEST_CASE("packets take the frustum while they meet few leaves") {
+TEST_CASE("packets use the frustum while they visit few leaves") {
   for (const int triangles : {kLeafTriangles, kLeafTriangles / 2}) {
     const int unit = kLeafTriangles / triangles;
     const Accel accel = LeavesOf(triangles);
@@ -38,7 +38,7 @@ TEST_CASE("packets take the frustum while they meet few leaves") {
   }
 }
 
-TEST_CASE("a packet among others that meets many leaves does not end the frustum") {
+TEST_CASE("a single packet that visits many leaves does not disable the frustum") {
   const Accel accel = LeavesOf(kLeafTriangles);
   FrustumTrial trial(accel);
   int taken = 0;
@@ -49,7 +49,7 @@ TEST_CASE("a packet among others that meets many leaves does not end the frustum
   CHECK(taken == 500);
 }
 
-TEST_CASE("a packet that is given up counts with all leaves that it met") {
+TEST_CASE("an aborted packet counts all leaves that it visited") {
   const Accel accel = LeavesOf(kLeafTriangles);
   FrustumTrial trial(accel);
   REQUIRE(trial.IsOn());

@@ -134,7 +134,7 @@ TEST_CASE("distant and huge spheres have accurate roots", "[intersect]") {
   }
 }
 
-TEST_CASE("a ray along a plane or disk does not meet it", "[intersect]") {
+TEST_CASE("a ray parallel to a plane or disk misses it", "[intersect]") {
   const EachTarget target;
   Geometry g;
   g.disks = {MakeDisk({0, 0, 0}, {0, 0, 1}, 1)};

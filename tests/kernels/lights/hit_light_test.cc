@@ -141,7 +141,7 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
 
 }  // namespace
 
-TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
+TEST_CASE("hit lights add their emission with the MIS weight of hits", "[lights]") {
   const LightScene all;
   LightScene more;
   more.AddOthers(80);  // without a look at which primitives emit
@@ -160,7 +160,7 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
   }
 }
 
-TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]") {
+TEST_CASE("escaped rays add every environment with the MIS weight of hits", "[lights]") {
   const LightScene all;
   const EachTarget target;
   for (const Variant& variant : kVariants) {
@@ -188,7 +188,7 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
   }
 }
 
-TEST_CASE("the table selects lights as often as their probability says", "[lights]") {
+TEST_CASE("the table selects lights with their stated probability", "[lights]") {
   constexpr std::uint32_t kSteps = 1 << 16;
   const EachTarget target;
   for (const char* selection : {"power", "uniform"}) {

@@ -117,7 +117,7 @@ TEST_CASE("projected samples have the density that they report", "[lights]") {
   }
 }
 
-TEST_CASE("projected samples are where their density says", "[lights]") {
+TEST_CASE("projected samples follow their density", "[lights]") {
   constexpr std::uint32_t kCount = 1 << 14;
   const std::vector<std::string> targets = AvailableTargets();
   const std::vector<Case> cases = Cases(false);
@@ -171,7 +171,7 @@ TEST_CASE("projected samples find irradiance and every direction", "[lights]") {
   CHECK(irradiances > 20);
 }
 
-TEST_CASE("light that rays hit knows the density of projected samples", "[lights]") {
+TEST_CASE("hits on lights compute the density of projected samples", "[lights]") {
   constexpr std::uint32_t kCount = 67;
   const EachTarget target;
   for (const Case& c : Cases(true)) {

@@ -194,7 +194,7 @@ Vec3f Viewpoint(const LightScene& one) {
 
 }  // namespace
 
-TEST_CASE("light samples are what plain formulas say", "[lights]") {
+TEST_CASE("light samples agree with closed formulas", "[lights]") {
   const EachTarget target;
   const LightScene all;
   CheckAll(all, false);  // with the widest vectors: records in registers

@@ -83,7 +83,7 @@ TEST_CASE("samples by solid angle are uniform over it", "[lights]") {
   }
 }
 
-TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
+TEST_CASE("hits on lights compute the density of samples", "[lights]") {
   constexpr std::uint32_t kCount = 67;
   std::vector<Flat> lights = FlatLights();
   // By area, whose density varies by a tenth over it.
@@ -196,7 +196,7 @@ TEST_CASE("lights do not light themselves", "[lights]") {
   }
 }
 
-TEST_CASE("no bad numbers in the plane and at the corners of a light", "[lights]") {
+TEST_CASE("samples are finite in the plane and at the corners of a light", "[lights]") {
   for (const bool rectangle : {true, false}) {
     for (const Vec3d corner : {Vec3d{0, 0, 0}, Vec3d{-0.5, 0, 0}, Vec3d{1, 1, 0},
                                Vec3d{-0.5, -0.5, 0}, Vec3d{-1, -1, 0}}) {

@@ -122,7 +122,7 @@ std::vector<Walks> SomeWalks() {
 }  // namespace
 
 // The family of all walks and targets raises a false alarm with probability 1e-6.
-TEST_CASE("media: equiangular points are as dense as theory says", "[media][stat]") {
+TEST_CASE("media: equiangular samples have the theoretical density", "[media][stat]") {
   const std::vector<Walks> all = SomeWalks();
   const double level =
       stat::SidakLevel(1e-6, int(all.size() * AvailableTargets().size()));
@@ -138,7 +138,7 @@ TEST_CASE("media: equiangular points are as dense as theory says", "[media][stat
   }
 }
 
-TEST_CASE("media: throughputs tell the density of equiangular points", "[media]") {
+TEST_CASE("media: throughputs contain the density of equiangular samples", "[media]") {
   const EachTarget target;
   for (const Walks& walks : SomeWalks()) {
     if (walks.lights.size() > 1) continue;  // they know of the one drawn only

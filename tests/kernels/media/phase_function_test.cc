@@ -89,7 +89,7 @@ TEST_CASE("phase function: values and densities", "[media]") {
   }
 }
 
-TEST_CASE("phase function: the ends of the numbers", "[media]") {
+TEST_CASE("phase function: extreme random numbers", "[media]") {
   for (const double g : {-0.9999, -0.999, 0.999, 0.9999}) {
     ProbeBatch batch(4);
     batch.SetWo({0, 0, 1});

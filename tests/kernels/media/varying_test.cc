@@ -139,7 +139,8 @@ TEST_CASE("media: a cloud and NanoVDB grids, at length", "[media][agreement][slo
   CheckBall(SparseLump(folder), 4096, 1600, 0.071);
 }
 
-TEST_CASE("media: the tests of varying media would find a bias", "[media][agreement]") {
+TEST_CASE("media: the tests of varying media detect a planted bias",
+          "[media][agreement]") {
   const auto reference = Estimate(RenderReference(
       BallOf(CloudLump()), Options(ReferenceEstimator::kLightSampling, 400)));
   Medium wrong = CloudLump();

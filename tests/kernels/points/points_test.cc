@@ -203,7 +203,7 @@ TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
   }
 }
 
-TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
+TEST_CASE("samples are assigned to replicates in turn", "[points]") {
   constexpr std::uint32_t kCount = 70, kEnd = 1u << 31;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
   const EachTarget target;
@@ -227,7 +227,7 @@ TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
   }
 }
 
-TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
+TEST_CASE("unpaired numbers differ and belong to the replicate of their pair",
           "[points]") {
   constexpr std::uint32_t kCount = 4096;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
@@ -247,7 +247,8 @@ TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
 }
 
 // The mean is off by six deviations of independent points in 2e-9 of the cases.
-TEST_CASE("points: samples, pixels and events far along are even", "[points]") {
+TEST_CASE("points: numbers at large sample, pixel and event indices are uniform",
+          "[points]") {
   constexpr std::uint32_t kCount = 4096;
   for (const Points points : kAllPoints) {
     std::vector<PointsQuery> queries;

@@ -49,7 +49,7 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
 
 }  // namespace
 
-TEST_CASE("pack: paths keep what they carry", "[queue]") {
+TEST_CASE("compaction: paths keep their live columns", "[queue]") {
   std::mt19937 engine(11);
   const EachTarget target;
   for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
@@ -59,7 +59,7 @@ TEST_CASE("pack: paths keep what they carry", "[queue]") {
   }
 }
 
-TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") {
+TEST_CASE("compaction: dead columns are rewritten in every wave", "[queue]") {
   FieldSet written = fields::EverCarried();
   const auto visit = [&](const Stage& stage) {
     if (stage.input == QueueId::kFree || stage.input == QueueId::kCamera) return;

@@ -91,7 +91,7 @@ void CheckFound(const SceneDescription& scene, const ReuseTwinOptions& fault) {
 
 }  // namespace
 
-TEST_CASE("paths that end at a black first vertex have no density", "[reuse][bias]") {
+TEST_CASE("paths that end at a black first vertex are not reused", "[reuse][bias]") {
   CheckFound(BlackBlock(), {.counts_black = true});
 }
 
@@ -103,11 +103,11 @@ TEST_CASE("paths that are at another depth have no density", "[reuse][bias]") {
   CheckFound(MirrorOnWall(), {.counts_other_depths = true});
 }
 
-TEST_CASE("every path whose density counts shares what it finds", "[reuse][bias]") {
+TEST_CASE("every path with a density contributes its suffix", "[reuse][bias]") {
   CheckFound(BlackBlock(), {.silent_primitive = 0});
 }
 
-TEST_CASE("a wall that is 2 % darker is found", "[reuse][bias]") {
+TEST_CASE("a wall that is 2 % darker is detected", "[reuse][bias]") {
   const SceneDescription scene = BlackBlock();
   SceneDescription darker = scene;
   darker.materials[0].reflectance.constant =

@@ -108,7 +108,7 @@ std::string ToString(const Reported& t) {
 
 }  // namespace
 
-TEST_CASE("reuse=block is the estimator that it says", "[reuse]") {
+TEST_CASE("reuse=block equals the reference implementation of its estimator", "[reuse]") {
   const SceneDescription scene = WallInRoom();
   const Reported renderer = OfRenderer(scene);
   const auto twin = [&](const ReuseTwinOptions& options) {

@@ -87,7 +87,7 @@ Rendered RenderRoom(const std::string& strategy, std::uint64_t spp,
 
 }  // namespace
 
-TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
+TEST_CASE("shadow rays survive with the defined probability", "[roulette]") {
   const EachTarget target;
   for (float floor : {0.01f, 0.3f}) {
     ShadowRays rays(floor);
@@ -99,8 +99,7 @@ TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
   }
 }
 
-TEST_CASE("shadow rays are all traced where nothing is known of the image",
-          "[roulette]") {
+TEST_CASE("all shadow rays are traced without an image estimate", "[roulette]") {
   ShadowRays rays(0.1f);
   rays.tables.shadow_worth.inverse.clear();
   rays.fixture.Run(ShadowRouletteStage, {});
@@ -108,7 +107,7 @@ TEST_CASE("shadow rays are all traced where nothing is known of the image",
   CHECK(rays.fixture.wave.path.sh_g[5] == rays.before[5].y);
 }
 
-TEST_CASE("what a shadow ray must add follows the pixel and the cost", "[roulette]") {
+TEST_CASE("the threshold of shadow rays depends on pixel and cost", "[roulette]") {
   // Two tiles that do not share neighbours: grey 2 and 0.5 in one row of 8x8 tiles.
   std::vector<std::uint32_t> pixels;
   std::vector<Vec3f> colors;
@@ -138,7 +137,7 @@ TEST_CASE("what a shadow ray must add follows the pixel and the cost", "[roulett
   CHECK(InverseShadowWorth(black, 24 * 8, 1, 1).empty());
 }
 
-TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
+TEST_CASE("trained thresholds of shadow rays round-trip", "[roulette]") {
   StrategyTables tables, back;
   CHECK(ExportTraining(tables).size() == 4);
   tables.shadow_worth.inverse = {0.5f, 3, 1e-7f};
@@ -146,7 +145,7 @@ TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
   CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
 }
 
-TEST_CASE("roulette on shadow rays traces fewer for the same image", "[roulette]") {
+TEST_CASE("roulette on shadow rays traces fewer rays without bias", "[roulette]") {
   const Rendered all = RenderRoom("", 4096);
   const Rendered some = RenderRoom("shadow-roulette=contribution", 4096);
   CHECK(some.result.training.samples > 0);

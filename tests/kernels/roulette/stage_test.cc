@@ -101,7 +101,7 @@ TEST_CASE("survivors' weights are bounded", "[roulette]") {
   }
 }
 
-TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
+TEST_CASE("splitting divides branch indices, budgets and throughput", "[roulette]") {
   for (bool adjoint : {true, false}) {
     Paths paths(1);
     SetValues(paths, 2, 2);
@@ -143,7 +143,7 @@ TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
   }
 }
 
-TEST_CASE("the mean number of copies is r", "[roulette]") {
+TEST_CASE("the mean number of split paths is r", "[roulette]") {
   // Below and above the window of adjoint, to its nearer edge.
   for (const auto& [beta, r] : {std::pair{0.2f, 0.6}, {2.4f, 1.44}, {1.2f, 1.0}}) {
     double copies = 0;
@@ -168,7 +168,7 @@ TEST_CASE("the mean number of copies is r", "[roulette]") {
   }
 }
 
-TEST_CASE("the camera's own hit is never lost, and unknown cells play throughput",
+TEST_CASE("camera hits always survive, and unknown cells use throughput roulette",
           "[roulette]") {
   Paths first(0);
   SetValues(first, 0, 0);

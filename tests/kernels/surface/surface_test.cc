@@ -104,7 +104,7 @@ TEST_CASE("triangle surfaces: point, normals, uv and tangent", "[surface]") {
   }
 }
 
-TEST_CASE("tangents of bilinear patches turn as the normal does, by two mirrors",
+TEST_CASE("tangents of bilinear patches follow the normal under two mirrorings",
           "[surface]") {
   constexpr float kSine = 0.6f, kCosine = 0.8f;
   struct Case {

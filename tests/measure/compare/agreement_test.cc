@@ -117,7 +117,7 @@ TEST_CASE("differences beyond noise are found, and where they are", "[agreement]
   }
 }
 
-TEST_CASE("without variances nothing can be told", "[agreement]") {
+TEST_CASE("images without variances are inconclusive", "[agreement]") {
   NoisyRender render = {std::mt19937(4)};
   const Image noisy = render.Make();
   Image plain = MakeImage(kWide, kHigh, {"R", "G", "B"});
@@ -146,7 +146,7 @@ TEST_CASE("pixels that have paths in common count as fewer", "[agreement]") {
   CHECK(a.detectable > 0.04);
 }
 
-TEST_CASE("equal seeds are told of, and half floats rounded alike", "[agreement]") {
+TEST_CASE("equal seeds and equally rounded half floats are reported", "[agreement]") {
   NoisyRender render = {std::mt19937(6), 4, 0};
   Image image = render.Make(), reference = image;
   image.attributes["seed"] = reference.attributes["seed"] = std::string("7");

@@ -37,7 +37,7 @@ TEST_CASE("tokens are long, different, and compared as a whole", "[live]") {
   CHECK_FALSE(SameToken("", "abc"));
 }
 
-TEST_CASE("the page and its socket are behind the token", "[live]") {
+TEST_CASE("the page and its socket require the token", "[live]") {
   const AccessCheck access(8080, kAccessToken);
   CHECK(access.Address() == "http://127.0.0.1:8080/" + kAccessToken + "/");
   CHECK(access.Decide(PageVisit()).answer == Answer::kPage);
@@ -55,7 +55,7 @@ TEST_CASE("the page and its socket are behind the token", "[live]") {
   }
 }
 
-TEST_CASE("names that were pointed at the loopback are refused", "[live]") {
+TEST_CASE("foreign host names that resolve to loopback are refused", "[live]") {
   for (const char* host : {"", "evil.example:8080", "127.0.0.1", "127.0.0.1:80",
                            "127.0.0.1:8080.evil.example", "0.0.0.0:8080", "[::1]:8080"}) {
     HttpRequest request = PageVisit();

@@ -54,7 +54,7 @@ JobRun WholeRender(const LiveScene& live_scene, const Strategy& strategy,
 
 }  // namespace
 
-TEST_CASE("passes have the bits of a render at once", "[live]") {
+TEST_CASE("passes are bit-identical to a single render", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   const std::atomic<bool> never{false};
   for (const char* changes :
@@ -81,7 +81,7 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
   }
 }
 
-TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
+TEST_CASE("a stopped pass resumes bit-identically", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   const Strategy strategy;
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), strategy);
@@ -95,7 +95,7 @@ TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
   CheckSameFilms(renderer.film(), WholeRender(live_scene, strategy, 8).film);
 }
 
-TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
+TEST_CASE("a moved camera renders the image of the equivalent scene file", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   CameraPose pose = live_scene.pose;
   pose.position = pose.position + Vec3d{0.2, 0.1, 0.3};
@@ -116,7 +116,7 @@ TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
   CheckSameFilms(renderer.film(), RunJob(job).film);
 }
 
-TEST_CASE("a renderer counts stages, rays by places, and its errors", "[live]") {
+TEST_CASE("a renderer counts stages, rays per cell and errors", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
   PlainObserver observer;
@@ -142,7 +142,7 @@ TEST_CASE("a renderer counts stages, rays by places, and its errors", "[live]") 
   CHECK(rays == Approx(double(counts.rays_closest + counts.rays_shadow)));
 }
 
-TEST_CASE("a strategy that the scene does not take is refused", "[live]") {
+TEST_CASE("a strategy that the scene does not support is refused", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   CHECK_THROWS_AS(PassRenderer(live_scene, MakeView(live_scene, live_scene.pose, 1),
                                ChangedStrategy("reuse=block,roulette=adjoint")),

@@ -81,7 +81,7 @@ std::string ChooseText(int slot, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") {
+TEST_CASE("a page receives a greeting, pictures, states and pixel values", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "lanelight render box.pbrt");
   PretendedPage page(render_thread);
@@ -102,7 +102,7 @@ TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") 
   CHECK(page.Last("pixel").at("slots")[0].at("samples") >= 16);
 }
 
-TEST_CASE("two strategies take turns at equal samples", "[live]") {
+TEST_CASE("two strategies alternate at equal sample counts", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
@@ -119,7 +119,7 @@ TEST_CASE("two strategies take turns at equal samples", "[live]") {
   CHECK(state["ratio"]["value"].get<double>() > 0);
 }
 
-TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
+TEST_CASE("refused requests are reported, and rendering continues", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
@@ -139,7 +139,7 @@ TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
   }));
 }
 
-TEST_CASE("a strategy that was left goes on where it was", "[live]") {
+TEST_CASE("a strategy selected again resumes", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
@@ -157,7 +157,7 @@ TEST_CASE("a strategy that was left goes on where it was", "[live]") {
   CHECK(page.Last("state")["slots"][0]["spp"] >= 32);
 }
 
-TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") {
+TEST_CASE("a moved camera restarts the render and is sent to the page", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
@@ -176,7 +176,7 @@ TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") 
              Catch::Contains("\"float fov\" [ 50 ]"));
 }
 
-TEST_CASE("who has left is sent nothing any more, and others are", "[live]") {
+TEST_CASE("closed pages receive no messages, others do", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage leaves(render_thread), stays(render_thread);

@@ -104,7 +104,7 @@ std::string UpgradeText(const RunningServer& server, const std::string& origin) 
 
 }  // namespace
 
-TEST_CASE("the page comes to who knows the address, with its rules", "[live]") {
+TEST_CASE("the page is served under its address, with security headers", "[live]") {
   const RunningServer server;
   const std::string page = Request(server, GetText(server.path, server.host));
   CHECK(page.rfind("HTTP/1.1 200", 0) == 0);
@@ -116,7 +116,7 @@ TEST_CASE("the page comes to who knows the address, with its rules", "[live]") {
         0);
 }
 
-TEST_CASE("a socket opens for its own page alone", "[live]") {
+TEST_CASE("a socket accepts its own page only", "[live]") {
   const RunningServer server;
   const std::string own = "http://" + server.host;
   const std::string good =
@@ -128,7 +128,7 @@ TEST_CASE("a socket opens for its own page alone", "[live]") {
   CHECK(other.rfind("HTTP/1.1 403", 0) == 0);
 }
 
-TEST_CASE("what is no request ends with its connection alone", "[live]") {
+TEST_CASE("an invalid request closes only its own connection", "[live]") {
   const RunningServer server;
   Request(server, "\r\n\r\n\x01\x02\x03");
   Request(server, "GET " + std::string(100000, 'a') + " HTTP/1.1\r\n");
@@ -140,7 +140,7 @@ TEST_CASE("what is no request ends with its connection alone", "[live]") {
   CHECK(Request(server, GetText(server.path, server.host)).rfind("HTTP/1.1 200", 0) == 0);
 }
 
-TEST_CASE("one client cannot keep others out", "[live]") {
+TEST_CASE("one client cannot block others", "[live]") {
   const RunningServer server;
   // Half-open requests from 127.0.0.1: half of all connections, however many it asks for.
   std::vector<int> open;
@@ -172,8 +172,7 @@ TEST_CASE("connections are limited in all, and from one address", "[live]") {
   CHECK_FALSE(MayConnect(connections, 3));
 }
 
-TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
-          "[live]") {
+TEST_CASE("the server listens on 127.0.0.1 only and reports used ports", "[live]") {
   RunningServer server;
   // Another address of this machine's loopback.
   CHECK(Connect(INADDR_LOOPBACK + 1, server.port) < 0);
@@ -181,7 +180,7 @@ TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
                     Catch::Contains("cannot be had"));
 }
 
-TEST_CASE("pages are told goodbye", "[live]") {
+TEST_CASE("pages receive a close message", "[live]") {
   RunningServer server;
   std::string all;
   std::thread reader([&] {

@@ -154,7 +154,7 @@ TEST_CASE("the Cornell box states its error", "[study]") {
   }
 }
 
-TEST_CASE("the edge of a lamp that paths see is in the interval", "[study]") {
+TEST_CASE("the error interval includes directly visible light edges", "[study]") {
   const SceneDescription scene = CornellBox();
   const FilmAccumulator reference = LongRender(scene, 4096);
   TestRender t = WithPoints(Points::kIndependent, 32);
@@ -165,8 +165,7 @@ TEST_CASE("the edge of a lamp that paths see is in the interval", "[study]") {
   CHECK_FALSE(tally.normal.OftenEnough());
 }
 
-TEST_CASE("where rare samples carry the error, the interval holds or none is stated",
-          "[study]") {
+TEST_CASE("with rare bright samples the interval is valid or omitted", "[study]") {
   const SceneDescription scene = Scene("scenes/lights.pbrt", 6);
   const FilmAccumulator reference = LongRender(scene, 4096);
   const Tally tally =

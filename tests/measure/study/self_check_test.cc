@@ -52,8 +52,7 @@ struct Studied {
 
 }  // namespace
 
-TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
-          "[study]") {
+TEST_CASE("a strategy with too narrow intervals is reported with its pixels", "[study]") {
   Studied s;
   s.Add("good", 24, [](int i) { return i != 3; });
   s.Add("narrow", 24, [](int i) { return i % 8 < 3; });
@@ -69,7 +68,7 @@ TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
                        Contains("24 %") && !Contains("good") && !Contains("other"));
 }
 
-TEST_CASE("strategies whose intervals hold are not named", "[study]") {
+TEST_CASE("strategies with valid intervals are not reported", "[study]") {
   Studied s;
   for (int k = 0; k < 30; ++k) {
     s.Add("s" + std::to_string(k), 8, [&](int i) { return k != 5 || i > 0; });
@@ -95,7 +94,7 @@ TEST_CASE("renders that share seeds are not counted as independent", "[study]") 
   CHECK(together > 3 * apart);
 }
 
-TEST_CASE("renders that the reference decides about are not counted", "[study]") {
+TEST_CASE("renders limited by the reference's error are not counted", "[study]") {
   Studied s;
   s.Add("good", 8, [](int) { return true; });
   s.Add("below the reference's noise", 8, [](int) { return false; }, 0.2);

@@ -54,7 +54,7 @@ std::size_t FailedTiles(const SceneAnalysis& analysis) {
 
 }  // namespace
 
-TEST_CASE("an error of the reference is not held against the strategies", "[study]") {
+TEST_CASE("an error of the reference is not attributed to the strategies", "[study]") {
   Random random(21);
   std::size_t suspected = 0, failed = 0, alike = 0, biased = 0;
   for (int run = 0; run < 20; ++run) {
@@ -134,7 +134,7 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
   CHECK(untested >= 290);
 }
 
-TEST_CASE("skewed samples raise no alarms", "[study]") {
+TEST_CASE("skewed samples raise no false alarms", "[study]") {
   // Bright samples, one in 120, so that about 26 of them make the mean of a tile: few of
   // them look like a low mean with a small variance.
   Random random(24);

@@ -59,11 +59,11 @@ void KillAndResume(int kills, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("sweep: killed five times, it makes the same images", "[sweep][cli]") {
+TEST_CASE("sweep: killed five times, images are bit-identical", "[sweep][cli]") {
   KillAndResume(5, 1);
 }
 
-TEST_CASE("sweep: killed twenty-five times, it makes the same images",
+TEST_CASE("sweep: killed twenty-five times, images are bit-identical",
           "[sweep][cli][slow]") {
   KillAndResume(25, 2);
 }

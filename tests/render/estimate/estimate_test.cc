@@ -143,7 +143,7 @@ TEST_CASE("intervals contain the true error for any distribution", "[study]") {
   }
 }
 
-TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[study]") {
+TEST_CASE("the interval includes light edges that few samples hit", "[study]") {
   SimulatedImage image;
   image.lamp = 11;
   image.deviation = 0.2;
@@ -157,7 +157,7 @@ TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[st
   }
 }
 
-TEST_CASE("noise as large as the image is in the interval", "[study]") {
+TEST_CASE("the interval is valid for noise as large as the image", "[study]") {
   SimulatedImage image;
   image.noise = Rare;
   image.deviation = 4;
@@ -169,7 +169,7 @@ TEST_CASE("noise as large as the image is in the interval", "[study]") {
   CHECK(c.refused == 0);
 }
 
-TEST_CASE("one bright sample leaves open whether its pixel is bright", "[study]") {
+TEST_CASE("one bright sample leaves its pixel's value uncertain", "[study]") {
   SimulatedImage image;
   image.equal = true;
   std::mt19937_64 random(5);
@@ -189,7 +189,7 @@ TEST_CASE("one bright sample leaves open whether its pixel is bright", "[study]"
   CHECK(e.relmse.Contains(rest + dark / n));  // its mean is its neighbours'
 }
 
-TEST_CASE("what samples cannot tell is not told", "[study]") {
+TEST_CASE("no interval is printed when the sample is too small", "[study]") {
   // A lamp of the size of a pixel; one sample of the pixel beside it has met it too.
   SimulatedImage image;
   image.equal = true;
@@ -336,7 +336,7 @@ ErrorEstimate OfAllPixels(double value) {
   });
 }
 
-TEST_CASE("an estimate that is stopped says nothing, and ends", "[study]") {
+TEST_CASE("a stopped estimate returns early without a result", "[study]") {
   std::atomic<bool> stop{false};
   std::atomic<int> asked{0};
   const auto pixel = [&](int, int y) {
@@ -355,7 +355,7 @@ TEST_CASE("an estimate that is stopped says nothing, and ends", "[study]") {
   CHECK(asked == 0);
 }
 
-TEST_CASE("images without noise have no error but that of rounding", "[study]") {
+TEST_CASE("images without noise have rounding errors only", "[study]") {
   const ErrorEstimate e = OfAllPixels(0.7);
   CHECK(e.has_interval);
   CHECK(e.rmse.value == 0);
@@ -364,7 +364,7 @@ TEST_CASE("images without noise have no error but that of rounding", "[study]") 
   CHECK(e.relmse.high == Approx(1e-10 * 0.49 / 0.5).epsilon(0.05));
 }
 
-TEST_CASE("black images do not say that there is no light", "[study]") {
+TEST_CASE("black images give no error estimate", "[study]") {
   const ErrorEstimate e = OfAllPixels(0);
   CHECK(e.available);
   CHECK_FALSE(e.has_interval);

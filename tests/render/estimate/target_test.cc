@@ -38,7 +38,7 @@ TEST_CASE("squared errors fall like 1 / samples", "[study]") {
   CHECK(std::isinf(SamplesNeeded({0.04, 0}, ErrorEstimate{}, 100)));
 }
 
-TEST_CASE("an upper end that stays away is not waited for", "[study]") {
+TEST_CASE("a target without an upper bound is reported as hopeless", "[study]") {
   ErrorEstimate e = Estimated(0.04, 0.3);
   e.relmse.high = INFINITY;
   const double relmse = e.relmse.value, rmse = e.rmse.value;

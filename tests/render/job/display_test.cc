@@ -209,7 +209,7 @@ FilmAccumulator OneSample(int width, int height, float value) {
 
 }  // namespace
 
-TEST_CASE("a viewer shows the image that is written", "[render]") {
+TEST_CASE("a viewer receives the image that is written", "[render]") {
   Viewer viewer;
   const TemporaryFolder folder;
   const std::string exr = folder.File("shown.exr");
@@ -248,7 +248,8 @@ TEST_CASE("only tiles that have changed are sent", "[render]") {
   CHECK(shown.rgb == std::vector<float>(3 * 40 * 20, 0.5f));
 }
 
-TEST_CASE("localhost is a viewer that listens on IPv4 alone, as tev does", "[render]") {
+TEST_CASE("localhost connects to a viewer that listens on IPv4 only, as tev does",
+          "[render]") {
   Viewer viewer;
   const FilmAccumulator film = OneSample(8, 8, 2);
   std::string problem;
@@ -261,8 +262,9 @@ TEST_CASE("localhost is a viewer that listens on IPv4 alone, as tev does", "[ren
   CHECK(Decode(viewer.Bytes()).rgb == std::vector<float>(3 * 8 * 8, 2.0f));
 }
 
-TEST_CASE("where unused_port listens, that is said once and the image is made",
-          "[render]") {
+TEST_CASE(
+    "without a listening viewer a warning is printed once and the image is rendered",
+    "[render]") {
   Endpoint unused_port;
   {
     unused_port = Viewer(0, false).endpoint();  // whose port is free again
@@ -277,7 +279,7 @@ TEST_CASE("where unused_port listens, that is said once and the image is made",
                                      Contains("the render continues"));
 }
 
-TEST_CASE("a viewer that goes away, or does not read, is said once", "[render]") {
+TEST_CASE("a viewer that disconnects or stalls is reported once", "[render]") {
   const FilmAccumulator film = OneSample(2048, 2048, 0.25f);  // 50 MB: more than buffers
   std::vector<std::string> problems;
   const auto on_problem = [&](const std::string& problem) {
@@ -298,7 +300,7 @@ TEST_CASE("a viewer that goes away, or does not read, is said once", "[render]")
                               Contains("the display server 127.0.0.1:"));
 }
 
-TEST_CASE("places of servers are read whole", "[core]") {
+TEST_CASE("server addresses are parsed strictly", "[core]") {
   const EndpointType type{14158};
   CHECK(ReadValue(type, "here").Text() == "here:14158");
   CHECK(ReadValue(type, "here:99").Text() == "here:99");

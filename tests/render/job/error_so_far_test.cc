@@ -18,7 +18,7 @@ Job SmallBox(const RenderSettings& asked) {
 
 }  // namespace
 
-TEST_CASE("a render shows its film, and its image is the same", "[render]") {
+TEST_CASE("showing the film does not change the image", "[render]") {
   RenderSettings settings;
   settings.spp = 20000;
   const Job job = SmallBox(settings);
@@ -52,7 +52,8 @@ TEST_CASE("a render shows its film, and its image is the same", "[render]") {
   }
 }
 
-TEST_CASE("with a target, looks tell the error and what is left", "[render]") {
+TEST_CASE("with a target, progress shows the error and the remaining samples",
+          "[render]") {
   RenderSettings settings;
   settings.target_relmse = 1e-4;
   const Job job = SmallBox(settings);

@@ -93,7 +93,7 @@ TEST_CASE("gbuffer: points, normals and coordinates of a plane, in the world",
   }
 }
 
-TEST_CASE("gbuffer: the camera's space is the world's, moved", "[render]") {
+TEST_CASE("gbuffer: camera space is the transformed world space", "[render]") {
   const Buffer world = RenderBuffer("world"), camera = RenderBuffer("camera");
   const SceneDescription scene = ParseSceneText(Scene("camera", 0), "test.pbrt", ".");
   const Transform to_camera = scene.camera.world_from_camera.Inverse();
@@ -149,8 +149,7 @@ TEST_CASE("gbuffer: slopes lead from pixel to pixel", "[render]") {
   }
 }
 
-TEST_CASE("gbuffer: what nothing is hit by is zero, edges are means of hits",
-          "[render]") {
+TEST_CASE("gbuffer: pixels without hits are zero, edges are means of hits", "[render]") {
   const Buffer b = RenderBuffer("world");
   int edges = 0;
   for (int y = 0; y < kHeight; ++y) {

@@ -81,7 +81,7 @@ TEST_CASE("parts: every pixel is in exactly one", "[merge]") {
              Contains("at most 9 parts"));
 }
 
-TEST_CASE("merge: parts of other renders are refused by name", "[merge]") {
+TEST_CASE("merge: parts of other renders are refused with their names", "[merge]") {
   TemporaryFolder folder;
   const KeptRender r = Small(folder, "a");
   const std::string first = PartOf(r, 1, 2);
@@ -102,7 +102,7 @@ TEST_CASE("merge: parts of other renders are refused by name", "[merge]") {
              Contains("both have pixel") && Contains("a-1") && Contains("e-3"));
 }
 
-TEST_CASE("merge: missing parts are counted, and what is there is right", "[merge]") {
+TEST_CASE("merge: missing parts are counted, and the others are correct", "[merge]") {
   TemporaryFolder folder;
   const KeptRender r = Small(folder, "a");
   const std::string one = PartOf(r, 1, 3), three = PartOf(r, 3, 3);
@@ -123,7 +123,7 @@ TEST_CASE("merge: missing parts are counted, and what is there is right", "[merg
   }
 }
 
-TEST_CASE("merge: merges of merges, and going on from one", "[merge]") {
+TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   TemporaryFolder folder;
   KeptRender r = Small(folder, "a");
   std::vector<std::string> parts;
@@ -208,7 +208,7 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
              Contains("multiple of 4"));
 }
 
-TEST_CASE("states of other renders are not gone on with", "[merge]") {
+TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   TemporaryFolder folder;
   KeptRender r = Small(folder, "a");
   StateOf(r);

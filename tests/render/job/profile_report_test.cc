@@ -95,7 +95,7 @@ TEST_CASE("a profile without time or intersection has no ratio", "[profile]") {
   for (const ProfileRow& row : empty.rows) CHECK(row.share == 0);
 }
 
-TEST_CASE("what a stage is bound by follows from numbers only", "[profile]") {
+TEST_CASE("the bound of a stage is computed from measured values only", "[profile]") {
   // 10 M items of 32 bytes in a second: 0.32 GB/s, far below.
   CHECK(BoundOf(CountedRow(0, 0, 0, 0)) == Bound::kUnknown);
   CHECK(BoundOf(CountedRow(300, 300, 0, 0)) == Bound::kNeither);

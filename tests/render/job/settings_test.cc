@@ -97,7 +97,8 @@ RenderSettings Samples(std::uint64_t spp) {
 
 }  // namespace
 
-TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]") {
+TEST_CASE("long renders choose a strategy by a trial run, unless one is given",
+          "[render]") {
   CHECK(DecisionOf(Samples(127)) == Decide::kNone);
   CHECK(DecisionOf(Samples(128)) == Decide::kPilot);
   RenderSettings small = Samples(1u << 12);
@@ -129,7 +130,7 @@ TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]"
   CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
 }
 
-TEST_CASE("only who may decide does, or who goes on with a decision", "[render]") {
+TEST_CASE("the strategy is decided only where allowed or resumed", "[render]") {
   for (const auto& [decision, decide] :
        {std::pair{DefaultDecision::kNever, Decide::kNone},
         {DefaultDecision::kAlways, Decide::kPilot}}) {

@@ -49,7 +49,7 @@ bool Notes(const Job& job, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spectral]") {
+TEST_CASE("transport: spectral where a scene has spectra", "[render][spectral]") {
   CHECK(ChoiceFor(kLamp + kRed).transport == Transport::kRgb);
   for (const std::string& with :
        {kLamp + kCopper, kLamp + kGlass, kWarmLamp + kRed,
@@ -79,7 +79,7 @@ TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spe
   CHECK(ChoiceFor(unused).transport == Transport::kRgb);
 }
 
-TEST_CASE("transport: RGB, and why, where wavelengths are refused",
+TEST_CASE("transport: RGB with a reason where spectral is not supported",
           "[render][spectral]") {
   const auto refused = [](const std::string& world, const std::string& strategy) {
     const TransportChoice choice = ChoiceFor(world, strategy);
@@ -96,7 +96,7 @@ TEST_CASE("transport: RGB, and why, where wavelengths are refused",
       Catch::Contains("a light emits nothing"));
 }
 
-TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
+TEST_CASE("transport: a job uses the requested transport", "[render][spectral]") {
   const std::string scene = kLamp + kCopper;
   const Job rgb = JobOf(scene, AskedTransport::kRgb);
   CHECK(rgb.scene.compiled->integrator.transport == Transport::kRgb);
@@ -123,7 +123,7 @@ TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
   CHECK(Notes(dark, "rendered in red, green and blue, since"));
 }
 
-TEST_CASE("transport: what is compared is rendered alike", "[render][spectral]") {
+TEST_CASE("transport: compared renders use the same transport", "[render][spectral]") {
   RenderSettings settings;
   settings.transport = AskedTransport::kByScene;
   Strategy& block = settings.compared.emplace_back();

@@ -63,7 +63,7 @@ TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") 
   }
 }
 
-TEST_CASE("choices with an effect have another key", "[plan]") {
+TEST_CASE("choices with an effect change the plan key", "[plan]") {
   const TemporaryFolder folder;
   const Job job =
       Prepare(folder,

@@ -7,7 +7,7 @@
 
 namespace lanelight {
 
-TEST_CASE("partners name each other, and meet all neighbours", "[ranks]") {
+TEST_CASE("balancing partners are symmetric and include all neighbours", "[ranks]") {
   for (int ranks : {1, 2, 3, 5, 8, 13, 1000}) {
     for (int rank = 0; rank < ranks; ++rank) {
       int met = 0;
@@ -24,7 +24,7 @@ TEST_CASE("partners name each other, and meet all neighbours", "[ranks]") {
   }
 }
 
-TEST_CASE("what is given lets both end at the same time", "[ranks]") {
+TEST_CASE("transferred samples let both ranks end at the same time", "[ranks]") {
   const RankLoad slow = {3000000, 1e6}, fast = {3000000, 2e6};
   const auto samples = SamplesToTransfer(slow, fast);
   CHECK(double(slow.left - samples) / slow.speed ==
@@ -38,7 +38,7 @@ TEST_CASE("what is given lets both end at the same time", "[ranks]") {
   CHECK(SamplesToTransfer({2000, 1e6}, {0, 1e6}) == 0);
 }
 
-TEST_CASE("a few turns even out any number of ranks", "[ranks]") {
+TEST_CASE("a few balancing rounds even out any number of ranks", "[ranks]") {
   for (int ranks : {2, 3, 6, 16, 37}) {
     std::vector<RankLoad> loads;
     for (int r = 0; r < ranks; ++r) loads.push_back({100000000, 1e6 * (1 + r % 7)});

@@ -72,7 +72,7 @@ struct CountingWatch : TaskWatcher {
 
 }  // namespace
 
-TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
+TEST_CASE("tiles of all ranks count when a run resumes", "[ranks]") {
   const ThreadLimit limit(1);
   RankFixture fixture;
   RunOptions corner = fixture.options;
@@ -103,7 +103,7 @@ TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
   });
 }
 
-TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
+TEST_CASE("the leader counts the remaining samples of other ranks", "[ranks]") {
   const ThreadLimit limit(1);
   workers_are_slow = true;
   OnRanks(3, [](RankGroup& group) {
@@ -137,7 +137,7 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
   });
 }
 
-TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]") {
+TEST_CASE("moving tiles to a faster rank keeps the image bit-identical", "[ranks]") {
   const ThreadLimit limit(1);
   constexpr std::uint64_t kSpp = 32;
   RankFixture alone;

@@ -55,7 +55,7 @@ double Difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("samples beyond the indices of kernels go on under another seed", "[resume]") {
+TEST_CASE("samples beyond 32-bit indices continue under another seed", "[resume]") {
   const std::uint64_t end = kSamplesPerSeed;
   for (const char* strategy : {"points=sobol", "points=pmj02", "points=independent",
                                "points=lattice,pairs=antithetic"}) {

@@ -31,7 +31,7 @@ Rendered RenderOnRanks(int ranks, const Request& request) {
   return std::move(*out);
 }
 
-TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
+TEST_CASE("ranks render an image bit-identical to a single process", "[ranks]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic",
         "points=sobol,control=regression", "points=halton,roulette=adjoint",
@@ -51,7 +51,8 @@ TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
   }
 }
 
-TEST_CASE("ranks reach a target where a process alone does", "[ranks]") {
+TEST_CASE("ranks reach a target at the same sample count as a single process",
+          "[ranks]") {
   Request request;
   request.strategy = "points=sobol";
   request.target = 0.002;
@@ -62,7 +63,7 @@ TEST_CASE("ranks reach a target where a process alone does", "[ranks]") {
   CHECK(Same(together.result, alone.result));
 }
 
-TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
+TEST_CASE("checkpoints can be resumed by any number of ranks", "[ranks]") {
   for (const char* strategy :
        {"points=independent,pairs=antithetic", "points=sobol,roulette=efficiency"}) {
     Request request;
@@ -91,7 +92,7 @@ TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
 // The traffic to the leader does not grow with the number of ranks. A tile that is
 // transferred on the way brings its part of the film once more. Whether any is
 // transferred depends on time: one render of a few has none.
-TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]") {
+TEST_CASE("the film is gathered only once if nothing needs it earlier", "[ranks]") {
   Request request;
   request.strategy = "points=sobol";
   request.spp = 64;
@@ -109,7 +110,7 @@ TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]
   }
 }
 
-TEST_CASE("what workers are told arrives bit by bit", "[ranks]") {
+TEST_CASE("messages to worker ranks arrive bit-identical", "[ranks]") {
   RunStart start;
   start.tiles = {{0, 0, 16, 16}, {16, 0, 20, 7}};
   start.have_samples = true;
@@ -122,7 +123,7 @@ TEST_CASE("what workers are told arrives bit by bit", "[ranks]") {
   CHECK(there.planned_training == start.planned_training);
 }
 
-TEST_CASE("what ranks have learned arrives bit by bit", "[ranks]") {
+TEST_CASE("trained tables of ranks arrive bit-identical", "[ranks]") {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const RunTraining training = {
       true,

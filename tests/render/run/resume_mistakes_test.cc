@@ -41,7 +41,7 @@ std::string ErrorOf(const Request& request, const Rest& rest) {
 
 }  // namespace
 
-TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]") {
+TEST_CASE("planted: losing the decision changes the image", "[resume]") {
   Request request;
   request.strategy = "points=sobol,decide=pilot";
   request.spp = 21;
@@ -54,7 +54,7 @@ TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]")
   CHECK_THROWS_AS(RestOf(request, rest), InputError);
 }
 
-TEST_CASE("planted: a run that forgets anything ends elsewhere", "[resume]") {
+TEST_CASE("planted: losing any part of the checkpoint changes the image", "[resume]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic", "roulette=adjoint"}) {
     Request request;

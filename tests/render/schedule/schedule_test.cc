@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-TEST_CASE("looks are the same whatever is needed, whole units, and few", "[schedule]") {
+TEST_CASE("error checks are at fixed, few, whole sample counts", "[schedule]") {
   const std::uint64_t expected[] = {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128};
   for (std::uint32_t unit : {1u, 2u}) {
     CHECK(FirstCheck(unit) == 16 * unit);

@@ -42,7 +42,7 @@ std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixe
 
 }  // namespace
 
-TEST_CASE("trained tables come back with the same bits", "[state]") {
+TEST_CASE("trained tables round-trip bit-identically", "[state]") {
   const StrategyTables tables = SmallTables();
   StrategyTables back;
   ImportTraining(ExportTraining(tables), kPixels, back);
@@ -56,7 +56,7 @@ TEST_CASE("trained tables come back with the same bits", "[state]") {
   CHECK(ErrorOf(ExportTraining(StrategyTables()), kPixels) == "");
 }
 
-TEST_CASE("a trained table of the wrong size is named, with the right one", "[state]") {
+TEST_CASE("a trained table of the wrong size is refused with both sizes", "[state]") {
   const std::vector<TrainedTable> good = ExportTraining(SmallTables());
   REQUIRE(good.size() == 5);
   using Values = std::vector<double>;
@@ -79,7 +79,7 @@ TEST_CASE("a trained table of the wrong size is named, with the right one", "[st
   CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
 }
 
-TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[state]") {
+TEST_CASE("an empty per-pixel table next to cells is refused", "[state]") {
   std::vector<TrainedTable> bad = ExportTraining(SmallTables());
   bad[3].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),

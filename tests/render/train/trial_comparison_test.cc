@@ -35,7 +35,7 @@ TEST_CASE("one strategy is clearly better only by variance times cost", "[decisi
   CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), baseline, 0.87));
 }
 
-TEST_CASE("single pixels do not decide", "[decision]") {
+TEST_CASE("single pixels do not determine a gain", "[decision]") {
   const TrialMeasure baseline = MeasureOf(1, 1);
   TrialMeasure lucky = baseline, unlucky = MeasureOf(1, 0.8);
   TrialMeasure bright = baseline;
@@ -57,7 +57,7 @@ TEST_CASE("single pixels do not decide", "[decision]") {
   CHECK(better < 5);
 }
 
-TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
+TEST_CASE("gains include all pixels and their standard error", "[decision]") {
   const TrialMeasure baseline = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
   // Means of 2000 exponential variables each: a standard error of 0.032 together.
   const TrialGain gain = GainOf(other, baseline);
@@ -80,7 +80,7 @@ TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
   CHECK(GainOf(baseline, none).log < -10);
 }
 
-TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
+TEST_CASE("a gain carried by few bright samples is not chosen", "[decision]") {
   TriedStrategy entry;
   entry.paired = true;
   entry.measure = MeasureOf(1, 1, 2);
@@ -109,7 +109,8 @@ TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
 
 // Where few pixels carry the error, a roulette that is milder than the default is judged
 // by all others. Planted: by the few as well; any other change as if it were one.
-TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]") {
+TEST_CASE("strategies that cannot vary more are compared without the worst pixels",
+          "[decision]") {
   TriedStrategy entry;
   entry.measure = MeasureOf(1.2, 0.5, 2);
   entry.baseline = MeasureOf(1, 1, 2);
@@ -127,7 +128,7 @@ TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]
   CHECK(entry.Beyond(1.05, 0.5) == 0);
 }
 
-TEST_CASE("paths live longer by a milder roulette alone", "[decision]") {
+TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   const PreparedScene scene = PrepareScene(SplitRoom());
   const TrainingOptions training;
   const auto milder_roulette = [&](const std::string& given, const std::string& changes) {

@@ -65,7 +65,7 @@ TEST_CASE("film response: means of a render", "[film]") {
 
 // Variances are of what the film holds: by the scatter of the converted replicates, which
 // those of the channels alone do not tell.
-TEST_CASE("film response: variances are of what is written", "[film]") {
+TEST_CASE("film response: variances are of the written values", "[film]") {
   FilmResponse sum;  // all channels hold R + G + B
   sum.matrix = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
   const Responses added = RenderWith(sum, "");

@@ -28,7 +28,7 @@ TEST_CASE("tiles cover the window once", "[tiles]") {
   }
 }
 
-TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
+TEST_CASE("tiles contain whole blocks counted from the image's origin", "[tiles]") {
   for (const PixelRect window : {PixelRect{0, 0, 256, 144}, PixelRect{3, 5, 4, 6},
                                  PixelRect{10, 20, 75, 101}, PixelRect{33, 70, 97, 99}}) {
     for (std::uint64_t spp : {1, 4, 32, 100}) {
@@ -44,7 +44,7 @@ TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
   }
 }
 
-TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
+TEST_CASE("parts cover all tiles once, in proportion to threads", "[tiles]") {
   const std::vector<PixelRect> tiles = TilesOf({3, 5, 203, 105}, 16);
   for (const std::vector<int>& threads : {std::vector<int>{4},
                                           {1, 1},
@@ -77,7 +77,7 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
   }
 }
 
-TEST_CASE("parts have neighbours in turn, and tiles enough", "[tiles]") {
+TEST_CASE("parts alternate between neighbouring tiles and have enough tiles", "[tiles]") {
   const std::vector<PixelRect> tiles = TilesOf({0, 0, 64, 64}, 16);
   const auto parts = DistributeTiles(tiles, {1, 1, 1, 1}, 1);
   for (const auto& part : parts) CHECK(part.size() == 64);

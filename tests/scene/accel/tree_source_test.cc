@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-TEST_CASE("a known tree is taken if it is of the same shapes", "[accel][tree-source]") {
+TEST_CASE("a cached BVH is reused only for the same shapes", "[accel][tree-source]") {
   brute::Random random(65);
   Geometry shapes = MakeScene(brute::Soup(random, 3000, 1, 0.1f)).geometry;
   const ReusedBvh built = FindTree(shapes, {}, nullptr);

@@ -79,7 +79,8 @@ int CountAbove(const MediumGrid& spectra, const MediumGrid& bounds) {
 
 }  // namespace
 
-TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectral]") {
+TEST_CASE("bounds of colours are valid at each wavelength",
+          "[compile][media][spectral]") {
   const Medium medium = RandomColors();
   const MediumGrid spectral =
       CompileMediumGrid(medium, WorldFrame(), Transport::kSpectral);
@@ -89,7 +90,8 @@ TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectra
   CHECK(CountAbove(spectral, CompileMediumGrid(medium, WorldFrame())) > 10);
 }
 
-TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spectral]") {
+TEST_CASE("spectra of voxels have their specified colours",
+          "[compile][media][spectral]") {
   reference::Random random(5);
   double mean = 0;
   for (int i = 0; i < 500; ++i) {
@@ -110,7 +112,7 @@ TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spec
   CHECK(LargestOf(SpectrumOfVoxel({})) == 0);
 }
 
-TEST_CASE("bounds of clouds and NanoVDB grids hold", "[compile][media]") {
+TEST_CASE("bounds of clouds and NanoVDB grids are valid", "[compile][media]") {
   const TemporaryFolder folder;
   CheckMajorants(SparseLump(folder));
   CheckMajorants(CloudLump());

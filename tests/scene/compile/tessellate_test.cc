@@ -119,7 +119,7 @@ TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
   }
 }
 
-TEST_CASE("tessellation: normals and coordinates are pbrt's", "[compile]") {
+TEST_CASE("tessellation: normals and coordinates agree with pbrt", "[compile]") {
   for (const auto& [shape, tolerance] : RoundCases()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
     const TriangleMesh mesh = Tessellate(shape, tolerance);
@@ -157,7 +157,7 @@ double AreaOf(const TriangleMesh& mesh) {
   return area;
 }
 
-TEST_CASE("tessellation: areas, so that nothing is missing or double", "[compile]") {
+TEST_CASE("tessellation: areas add up, without gaps or overlaps", "[compile]") {
   const auto part = [](const Shape& s) { return s.phi_max / 360 * 2 * kPi; };
   for (const Shape& shape : RoundShapes()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max);
@@ -198,7 +198,8 @@ TEST_CASE("tessellation: a mirror turns the normal, as in pbrt", "[compile]") {
   }
 }
 
-TEST_CASE("tessellation: only what has no exact form", "[compile]") {
+TEST_CASE("tessellation: only shapes without an exact form are tessellated",
+          "[compile]") {
   const Transform plain = Transform::Scale({2, 2, 2}), bent = Transform::Scale({1, 2, 1});
   CHECK_FALSE(IsTessellated(SphereShape(5, 0), plain));
   CHECK_FALSE(IsTessellated(PartOfSphere(5, -5, 5, 360), plain));
@@ -221,7 +222,7 @@ TEST_CASE("tessellation: only what has no exact form", "[compile]") {
   CHECK(scene.geometry.triangles.size() > 1000);
 }
 
-TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
+TEST_CASE("tessellation: the tolerance follows the camera's resolution", "[compile]") {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     CAPTURE(unit);
     SceneDescription d;
@@ -252,7 +253,7 @@ TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
   }
 }
 
-TEST_CASE("tessellation: nothing is left of some shapes", "[compile]") {
+TEST_CASE("tessellation: degenerate shapes give no triangles", "[compile]") {
   for (Shape shape : {Cylinder(1, 1, 1, 360), Cylinder(1, 0, 1, 0),
                       PartOfSphere(1, 0.5, 0.5, 360), PartOfDisk(1, 0, 0, 0)}) {
     SceneDescription d = SquareScene();

@@ -47,7 +47,7 @@ double FarthestOff(const BilinearPatch& patch) {
   return most;
 }
 
-TEST_CASE("curved patches: within the tolerance, and no finer", "[parse]") {
+TEST_CASE("curved patches: tessellated to the tolerance and no finer", "[parse]") {
   int last = 0;
   for (const double lift : {0.31, 0.4, 1.0, 3.0, -20.0}) {
     CAPTURE(lift);
@@ -93,8 +93,7 @@ TEST_CASE("curved patches: given normals and coordinates are bilinear", "[parse]
   }
 }
 
-TEST_CASE("flat patches: normals are bilinear between four that are not even",
-          "[parse]") {
+TEST_CASE("flat patches: four different normals are interpolated bilinearly", "[parse]") {
   BilinearPatch patch;
   patch.p = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   patch.n = {{{-0.2, 0, 1}, {0.2, 0, 1}, {0, 0.3, 1}, {0, -0.3, 1}}};

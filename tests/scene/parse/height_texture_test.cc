@@ -12,7 +12,7 @@
 namespace lanelight {
 namespace {
 
-TEST_CASE("heights are what the reference makes of the same textures", "[parse]") {
+TEST_CASE("displacement heights agree with the reference", "[parse]") {
   const TemporaryFolder folder;
   WritePfm(folder.File("grey.pfm"), RandomFloats(5, 3, 1, 1));
   WritePfm(folder.File("color.pfm"), RandomFloats(4, 6, 3, 2));
@@ -53,7 +53,7 @@ TEST_CASE("heights are what the reference makes of the same textures", "[parse]"
   }
 }
 
-TEST_CASE("textures that heights cannot come from", "[parse]") {
+TEST_CASE("unsupported displacement textures are refused", "[parse]") {
   Texture scale = FloatTexture(TextureKind::kScale);
   scale.tex1.texture = 0;
   Texture placed = FloatTexture(TextureKind::kCheckerboard);

@@ -85,7 +85,7 @@ double WorstRatio(std::uint32_t generator) {
 
 }  // namespace
 
-TEST_CASE("one generator serves all powers of two", "[points]") {
+TEST_CASE("one generator works for all powers of two", "[points]") {
   CHECK(kLatticeGenerator % 2 == 1);
   CHECK(WorstRatio(kLatticeGenerator) < 3);
   CHECK(WorstRatio(kLatticeGenerator + 2) > 3);

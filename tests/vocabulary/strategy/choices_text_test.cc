@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-TEST_CASE("choices that differ are told, and no others", "[strategy]") {
+TEST_CASE("exactly the choices that differ are printed", "[strategy]") {
   Strategy other;
   ApplyStrategy("roulette=adjoint,reuse=block:32", {}, other);
   const std::string usual = ToText({}), changed = ToText(other);

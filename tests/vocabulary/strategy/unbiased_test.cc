@@ -146,7 +146,7 @@ TEST_CASE("every combination fills the closed room as the closed form says",
   power.Check(0.08);
 }
 
-TEST_CASE("a bias of 1 % is found", "[strategy]") {
+TEST_CASE("a bias of 1 % is detected", "[strategy]") {
   // A reference whose emission is 1 % too strong stands for any error of that size: a
   // density, a cosine or a 1 / (1 - q) that is off by 1 %.
   const SceneDescription scene = LargeLight();
@@ -162,7 +162,7 @@ TEST_CASE("a bias of 1 % is found", "[strategy]") {
   CHECK_FALSE(stat::CompareMeans(image, planted, options).same);
 }
 
-TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[strategy]") {
+TEST_CASE("a light selection probability that is 1 % wrong is detected", "[strategy]") {
   const SceneDescription scene = PolygonLight(8);
   PreparedScene compiled = PrepareScene(scene);
   Strategy strategy;
