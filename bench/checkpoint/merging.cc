@@ -97,10 +97,10 @@ nlohmann::json MeasureMerging(const CheckpointBench& bench) {
   };
   CheckpointSettings none;
   Checkpoint checkpoint(job, none, HeadOf(job), ThrowProblem);
-  WatchedKeeper keeper(checkpoint, measure);
+  WatchedCheckpointer checkpointer(checkpoint, measure);
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  options.keeper = &keeper;
+  options.checkpointer = &checkpointer;
   Run(job.scene, job.plan, options, film.film);
   return out;
 }

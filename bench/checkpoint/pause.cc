@@ -59,7 +59,7 @@ Speed RenderWith(const Job& job, const CheckpointBench& bench, double seconds) {
   Checkpoint checkpoint(job, SettingsOf(bench, seconds), HeadOf(job), ThrowProblem);
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  if (seconds > 0) options.keeper = &checkpoint;
+  if (seconds > 0) options.checkpointer = &checkpoint;
   const Clock::time_point start = Clock::now();
   const double cpu = ProcessCpuSeconds();
   Run(job.scene, job.plan, options, film.film);
@@ -78,14 +78,14 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
   const CheckpointSettings settings = SettingsOf(bench, 1e9);
   Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
   Steps steps;
-  WatchedKeeper keeper(checkpoint, [&](RunState& state) {
+  WatchedCheckpointer checkpointer(checkpoint, [&](RunState& state) {
     checkpoint.Keep(state);  // warms up
     checkpoint.Finish();
     for (int i = 0; i < bench.repeats; ++i) steps.Time(checkpoint, state);
   });
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  options.keeper = &keeper;
+  options.checkpointer = &checkpointer;
   Run(job.scene, job.plan, options, film.film);
   const double film_bytes = double(film.Bytes()),
                file_bytes = double(fs::file_size(settings.path));

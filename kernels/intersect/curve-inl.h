@@ -171,7 +171,7 @@ LANELIGHT_INLINE V8 NearingEnd(const VisiblePieces<V8>& s, int end, int step) {
 }
 
 /// Returns whether a ray goes along one of the pieces, within 20 degrees.
-LANELIGHT_INLINE bool GoesAlong(const VisiblePieces<V8>& s, M8 mask) {
+LANELIGHT_INLINE bool IsAlongCurve(const VisiblePieces<V8>& s, M8 mask) {
   const D8 d8;
   const V8 x = hn::Sub(s.x[3], s.x[0]), y = hn::Sub(s.y[3], s.y[0]),
            z = hn::Sub(s.z[3], s.z[0]);
@@ -199,7 +199,7 @@ LANELIGHT_INLINE void ForEachNearest(const VisiblePieces<V8>& s, M8 mask, Found&
                           hn::Mul(hn::Mul(least, least), hn::MulAdd(dz, dz, across2))));
   };
   V8 low = zero, at_low = NearingEnd(s, 0, 1);
-  const int brackets = GoesAlong(s, mask) ? kAlongBrackets : kCurveBrackets;
+  const int brackets = IsAlongCurve(s, mask) ? kAlongBrackets : kCurveBrackets;
   for (int i = 1; i <= brackets; ++i) {
     const bool last = i == brackets;
     const V8 high = hn::Set(d8, static_cast<float>(i) / static_cast<float>(brackets));

@@ -57,7 +57,8 @@ HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, i
     left = -1;
     return;
   }
-  PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
+  PacketBest hit =
+      NoHits(best.hit.t, TieBreakPrimitives(best.hit.prim, best.inst, instance));
   TraceFrustum<false, kAlpha>(scene,
                               scene.accel->groups[geometry.instance_group[instance]],
                               {own, bounds, paths.rays}, left, hit);

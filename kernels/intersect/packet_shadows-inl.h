@@ -53,7 +53,7 @@ class LastBlockers {
       const V3 v = Splat3(p[k][0], p[k][1], p[k][2]);
       return ShearVertex(df, packet.shear, order.Permute(v));
     };
-    const MF tested = hn::And(MaskOf(df, lanes), NotFrom(packet.rays, prim));
+    const MF tested = hn::And(MaskOf(df, lanes), ExcludesStart(packet.rays, prim));
     const TriangleHits<VF, MF> hit =
         TestTriangle(packet.shear, {corner(0), corner(1), corner(2)}, best.t, tested,
                      [&](MF) HWY_ATTR { return AheadOf(packet.rays, p[0], p[1], p[2]); });

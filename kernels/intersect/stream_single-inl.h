@@ -64,7 +64,7 @@ class SinglePhase {
     uint32_t entered = 0;
     for (uint32_t i = 0; i < entering.size; ++i) {
       const auto r = static_cast<uint32_t>(entering.place[i]);
-      if (HWY_UNLIKELY(HasNothingInside(r))) PassBy(r);
+      if (HWY_UNLIKELY(HasNothingInside(r))) SkipInstance(r);
       entering.place[entered] = entering.place[i];
       entered += uint32_t{Next(r) < kReturnRef} & (Next(r) >> 31);
     }
@@ -72,7 +72,7 @@ class SinglePhase {
     for (uint32_t i = 0; i < entered; ++i) {
       const auto r = static_cast<uint32_t>(entering.place[i]);
       const uint32_t group = scene_.geometry->instance_group[rays_.space[r]];
-      stacks_.GoInside(r, scene_.accel->groups[group].root, IsResume(Next(r)));
+      stacks_.PushInstanceRoot(r, scene_.accel->groups[group].root, IsResume(Next(r)));
     }
   }
 
@@ -82,7 +82,7 @@ class SinglePhase {
     return IsResume(Next(r)) && stacks_.NothingInside(r);
   }
   // Goes on behind the way back from it.
-  HWY_NOINLINE void PassBy(uint32_t r) {
+  HWY_NOINLINE void SkipInstance(uint32_t r) {
     do {
       stacks_.Pop(r, rays_.top[r] - 1);
     } while (HasNothingInside(r));

@@ -127,20 +127,20 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
       });
 }
 
-LANELIGHT_INLINE bool DrawsPlainly(const Wave& wave) {
+LANELIGHT_INLINE bool IsUnpaired(const Wave& wave) {
   return wave.run->pairs.dimensions == 0 && wave.path.branch == nullptr;
 }
 
 template <class Policy>
 LANELIGHT_INLINE void FillCamera(Wave& wave) {
-  DrawsPlainly(wave) ? FillCameraBatches<Policy, true>(wave)
-                     : FillCameraBatches<Policy, false>(wave);
+  IsUnpaired(wave) ? FillCameraBatches<Policy, true>(wave)
+                   : FillCameraBatches<Policy, false>(wave);
 }
 
 template <class Policy>
 LANELIGHT_INLINE void FillBounce(Wave& wave) {
-  DrawsPlainly(wave) ? FillBounceBatches<Policy, true>(wave)
-                     : FillBounceBatches<Policy, false>(wave);
+  IsUnpaired(wave) ? FillBounceBatches<Policy, true>(wave)
+                   : FillBounceBatches<Policy, false>(wave);
 }
 
 LANELIGHT_END_KERNELS

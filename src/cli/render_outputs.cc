@@ -144,9 +144,9 @@ bool SaveOrPrint(const std::string& path, const std::string& text) {
     Print(text);
     return true;
   }
-  Saver saver;
-  saver.SaveText(path, text);
-  return PrintProblems(saver.problems());
+  ResultWriter writer;
+  writer.SaveText(path, text);
+  return PrintProblems(writer.problems());
 }
 
 int PrintRendering(const Rendering& rendering, const Job& job,
@@ -188,7 +188,8 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
     hooks.on_progress = [&](const RenderProgress& p) { progress.Update(p); };
     hooks.tells_error = true;
     hooks.on_training = [&] {
-      progress.Say("trial run: choosing a strategy for this scene", /*always=*/true);
+      progress.PrintMessage("trial run: choosing a strategy for this scene",
+                            /*always=*/true);
     };
   }
   hooks.on_rendered = [&] { progress.Finish(); };

@@ -33,7 +33,7 @@ std::string Measured(const JudgedPoint& judged) {
   return fmt::format("{:.{}g} ±{:.1g}", p.measured, std::clamp(digits, 2, 9), half);
 }
 
-std::string Deviate(const JudgedPoint& judged) {
+std::string DeviationText(const JudgedPoint& judged) {
   if (!judged.point.refused.empty() || !judged.crash.empty()) return "-";
   const double z = judged.verdict.z;
   if (std::isinf(z)) return "inf";
@@ -86,7 +86,7 @@ std::string Row(const CaseResult& result, std::size_t width) {
       result.worst < 0 ? nullptr : &result.points[std::size_t(result.worst)];
   return fmt::format(fmt::runtime(kCaseRow), result.about.name, width,
                      worst ? Significant(worst->point.expected, 5) : "-",
-                     worst ? Measured(*worst) : "-", worst ? Deviate(*worst) : "-",
+                     worst ? Measured(*worst) : "-", worst ? DeviationText(*worst) : "-",
                      invalid, DurationText(seconds), RaysPerSample(result),
                      OutcomeText(result), Breaks(result));
 }

@@ -54,7 +54,7 @@ std::string ImageRow(const RenderReport& report, const PixelRect& window) {
 
 std::string ErrorRow(const ErrorEstimate& error) {
   return SummaryRow(
-      "error", Painted(Ink::kBold, PercentText(error), Stream::kOutput) +
+      "error", Painted(TextStyle::kBold, PercentText(error), Stream::kOutput) +
                    (error.available && error.why != kNoLight ? ", 95 % confidence" : ""));
 }
 
@@ -193,7 +193,8 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
 std::string DiffersRow(const std::vector<Note>& notes) {
   const std::string text = ImageChangesText(notes);
   if (text.empty()) return text;
-  return "\n" + Painted(Ink::kYellow, "differs", Stream::kOutput) + "    " + text + "\n";
+  return "\n" + Painted(TextStyle::kYellow, "differs", Stream::kOutput) + "    " + text +
+         "\n";
 }
 
 std::string TransportText(const Job& job) {

@@ -91,8 +91,8 @@ Point Mixed(const std::string& series, double amount, const Effort& effort) {
                         "amount\" {:.17g}",
                         amount));
   const double expected = 0.2 * (1 - amount) + 0.8 * amount;
-  return Named(series, WithRare(Expect(expected, text, {64, 4096, 1}, effort),
-                                std::min(amount, 1 - amount), 0.6));
+  return Named(series, AllowForRareSamples(Expect(expected, text, {64, 4096, 1}, effort),
+                                           std::min(amount, 1 - amount), 0.6));
 }
 
 std::vector<Point> ByMix(double rare, const Effort& effort) {
@@ -105,8 +105,9 @@ Point CutOut(const std::string& series, double alpha, const Effort& effort) {
   const std::string text =
       ViewOfPlane() + Sky(1) + "Material " + Diffuse(0.5) +
       fmt::format("\nShape \"disk\" \"float radius\" 1 \"float alpha\" {:.17g}\n", alpha);
-  return Named(series, WithRare(Expect(1 - 0.5 * alpha, text, {64, 4096, 1}, effort),
-                                std::min(alpha, 1 - alpha), 0.5));
+  return Named(series,
+               AllowForRareSamples(Expect(1 - 0.5 * alpha, text, {64, 4096, 1}, effort),
+                                   std::min(alpha, 1 - alpha), 0.5));
 }
 
 std::vector<Point> ByAlpha(double rare, const Effort& effort) {

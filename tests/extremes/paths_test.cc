@@ -141,7 +141,7 @@ std::string Layers(std::span<const double> index, double gap) {
 Point Stack(std::span<const double> index, double gap, int depth, const Effort& effort) {
   const double expected = LayersAtNormal(index, depth);
   // The light beyond the maximum depth may be carried by few paths.
-  return WithRare(
+  return AllowForRareSamples(
       Expect(expected, Layers(index, gap), {.quick = 256, .depth = depth}, effort),
       1 - expected, 1);
 }

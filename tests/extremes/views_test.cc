@@ -140,7 +140,7 @@ std::vector<Point> ByEdge(double aside, const Effort& effort) {
     };
     measure("odd", (1 - aside) / 2, Lamp(-2, -aside));
     // Few samples fall between the edge and the middle, where pairs do not cancel.
-    points.back() = WithRare(points.back(), aside, 1);
+    points.back() = AllowForRareSamples(points.back(), aside, 1);
     measure("even", 0.5 - aside / 2, Lamp(-0.5 + aside / 2, 0.5 - aside / 2));
   }
   return points;

@@ -114,7 +114,7 @@ Connection::Sent Connection::Send(std::string_view bytes) {
   return Sent::kAll;
 }
 
-void Connection::Hurry(double seconds) { deadline_ = Now() + seconds; }
+void Connection::SetDeadline(double seconds) { deadline_ = Now() + seconds; }
 
 bool Connection::IsOver() const { return Now() > deadline_; }
 

@@ -39,11 +39,11 @@ class Connection {
                                           std::string& why);
 
   enum class Sent { kAll, kFailed, kGaveUp };
-  /// Sends all, without a time limit until Hurry() is called. kFailed: the connection is
-  /// lost; Reason() then says why.
+  /// Sends all, without a time limit until SetDeadline() is called. kFailed: the
+  /// connection is lost; Reason() then says why.
   Sent Send(std::string_view bytes);
   /// Limits sending to `seconds` from now on. Called once, from any thread.
-  void Hurry(double seconds);
+  void SetDeadline(double seconds);
   std::string Reason() const;
 
  private:

@@ -53,7 +53,7 @@ std::optional<std::uint64_t> MemoryOfMachine() {
 }
 
 template <class T>
-void TakeLess(std::optional<T>& least, const std::optional<T>& other) {
+void SetMin(std::optional<T>& least, const std::optional<T>& other) {
   if (other) least = least ? std::min(*least, *other) : *other;
 }
 
@@ -77,14 +77,14 @@ GroupLimits LimitsIn(const std::filesystem::path& folder) {
   return limits;
 }
 
-MachineInfo LookAtMachine() {
+MachineInfo ReadMachineInfo() {
   const GroupLimits limits = LimitsOfGroup("/sys/fs/cgroup", OwnGroup());
   MachineInfo machine;
   machine.processor = ProcessorIn(FileText("/proc/cpuinfo"));
   machine.cores = CoresAllowed();
   machine.quota = limits.quota;
   machine.memory_bytes = MemoryOfMachine();
-  TakeLess(machine.memory_bytes, limits.memory_bytes);
+  SetMin(machine.memory_bytes, limits.memory_bytes);
   machine.load = load_at_start;
   return machine;
 }
@@ -108,7 +108,7 @@ std::string TextWithoutLoad(const MachineInfo& machine) {
 }  // namespace
 
 const MachineInfo& ThisMachine() {
-  static const MachineInfo machine = LookAtMachine();
+  static const MachineInfo machine = ReadMachineInfo();
   return machine;
 }
 
@@ -169,8 +169,8 @@ GroupLimits LimitsOfGroup(const std::filesystem::path& top, const std::string& g
   for (const auto& part : std::filesystem::path(group).relative_path()) {
     folder /= part;
     const GroupLimits limits = LimitsIn(folder);
-    TakeLess(least.quota, limits.quota);
-    TakeLess(least.memory_bytes, limits.memory_bytes);
+    SetMin(least.quota, limits.quota);
+    SetMin(least.memory_bytes, limits.memory_bytes);
   }
   return least;
 }

@@ -67,16 +67,18 @@ Interval Widened(const Interval& ratio, double deviation, double confidence) {
 
 std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
                                         double confidence,
-                                        std::span<const double> doubts) {
+                                        std::span<const double> uncertainties) {
   const int n = static_cast<int>(strategies.size());
   std::vector<RankRange> ranks(strategies.size(), {1, n});
   if (n < 2) return ranks;
   const double level = SidakLevel(1 - confidence, n * (n - 1) / 2);
   for (std::size_t i = 0; i < strategies.size(); ++i) {
     for (std::size_t j = i + 1; j < strategies.size(); ++j) {
-      const double doubt = doubts.empty() ? 0 : std::hypot(doubts[i], doubts[j]);
-      const Interval ratio = Widened(
-          EfficiencyRatio(strategies[i], strategies[j], 1 - level), doubt, 1 - level);
+      const double extra_uncertainty =
+          uncertainties.empty() ? 0 : std::hypot(uncertainties[i], uncertainties[j]);
+      const Interval ratio =
+          Widened(EfficiencyRatio(strategies[i], strategies[j], 1 - level),
+                  extra_uncertainty, 1 - level);
       if (!ratio.HasBounds() || ratio.Contains(1)) continue;
       const bool other_is_better = ratio.low > 1;
       ranks[other_is_better ? i : j].best += 1;

@@ -77,7 +77,7 @@ class Adviser {
     all_ = CandidatesFor(job_.scene, job_.plan.options);
     std::vector<Tried> tried = First();
     if (tried.size() > 1 && Round(tried, 0)) {
-      DropWorse(tried);
+      DropWorseCandidates(tried);
       if (tried.size() > 1 && Round(tried, kFirst)) Second(tried);
     }
     if (advice_.rays > 0 && !advice_.interrupted) TryBlocks(tried);
@@ -139,7 +139,7 @@ class Adviser {
     for (Tried& t : tried) {
       const AdvisedCandidate& c = all_[t.index];
       if (!t.entry.has_learned) {
-        t.entry = ToTry(PreparedFor(c), job_.plan.options, c.changes, c.price);
+        t.entry = PrepareTrial(PreparedFor(c), job_.plan.options, c.changes, c.price);
       }
       if (!trial_.Try(t.entry, tried.front().entry)) return false;
     }
@@ -169,7 +169,7 @@ class Adviser {
   }
 
   // Drops, after few samples, candidates that are not expected to become the best.
-  void DropWorse(std::vector<Tried>& tried) {
+  void DropWorseCandidates(std::vector<Tried>& tried) {
     std::erase_if(tried, [&](const Tried& t) {
       const bool misses = t.entry.MissesLight(), worse = EfficiencyOf(t).high < 1;
       if (t.index == 0 || !(misses || worse)) return false;
@@ -238,7 +238,7 @@ class Adviser {
 
   // Adds `base` combined with the blocks.
   void AddBlocks(const Tried& base, const TriedBlocks& blocks, std::uint64_t samples) {
-    AdvisedCandidate both = WithMore(all_[base.index], blocks.changes);
+    AdvisedCandidate both = WithAddedChanges(all_[base.index], blocks.changes);
     both.meaning = "gains where most of the noise is indirect light";
     const Interval baseline = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
     const Interval more =

@@ -54,7 +54,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
                                          const AdvisedCandidate& b);
 
 /// Adds changes (text as in --strategy) to a candidate.
-AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes);
+AdvisedCandidate WithAddedChanges(AdvisedCandidate candidate, const std::string& changes);
 
 /// Rays that a second of the trial stands for, about the speed of two processors of 2020.
 /// Counting work in rays makes the advice the same on every machine.

@@ -57,7 +57,8 @@ const char* Name(CandidateStatus status) {
   return kNames[int(status)];
 }
 
-AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
+AdvisedCandidate WithAddedChanges(AdvisedCandidate candidate,
+                                  const std::string& changes) {
   ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0},
                 candidate.strategy);
   candidate.changes = JoinedChanges(candidate.changes, changes);
@@ -76,7 +77,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
   both.meaning = "both changes are more efficient";
   both.price = a.price * b.price;
   both.price_spread = std::hypot(a.price_spread, b.price_spread);
-  return WithMore(both, b.changes);
+  return WithAddedChanges(both, b.changes);
 }
 
 std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
@@ -84,7 +85,7 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
   const Strategy own = scene.strategy, baseline;
   std::vector<AdvisedCandidate> out = {{baseline, "", "the renderer's default"}};
   for (const DecisionCandidate& c : kDecisionCandidates) {
-    AdvisedCandidate changed = WithMore({}, c.changes);
+    AdvisedCandidate changed = WithAddedChanges({}, c.changes);
     if (changed.strategy == own) continue;
     changed.meaning = c.reason;
     changed.price = c.price;

@@ -127,7 +127,8 @@ class AgreementTest {
   }
 
   double PValue(const MeanEstimate& a, const MeanEstimate& b, double rounding) const {
-    if (!RestsOnEnough(a, b, ratio_) || !RestsOnEnough(b, a, 1 / ratio_)) {
+    if (!HasEnoughObservations(a, b, ratio_) ||
+        !HasEnoughObservations(b, a, 1 / ratio_)) {
       return kNotKnown;
     }
     return stat::WelchPValue(a, b, rounding * std::abs(b.mean));

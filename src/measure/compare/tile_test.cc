@@ -24,7 +24,7 @@ TileLayout LayoutOf(int width, int height) {
   return {side, (width + side - 1) / side, (height + side - 1) / side};
 }
 
-double PixelsAsOne(double squares) {
+double DependenceFactor(double squares) {
   constexpr double kOthers = 16 * 16 - 1;
   return 1 + std::sqrt(kOthers * std::max(0.0, squares - 1));
 }
@@ -49,8 +49,8 @@ stat::MeanEstimate VarianceAround(const TileLayout& layout,
   return {0, sum / count, quartic > 0 ? sum * sum / quartic : 1e9};
 }
 
-bool RestsOnEnough(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
-                   double other_per_own) {
+bool HasEnoughObservations(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
+                           double other_per_own) {
   const double signal = std::max(std::abs(own.mean), std::abs(other.mean));
   const double variance =
       std::max(own.variance, other.variance * std::max(1.0, other_per_own));

@@ -67,7 +67,7 @@ void PageSocket::Write() {
                       });
 }
 
-void PageSocket::SayGoodbye() {
+void PageSocket::SendClose() {
   if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
   Queue("{\"kind\": \"goodbye\"}", false);
   leaving_ = true;

@@ -122,7 +122,7 @@ void WatchForStop(SharedState& shared, const std::atomic<bool>& stop) {
   shared.timer.async_wait([&](error_code) {
     if (!stop) return WatchForStop(shared, stop);
     shared.acceptor.close();
-    for (const auto& page : shared.pages) page->SayGoodbye();
+    for (const auto& page : shared.pages) page->SendClose();
     shared.timer.expires_after(kCloseTimeout);
     shared.timer.async_wait([&](error_code) { shared.io.stop(); });
     if (shared.pages.empty()) shared.io.stop();

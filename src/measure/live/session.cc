@@ -51,13 +51,13 @@ Session::Session(const LiveScene& live_scene, std::string command, Send send)
 
 void Session::Do(const json& message) {
   try {
-    Obey(message.at("do"), message);
+    HandleCommand(message.at("do"), message);
   } catch (const json::exception& error) {
     throw NotUnderstood(error);
   }
 }
 
-void Session::Obey(const std::string& what, const json& m) {
+void Session::HandleCommand(const std::string& what, const json& m) {
   if (what == "camera") return Move(CameraPoseFromJson(m.at("eye")));
   if (what == "strategy") return Choose(IndexOf(m, "slot", kSlots - 1), m.at("name"));
   if (what == "exr") return SendExr(IndexOf(m, "slot", kSlots - 1));
@@ -102,7 +102,7 @@ void Session::Move(const CameraPose& pose) {
 void Session::Choose(int index, const std::string& name) {
   Slot& slot = slots_[static_cast<std::size_t>(index)];
   if (slot.renderer) others_.push_back(std::move(slot.renderer));
-  KeepFew();
+  DropOldRenders();
   const double rate = slot.preview_rate;
   slot = {};
   slot.preview_rate = rate;
@@ -118,7 +118,7 @@ void Session::Choose(int index, const std::string& name) {
   }
 }
 
-void Session::KeepFew() {
+void Session::DropOldRenders() {
   std::size_t bytes = 0;
   for (const auto& other : others_) bytes += other->Bytes();
   while (!others_.empty() && bytes > kMaxKeptBytes) {

@@ -19,7 +19,7 @@ PointVerdict Faulty(PointVerdict verdict, Fault fault, std::string why) {
   return verdict;
 }
 
-std::string OffText(const Point& point, double error) {
+std::string OutOfToleranceText(const Point& point, double error) {
   const double scale = ScaleOf(point);
   if (!(scale > 0)) return fmt::format("off by {:.2g}", error);
   if (std::abs(error) > 10 * scale) {
@@ -58,7 +58,7 @@ PointVerdict JudgeValue(const Point& point, double level) {
   const double excess = std::abs(error) - point.tolerance;
   if (excess > 0) verdict.z = excess / point.standard_error;  // infinite without noise
   if (excess <= noise) return verdict;
-  return Faulty(verdict, Fault::kOff, OffText(point, error));
+  return Faulty(verdict, Fault::kOff, OutOfToleranceText(point, error));
 }
 
 }  // namespace

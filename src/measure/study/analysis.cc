@@ -93,7 +93,8 @@ class SceneAnalyser {
 
   Cells Load(const StrategyRuns& runs, std::uint64_t spp) const {
     Cells cells = store_.Load(runs.Text(), spp);
-    cells.moments.pixels_as_one = PixelsAsOne(GroupsOf(runs.named.strategy).dependents);
+    cells.moments.pixels_as_one =
+        DependenceFactor(GroupsOf(runs.named.strategy).dependents);
     return cells;
   }
 

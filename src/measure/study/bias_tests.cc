@@ -138,7 +138,7 @@ TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint
     stat::MeanEstimate a = test.means[i];
     a.variance =
         std::max(a.variance, VarianceAround(test.layout, test.means, i).variance);
-    if (!RestsOnEnough(a, b, double(reference.spp) / samples)) {
+    if (!HasEnoughObservations(a, b, double(reference.spp) / samples)) {
       p.push_back(1);
       test.z.push_back(std::nan(""));
       continue;

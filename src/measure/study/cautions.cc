@@ -52,7 +52,7 @@ class CautionFinder {
   }
 
   // Returns whether `other` is significantly more efficient at that sample count.
-  bool Beats(std::size_t other, std::size_t one, std::uint64_t spp) const {
+  bool RanksAbove(std::size_t other, std::size_t one, std::uint64_t spp) const {
     const stat::Level *a = LevelOf(one, spp), *b = LevelOf(other, spp);
     if (a == nullptr || b == nullptr || a->error.size() != b->error.size()) return false;
     const std::size_t n = a->error.size();
@@ -68,7 +68,8 @@ class CautionFinder {
     for (std::size_t k = Of(winner).at; k-- > 0;) {
       const std::uint64_t spp = Of(winner).levels[k].spp;
       for (const std::size_t other : analysis_.ranking) {
-        if (other == winner || !Beats(winner, other, at) || !Beats(other, winner, spp)) {
+        if (other == winner || !RanksAbove(winner, other, at) ||
+            !RanksAbove(other, winner, spp)) {
           continue;
         }
         texts_.push_back(fmt::format(

@@ -66,25 +66,26 @@ class Comparison {
   Interval Relative(std::span<const stat::Cost> other_costs,
                     std::span<const stat::Cost> baseline_costs, std::size_t other) const {
     if (other == out_.baseline) return WithoutBounds(1);  // nothing is estimated
-    const double doubt = std::hypot(out_.strategies[out_.baseline].budget_uncertainty,
-                                    out_.strategies[other].budget_uncertainty);
+    const double extra_uncertainty =
+        std::hypot(out_.strategies[out_.baseline].budget_uncertainty,
+                   out_.strategies[other].budget_uncertainty);
     return stat::Widened(
-        stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence), doubt,
-        options_.confidence);
+        stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence),
+        extra_uncertainty, options_.confidence);
   }
 
   void Rank() {
     std::vector<std::vector<stat::Cost>> costs;
-    std::vector<double> doubts;
+    std::vector<double> uncertainties;
     for (std::size_t i : out_.ranking) {
       const StrategyAnalysis& strategy = out_.strategies[i];
       costs.push_back(CostsOf(strategy.costs[strategy.at], repetitions_));
-      doubts.push_back(out_.strategies[i].budget_uncertainty);
+      uncertainties.push_back(out_.strategies[i].budget_uncertainty);
     }
     const auto trimmed = [&](std::size_t i) {
       return std::span(out_.strategies[i].trimmed).first(repetitions_);
     };
-    const auto ranks = stat::RankByEfficiency(costs, options_.confidence, doubts);
+    const auto ranks = stat::RankByEfficiency(costs, options_.confidence, uncertainties);
     for (std::size_t k = 0; k < costs.size(); ++k) {
       const std::size_t i = out_.ranking[k];
       StrategyAnalysis& strategy = out_.strategies[i];

@@ -83,8 +83,8 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 // Compiles the scene; sets failure_ and no job if that fails.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   const std::string trees = TreeKeyOf(cell.values);
-  if (job_ && trees == tree_key_) settings.known_tree = TreesOf(*job_->scene.compiled);
-  tree_key_ = trees;
+  if (job_ && trees == bvh_key_) settings.cached_bvh = CachedBvhOf(*job_->scene.compiled);
+  bvh_key_ = trees;
   job_.reset();  // frees memory before the next is built
   failure_.clear();
   settings.seed.reset();  // cells differ in their seeds

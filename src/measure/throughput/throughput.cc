@@ -135,10 +135,10 @@ std::vector<ThroughputRow> MeasureThroughput(
     for (progress.repeats = 0; !stop; ++progress.repeats) {
       const bool enough = progress.repeats >= kMinRepeats;
       if (enough &&
-          (WorstSpread(bench.rows()) <= options.within || watch.Seconds() >= most))
+          (MaxSpread(bench.rows()) <= options.within || watch.Seconds() >= most))
         break;
       bench.Repeat(stop);
-      progress.worst = WorstSpread(bench.rows());
+      progress.worst = MaxSpread(bench.rows());
       on_progress(progress);
     }
     ++progress.done;

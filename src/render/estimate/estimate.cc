@@ -292,7 +292,7 @@ ErrorEstimate FromSums(const Sums& sums) {
   return out;
 }
 
-ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
+ErrorEstimate WithoutUpperBound(ErrorEstimate out, std::string why) {
   out.has_interval = false;
   out.rmse = AtLeast(out.rmse);
   out.relmse = AtLeast(out.relmse);
@@ -301,7 +301,7 @@ ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
 }
 
 // Tiles that are ahead must not speak for the others.
-ErrorEstimate OfAPart(std::uint64_t known, std::uint64_t all) {
+ErrorEstimate EstimateOfPartialImage(std::uint64_t known, std::uint64_t all) {
   ErrorEstimate out;
   out.pixels = known;
   out.why = fmt::format(
@@ -334,12 +334,12 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const Sums sums = grid.Total();
   if (grid.Stopped()) return {};
   if (sums.pixels > 0 && sums.pixels < window.pixels()) {
-    return OfAPart(sums.pixels, window.pixels());
+    return EstimateOfPartialImage(sums.pixels, window.pixels());
   }
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
   if (out.available && grid.IsBlack()) {
-    return Unseen(std::move(out), kNoLight);
+    return WithoutUpperBound(std::move(out), kNoLight);
   }
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };
@@ -376,11 +376,12 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
   const double met = TotalSamples(film) * film.chance_of_light();
   if (!out.has_interval || film.chance_of_light() >= 1 || met >= kMinExpectedMeetings)
     return out;
-  return Unseen(std::move(out),
-                fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
-                            "be missing: an interval needs {:.2g} times as many samples, "
-                            "or directions=mis, which samples lights",
-                            met, kMinExpectedMeetings / met));
+  return WithoutUpperBound(
+      std::move(out),
+      fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
+                  "be missing: an interval needs {:.2g} times as many samples, "
+                  "or directions=mis, which samples lights",
+                  met, kMinExpectedMeetings / met));
 }
 
 Interval ErrorInterval(double estimate, double k1, double k2) {

@@ -223,10 +223,10 @@ std::vector<std::string> Checkpoint::Finish() {
   if (writing_.valid()) kept_ = writing_.get();
   if (kept_ || !last_) return {};
   std::string path = settings_.path;
-  Saver saver;
-  saver.Save(path, [&](const std::string& p) { last_->Write(p); });
+  ResultWriter writer;
+  writer.Save(path, [&](const std::string& p) { last_->Write(p); });
   kept_ = path == settings_.path;
-  return saver.problems();
+  return writer.problems();
 }
 
 }  // namespace lanelight

@@ -74,7 +74,7 @@ struct CheckpointSettings {
 /// a state. Throws InputError for a damaged one.
 std::optional<Decide> DecisionOfState(const CheckpointSettings& settings);
 
-class Checkpoint : public RunKeeper {
+class Checkpoint : public Checkpointer {
  public:
   /// Opens the state. `head` is the head of the report (HeadJson). `on_problem` is called
   /// at once, from any thread, for states that cannot be written. Throws InputError if

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {

@@ -23,17 +23,18 @@ namespace {
 using Json = nlohmann::json;
 
 void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
-                const RenderTargets& targets, Saver& saver, RenderReport& report) {
+                const RenderTargets& targets, ResultWriter& writer,
+                RenderReport& report) {
   const Stopwatch watch;
   report.exr = targets.exr;
-  saver.Save(report.exr, [&](const std::string& path) {
+  writer.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
              OutputOptions(facts.identity, facts.head,
                            {report.result, report.result.training.changes, report.error},
                            film, targets.image.half));
   });
   report.png = targets.png;
-  saver.Save(report.png, [&](const std::string& path) {
+  writer.Save(report.png, [&](const std::string& path) {
     WritePng(path, FilmImage(film, facts.color_space), targets.image.exposure);
   });
   report.write_seconds = watch.Seconds();
@@ -135,7 +136,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   if (targets.checkpoint.Any()) {
     checkpoint.emplace(job, targets.checkpoint, facts.head, Problems(hooks));
     shown.options.tiles = checkpoint->tiles();
-    shown.options.keeper = &*checkpoint;
+    shown.options.checkpointer = &*checkpoint;
   }
   // A part shows the pixels of its tiles only.
   const std::vector<PixelRect>& tiles = shown.options.tiles;
@@ -188,14 +189,14 @@ void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
   const RenderTargets targets =
       out.report.partial ? PartialTargets(asked, sampled > 0) : asked;
   out.report.black = IsBlack(film);
-  Saver saver;
-  SaveImages(film, facts, targets, saver, out.report);
+  ResultWriter writer;
+  SaveImages(film, facts, targets, writer, out.report);
   if (!targets.json.empty()) {
     out.json = ToJson(out.report, facts.head);
     out.json.update(members);
   }
-  if (targets.json != "-") saver.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
-  const std::vector<std::string>& problems = saver.problems();
+  if (targets.json != "-") writer.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
+  const std::vector<std::string>& problems = writer.problems();
   out.problems.insert(out.problems.end(), problems.begin(), problems.end());
 }
 

@@ -40,7 +40,7 @@ struct RenderHooks {
 struct Rendering {
   RenderReport report;
   nlohmann::json json;                // the report, if the targets have one
-  std::vector<std::string> problems;  // of writing; see Saver
+  std::vector<std::string> problems;  // of writing; see ResultWriter
   bool state_kept = false;            // the last state is on the disk
 };
 

@@ -10,7 +10,7 @@
 
 #include "src/render/estimate/estimate.h"
 #include "src/render/job/job.h"
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 
 namespace lanelight {
 

@@ -89,9 +89,9 @@ std::vector<Setting> Contents() {
            "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "
            "where a material or a light of it has a spectrum",
            OfScene("scene")},
-          NamesType<AskedTransport>{{{"rgb", AskedTransport::kRgb},
-                                     {"spectral", AskedTransport::kSpectral},
-                                     {"scene", AskedTransport::kByScene}}},
+          NamesType<TransportSetting>{{{"rgb", TransportSetting::kRgb},
+                                       {"spectral", TransportSetting::kSpectral},
+                                       {"scene", TransportSetting::kByScene}}},
           &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
       Declare({"max-depth", "D", "Maximum number of scattering events of a path",
                OfScene(Integrator{}.max_depth)},

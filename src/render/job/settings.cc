@@ -83,9 +83,10 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
 }
 
 // A film that keeps spectra needs wavelengths.
-void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
+void ApplySpectralFilm(const std::optional<TransportSetting>& asked,
                        std::optional<Transport>& transport) {
-  const bool rgb = asked ? *asked == AskedTransport::kRgb : transport == Transport::kRgb;
+  const bool rgb =
+      asked ? *asked == TransportSetting::kRgb : transport == Transport::kRgb;
   if (rgb) {
     throw InputError(fmt::format(
         "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
@@ -96,12 +97,12 @@ void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
 }
 
 // Removes the transport where the scene decides.
-void ApplyTransport(const std::optional<AskedTransport>& asked,
+void ApplyTransport(const std::optional<TransportSetting>& asked,
                     std::optional<Transport>& transport) {
   if (!asked) return;
   transport.reset();
-  if (*asked == AskedTransport::kRgb) transport = Transport::kRgb;
-  if (*asked == AskedTransport::kSpectral) transport = Transport::kSpectral;
+  if (*asked == TransportSetting::kRgb) transport = Transport::kRgb;
+  if (*asked == TransportSetting::kSpectral) transport = Transport::kSpectral;
 }
 
 }  // namespace
@@ -172,7 +173,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   options.build = settings.build.value_or(options.build);
   options.leaf_triangles = LeafTrianglesFor(SimdTarget(settings.target).lanes());
   options.copied_triangles = settings.copied_triangles;
-  options.known_tree = settings.known_tree.get();
+  options.cached_bvh = settings.cached_bvh.get();
   return options;
 }
 

@@ -29,7 +29,7 @@ enum class DefaultDecision {
 };
 
 /// The requested transport; kByScene: see ChooseTransport (src/render/job/transport.h).
-enum class AskedTransport { kRgb, kSpectral, kByScene };
+enum class TransportSetting { kRgb, kSpectral, kByScene };
 
 /// Default limit of triangles of instances that are copied into the world: about 25 MB.
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
@@ -56,12 +56,12 @@ struct RenderSettings {
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
-  std::optional<AskedTransport> transport;
+  std::optional<TransportSetting> transport;
   /// Strategies that will be rendered in turn (WithStrategy), besides the scene's:
   /// kByScene chooses a transport that none of them refuses.
   std::vector<Strategy> compared;
   std::optional<BuildQuality> build;                  // of the BVHs
-  std::shared_ptr<const CachedBvh> known_tree;        // as in CompileOptions
+  std::shared_ptr<const CachedBvh> cached_bvh;        // as in CompileOptions
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
   std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
   bool aov = false;

@@ -53,7 +53,10 @@ class WorkerWatch : public TaskWatcher {
 class RankWork::OwnRound {
  public:
   OwnRound(RankWork& work, const Round& round, TaskWatcher& watcher)
-      : work_(work), round_(round), watcher_(watcher), claimed_before_(Taken()) {
+      : work_(work),
+        round_(round),
+        watcher_(watcher),
+        rendered_before_(RenderedSamples()) {
     total_ = scheduler().Missing(scheduler().Snapshot(), round.end);
     Start();
   }
@@ -66,7 +69,7 @@ class RankWork::OwnRound {
     return done;
   }
   RankLoad load() const {
-    const std::uint64_t taken = Taken() - claimed_before_;
+    const std::uint64_t taken = RenderedSamples() - rendered_before_;
     return {total_ - taken, busy_ > 0 ? double(taken) / busy_ : 0};
   }
   std::vector<TileProgress> Release(std::uint64_t samples) {
@@ -83,7 +86,7 @@ class RankWork::OwnRound {
 
  private:
   Scheduler& scheduler() { return work_.threads_.scheduler(); }
-  std::uint64_t Taken() const { return work_.threads_.Taken(); }
+  std::uint64_t RenderedSamples() const { return work_.threads_.RenderedSamples(); }
   void Start() {
     running_ = std::async(std::launch::async, [this] {
       try {
@@ -97,7 +100,7 @@ class RankWork::OwnRound {
   RankWork& work_;
   const Round round_;
   TaskWatcher& watcher_;
-  const std::uint64_t claimed_before_;
+  const std::uint64_t rendered_before_;
   std::uint64_t total_ = 0;  // samples of this round
   double busy_ = 0;          // seconds
   Stopwatch since_;
@@ -153,7 +156,7 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
     if (sum.failed + sum.interrupted > 0) stopped_ = true;
     failed_ |= sum.failed > 0;
     // Samples of other ranks are progress too.
-    if (claimed_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
+    if (rendered_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
   });
   if (problem_) std::rethrow_exception(problem_);
   if (aborted_) {
@@ -224,7 +227,7 @@ RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
   status.cancelled = watcher.Cancelled();
   status.busy = !done;
   status.behind = !done || threads_.Levels().least < round.end;
-  status.samples = threads_.Taken();
+  status.samples = threads_.RenderedSamples();
   return status;
 }
 

@@ -34,7 +34,9 @@ class RankWork : public RoundRunner {
   void Gather() override;
   TileLevels Levels() const override;
   RunCounts Counts() const override;
-  std::uint64_t Taken() const override { return threads_.Taken() + claimed_elsewhere_; }
+  std::uint64_t RenderedSamples() const override {
+    return threads_.RenderedSamples() + rendered_elsewhere_;
+  }
   bool Stopped() const override { return stopped_; }
   void Finish() override;
 
@@ -69,7 +71,7 @@ class RankWork : public RoundRunner {
   // Of the other ranks, as of the last round or Gather().
   RunCounts other_counts_;
   TileLevels other_levels_;
-  std::atomic<std::uint64_t> claimed_elsewhere_{0};
+  std::atomic<std::uint64_t> rendered_elsewhere_{0};
   bool gathered_ = true;  // nothing has been rendered since
   std::atomic<bool> stopped_{false};
   bool failed_ = false;         // a rank has

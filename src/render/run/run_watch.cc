@@ -36,9 +36,9 @@ bool RunWatch::Ended() {
 }
 
 bool RunWatch::Stopped() const {
-  const RunKeeper* const keeper = context_.options.keeper;
+  const Checkpointer* const checkpointer = context_.options.checkpointer;
   return Interrupted() || OutOfTime() || cancelled_ || ShowDue() ||
-         (keeper != nullptr && keeper->Due());
+         (checkpointer != nullptr && checkpointer->Due());
 }
 
 bool RunWatch::Cancelled() const {
@@ -83,7 +83,7 @@ void RunWatch::Report() {
   if (!context_.options.on_progress) return;
   Progress progress;
   progress.seconds = context_.clock.Elapsed();
-  progress.samples = context_.work.Taken();
+  progress.samples = context_.work.RenderedSamples();
   progress.fraction = Fraction(progress.seconds, progress.samples);
   context_.options.on_progress(progress);
 }

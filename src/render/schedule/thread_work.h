@@ -51,7 +51,7 @@ class RoundRunner {
   /// Returns the counts of the samples in the films; excludes seconds of this process.
   virtual RunCounts Counts() const = 0;
   /// Returns the samples of all pixels together, merged or not. Safe from any thread.
-  virtual std::uint64_t Taken() const = 0;
+  virtual std::uint64_t RenderedSamples() const = 0;
   /// Returns whether another process was interrupted or has failed; no more rounds begin
   /// then.
   virtual bool Stopped() const { return false; }
@@ -77,7 +77,7 @@ class ThreadWork : public RoundRunner {
   void RunRound(const Round& round, TaskWatcher& watcher) override;
   TileLevels Levels() const override { return LevelsOf(scheduler_->Snapshot()); }
   RunCounts Counts() const override { return counts_; }
-  std::uint64_t Taken() const override { return taken_; }
+  std::uint64_t RenderedSamples() const override { return rendered_samples_; }
 
   Scheduler& scheduler() { return *scheduler_; }
   /// Returns the samples per pixel of a range that keeps a thread busy.
@@ -104,7 +104,7 @@ class ThreadWork : public RoundRunner {
   TaskRunner runner_;
   bool begun_ = false;   // the runner knows the tiles
   bool shared_ = false;  // other ranks have tiles
-  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> rendered_samples_{0};
   RunCounts counts_;
   std::mutex counts_mutex_;
 };

@@ -116,8 +116,8 @@ double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
   return Gain().log - must;
 }
 
-TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
-                    const std::string& changes, double price) {
+TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& options,
+                           const std::string& changes, double price) {
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;

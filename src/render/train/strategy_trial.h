@@ -109,8 +109,8 @@ struct TriedStrategy {
 
 /// Prepares a change of the strategy of `options` for a trial. Strategies that are tried
 /// together have the same scene and view.
-TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
-                    const std::string& changes, double price);
+TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& options,
+                           const std::string& changes, double price);
 
 /// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
 struct TriedBlocks {

@@ -82,7 +82,7 @@ class Decider {
  private:
   // Unless the scene refuses it, or another does the same there.
   void Add(const std::string& changes, double price) {
-    TriedStrategy entry = ToTry(scene_, options_, changes, price);
+    TriedStrategy entry = PrepareTrial(scene_, options_, changes, price);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
       if (std::ranges::find(keys_, key) != keys_.end()) return;

@@ -57,7 +57,7 @@ constexpr char kSurvive[] = "path_values_survive";
 constexpr char kSplit[] = "path_values_split";
 constexpr char kInverse[] = "path_values_inverse";
 // Left out of the state where nothing is known.
-constexpr char kShadowWorth[] = "shadow_worth_inverse";
+constexpr char kShadowThresholdColumn[] = "shadow_worth_inverse";
 
 constexpr std::uint64_t kHeadSize = 13;
 
@@ -80,10 +80,10 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
       {kInverse,
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
-  const AlignedVector<float>& shadow = tables.shadow_worth.inverse;
+  const AlignedVector<float>& shadow = tables.shadow_threshold.inverse;
   if (!shadow.empty()) {
     trained.push_back(
-        {kShadowWorth,
+        {kShadowThresholdColumn,
          "inverse worth of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
   }
@@ -165,10 +165,10 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
 void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
                     StrategyTables& tables) {
   PutPathValues(trained, pixels, tables.path_values);
-  if (!HasTable(trained, kShadowWorth)) return;
-  const std::vector<double>& shadow = TableOf(trained, kShadowWorth);
-  CheckPixels(kShadowWorth, shadow.size(), pixels);
-  Put(shadow, tables.shadow_worth.inverse);
+  if (!HasTable(trained, kShadowThresholdColumn)) return;
+  const std::vector<double>& shadow = TableOf(trained, kShadowThresholdColumn);
+  CheckPixels(kShadowThresholdColumn, shadow.size(), pixels);
+  Put(shadow, tables.shadow_threshold.inverse);
 }
 
 void CheckTrained(const Plan& plan, const StrategyTables& tables) {

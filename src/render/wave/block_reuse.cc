@@ -207,7 +207,7 @@ void BlockReuse::ConnectSample(const BlockKey& key, std::uint32_t sample,
   // Only glossy second vertices are prepared for the whole tile.
   const Phase* const tile = plan_.Find(PhaseId::kTile);
   if (tile != nullptr) RunPhase(wave_, *tile, clock);
-  block_.surely_kept = CertainlyKept(sample);
+  block_.certainly_kept = CertainlyKept(sample);
   const Phase& blocks = *plan_.Find(PhaseId::kBlock);
   std::uint32_t begin = 0;
   std::size_t b = 0;

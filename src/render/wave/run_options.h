@@ -75,7 +75,7 @@ struct RunOptions {
   /// (src/render/train/training.h), or what the time budget allows.
   std::uint64_t planned_samples = 0;
   /// Keeps the state during the run; may be null.
-  RunKeeper* keeper = nullptr;
+  Checkpointer* checkpointer = nullptr;
   /// The ranks that render, without `windows`; null: this process alone.
   RankGroup* group = nullptr;
 };

@@ -96,14 +96,14 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
       SumSplitPaths(out.values.data(), buffer.stride, run_.planes);
       if (clock) clock->FinishPart(TaskPart::kCopies, stride);
     }
-    if (visible_lights_) SeeLights(range, rect, out, space);
+    if (visible_lights_) AddVisibleLights(range, rect, out, space);
   }
   if (clock) clock->EndTask();
   return ended;
 }
 
-void TaskRunner::SeeLights(const SampleRange& range, const PixelRect& rect,
-                           TaskSamples& out, Workspace& space) const {
+void TaskRunner::AddVisibleLights(const SampleRange& range, const PixelRect& rect,
+                                  TaskSamples& out, Workspace& space) const {
   const VisibleLightTask seen = {
       range.tile,  space.pixels,      range.first % kSamplesPerSeed,
       range.count, out.values.data(), space.pixels.size() * range.count};

@@ -83,8 +83,8 @@ class TaskRunner {
   Workspace& ThreadWorkspace();
   TileWork SetUp(const SampleRange& range, const PixelRect& rect, Workspace& space) const;
   SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
-  void SeeLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
-                 Workspace& space) const;
+  void AddVisibleLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
+                        Workspace& space) const;
 
   const PreparedScene& scene_;
   const Plan& plan_;

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "src/base/core/hash.h"
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {
@@ -45,7 +45,7 @@ struct ReusedBvh {
 };
 
 /// Returns the tree of `known` (or null) if its shapes are equal; else builds one.
-ReusedBvh FindTree(const Geometry& geometry, const AccelOptions& options,
-                   const CachedBvh* known);
+ReusedBvh FindBvh(const Geometry& geometry, const AccelOptions& options,
+                  const CachedBvh* known);
 
 }  // namespace lanelight

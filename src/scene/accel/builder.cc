@@ -149,8 +149,8 @@ class TreeBuilder {
 };
 
 // Returns the ids of all items, leaf by leaf, and makes `leaves` refer to them.
-std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
-                                   std::vector<LeafRange>& leaves) {
+std::vector<std::uint32_t> CollectIds(const std::vector<BuildItem>& items,
+                                      std::vector<LeafRange>& leaves) {
   std::vector<std::uint32_t> ids;
   std::size_t count = 0;
   for (const LeafRange& leaf : leaves) count += leaf.end - leaf.begin;
@@ -182,7 +182,7 @@ BuiltBvh BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
   BinaryTree& tree = builder.tree();
   if (!fast) ReinsertSubtrees(tree);
   result.bvh = Collapse(tree, items, limit.items == 0, nodes, result.leaves);
-  result.ids = TakeIds(items, result.leaves);
+  result.ids = CollectIds(items, result.leaves);
   return result;
 }
 

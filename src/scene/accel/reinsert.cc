@@ -123,7 +123,7 @@ class Reinserter {
     int looks = kMaxVisitedNodes;
     for (;;) {
       stack.assign(1, {other, saved});
-      LookInto(from, beside, stack, looks, best);
+      VisitChildren(from, beside, stack, looks, best);
       rest.Extend(tree_[other].box);
       if (above == 0) return best;
       if (above != Parent(from)) saved += Area(above) - rest.HalfArea();
@@ -132,8 +132,8 @@ class Reinserter {
     }
   }
 
-  void LookInto(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
-                int& looks, Move& best) const {
+  void VisitChildren(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
+                     int& looks, Move& best) const {
     const AccelBox& box = tree_[from].box;
     const float area = box.HalfArea();
     while (!stack.empty() && --looks >= 0) {

@@ -12,7 +12,7 @@ namespace lanelight {
 struct CompiledScene;     // src/scene/compiled/scene.h
 struct CachedBvh;         // src/scene/accel/build.h
 struct SceneDescription;  // src/scene/description/description.h
-struct BvhReport;         // src/scene/accel/tree_report.h
+struct BvhReport;         // src/scene/accel/bvh_report.h
 
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
@@ -20,8 +20,8 @@ struct CompileOptions {
   int leaf_triangles = kLeafTriangles;  // as in AccelOptions
   /// As in PlaceShapes.
   std::uint64_t copied_triangles = 0;
-  const CachedBvh* known_tree = nullptr;  // may be of the same shapes; may be null
-  BvhReport* tree_report = nullptr;       // filled in; may be null
+  const CachedBvh* cached_bvh = nullptr;  // may be of the same shapes; may be null
+  BvhReport* bvh_report = nullptr;        // filled in; may be null
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the
@@ -31,6 +31,6 @@ CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options = {});
 
 /// The trees of a scene, for another one that may have the same shapes.
-std::shared_ptr<const CachedBvh> TreesOf(const CompiledScene& scene);
+std::shared_ptr<const CachedBvh> CachedBvhOf(const CompiledScene& scene);
 
 }  // namespace lanelight

@@ -52,6 +52,6 @@ inline constexpr double kFarthestInScene = 0x1p62, kSmallestInScene = 0x1p-62;
 void RequireInScene(Vec3d p, const SourceLocation& where, const char* what);
 
 /// Removes the spheres, disks and instances that are too small or too flat.
-void LeaveOutSmall(Placement& placement, std::vector<Note>& notes);
+void DropTooSmallShapes(Placement& placement, std::vector<Note>& notes);
 
 }  // namespace lanelight

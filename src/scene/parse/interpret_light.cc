@@ -186,7 +186,7 @@ void InterpretLight(ParseState& state, const std::string& type, ParamSet& params
   light.kind = kind;
   light.where = params.where();
   light.world_from_light = state.graphics.ctm;
-  NoteStill(state, light.where, "light");
+  NoteIgnoredMotion(state, light.where, "light");
   read(state, params, &light);
   params.CheckAllUsed();
   CheckEmission(params, light.emission);

@@ -200,7 +200,7 @@ void AddShape(ParseState& state, const std::string& type, ParamSet& params,
 }
 
 // Why a shape that moves in the file cannot move here; empty if it can.
-std::string WhyStill(const ParseState& state, ShapeKind kind, Index material) {
+std::string ReasonNotMoving(const ParseState& state, ShapeKind kind, Index material) {
   if (const char* why = WhyCannotMove(kind)) return why;
   const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
                      state.scene.materials[material].kind != MaterialKind::kInterface;
@@ -215,7 +215,8 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   const Transform& ctm = state.graphics.ctm;
   if (!state.graphics.Moves()) return AddShape(state, type, params, ctm);
   const ShapeKind kind = Lookup(kShapes, type, params.where(), "shape").kind;
-  const std::string why = WhyStill(state, kind, CurrentMaterial(state, params.where()));
+  const std::string why =
+      ReasonNotMoving(state, kind, CurrentMaterial(state, params.where()));
   if (!why.empty()) {
     state.Unsupported(params.where(), why);
     return AddShape(state, type, params, ctm);

@@ -222,7 +222,7 @@ void InterpretTexture(ParseState& state, const NameKey& key, const std::string& 
   texture.where = params.where();
   texture.is_float = is_float;
   texture.texture_from_world = state.graphics.ctm.Inverse();
-  NoteStill(state, texture.where, "texture");
+  NoteIgnoredMotion(state, texture.where, "texture");
   found.read(state, params, &texture);
   params.CheckAllUsed();
   Define(state, key, Append(state.scene.textures, std::move(texture)));

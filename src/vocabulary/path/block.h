@@ -175,7 +175,7 @@ struct Block {
   std::uint32_t sample = 0;                // of the task
   // Roulette on second vertices: a uniform number of the block, and from what brightness
   // on they are kept (kernels/reuse/block-inl.h).
-  float u = 0, surely_kept = 0;
+  float u = 0, certainly_kept = 0;
 
   // Receivers: records with a first vertex, by kind of its material, each kind padded to
   // whole vectors by its last.

@@ -137,8 +137,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, kept, ({kLightCandidates}), kBounce, (), "its radiance / pdf")    \
   X(f32, kept_pdf, ({kLightCandidates}), kBounce, (), "its pdf_sa, as a single candidate") \
   X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
-  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
-  X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
+  X(f32, candidate_weight, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
+  X(f32, candidate_weight_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
   X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
@@ -270,9 +270,9 @@ inline constexpr FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Fiel
                                           Field::ls_distance, Field::ls_r,  Field::ls_g,
                                           Field::ls_b,        Field::ls_pdf};
 inline constexpr FieldSet kKeptSample = {
-    Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
-    Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,
-    Field::kept_light, Field::kept_worth};
+    Field::kept_x,     Field::kept_y,          Field::kept_z, Field::kept_distance,
+    Field::kept_r,     Field::kept_g,          Field::kept_b, Field::kept_pdf,
+    Field::kept_light, Field::candidate_weight};
 inline constexpr FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};

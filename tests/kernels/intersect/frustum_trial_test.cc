@@ -7,7 +7,7 @@ namespace lanelight {
 namespace {
 
 // Of `packets` that meet so many leaves each, how many take the frustum.
-int Taken(FrustumTrial& trial, int packets, int leaves) {
+int FrustumPackets(FrustumTrial& trial, int packets, int leaves) {
   int taken = 0;
   for (int i = 0; i < packets; ++i) {
     if (!trial.IsOn()) continue;
@@ -28,13 +28,13 @@ TEST_CASE("packets use the frustum while they visit few leaves") {
     const int unit = kLeafTriangles / triangles;
     const Accel accel = LeavesOf(triangles);
     FrustumTrial trial(accel);
-    CHECK(Taken(trial, 1000, 4 * unit) == 1000);
+    CHECK(FrustumPackets(trial, 1000, 4 * unit) == 1000);
     // Earlier savings do not offset many leaves later.
-    const int dense = Taken(trial, 1000, 20 * unit);
+    const int dense = FrustumPackets(trial, 1000, 20 * unit);
     CHECK(dense >= 1000 / 20);
     CHECK(dense <= 1000 / 10);
     // One in so many is tried, so that it soon goes on where triangles are larger.
-    CHECK(Taken(trial, 1000, 4 * unit) >= 980);
+    CHECK(FrustumPackets(trial, 1000, 4 * unit) >= 980);
   }
 }
 
@@ -43,8 +43,8 @@ TEST_CASE("a single packet that visits many leaves does not disable the frustum"
   FrustumTrial trial(accel);
   int taken = 0;
   for (int i = 0; i < 100; ++i) {
-    taken += Taken(trial, 1, 14);
-    taken += Taken(trial, 4, 4);
+    taken += FrustumPackets(trial, 1, 14);
+    taken += FrustumPackets(trial, 4, 4);
   }
   CHECK(taken == 500);
 }

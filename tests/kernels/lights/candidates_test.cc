@@ -75,7 +75,7 @@ struct Vertices {
     r[i] = static_cast<float>(c.x), g[i] = static_cast<float>(c.y);
     b[i] = static_cast<float>(c.z);
   }
-  void Offer(const Candidate& c, std::uint32_t light) {
+  void AddCandidate(const Candidate& c, std::uint32_t light) {
     PathColumns& p = fixture.wave.path;
     for (std::uint32_t i = 0; i < kDraws; ++i) {
       Put(p.ls_x, p.ls_y, p.ls_z, i, c.direction);
@@ -89,7 +89,7 @@ struct Vertices {
   void Run(const Candidates& candidates) {
     fixture.run.candidates = static_cast<std::uint32_t>(candidates.size());
     fixture.Run(BeginCandidatesStage, fixture.run.features);
-    for (std::uint32_t j = 0; j < candidates.size(); ++j) Offer(candidates[j], j);
+    for (std::uint32_t j = 0; j < candidates.size(); ++j) AddCandidate(candidates[j], j);
     fixture.Run(KeepCandidateStage, fixture.run.features);
   }
 };

@@ -38,7 +38,7 @@ const AdvisedCandidate& Find(const Advice& advice, const std::string& changes) {
 }
 
 // Without what the clock says.
-nlohmann::json Said(const Advice& advice) {
+nlohmann::json AdviceJson(const Advice& advice) {
   nlohmann::json json = ToJson(advice);
   json.erase("pilot_seconds");
   return json;
@@ -49,10 +49,10 @@ nlohmann::json Said(const Advice& advice) {
 TEST_CASE("advice is a function of scene, settings and seed", "[advise]") {
   const nlohmann::json one = [] {
     const ThreadLimit limit(1);
-    return Said(AdviceOf("cornell-box.pbrt", 0.1, 5));
+    return AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 5));
   }();
-  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 5)) == one);
-  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 6)) != one);
+  CHECK(AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 5)) == one);
+  CHECK(AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 6)) != one);
 }
 
 TEST_CASE("candidates beyond the trial's time are skipped, and --pilot extends it",

@@ -57,7 +57,7 @@ double AtMost(int k, int n, double p) {
 }
 
 // Counts of intervals that held.
-struct Held {
+struct IntervalCoverage {
   int total = 0, held = 0, halves = 0;
 
   void Add(const Interval& stated, double truth) {
@@ -74,10 +74,10 @@ struct Held {
 struct Tally {
   int renders = 0, refused = 0;
   int lower_held = 0;  // of those refused
-  Held relmse, rmse;
+  IntervalCoverage relmse, rmse;
   // With mistakes: single samples for replicates, a part of the error left out, intervals
   // thrice as wide, nothing but the scatter of normal pixels.
-  Held ungrouped, without_tail, wide, normal;
+  IntervalCoverage ungrouped, without_tail, wide, normal;
 
   void Add(const Rendered& r, const FilmAccumulator& reference, std::uint64_t spp) {
     const TrueError truth(r.film, reference);
@@ -143,7 +143,7 @@ TEST_CASE("the Cornell box states its error", "[study]") {
   for (Points points : {Points::kIndependent, Points::kSobol}) {
     const Tally tally = Measure(scene, WithPoints(points, 32), 120, reference);
     CHECK(tally.refused * 5 <= tally.renders);
-    for (const Held& held : {tally.relmse, tally.rmse}) {
+    for (const IntervalCoverage& held : {tally.relmse, tally.rmse}) {
       CHECK(held.OftenEnough());
       CHECK(held.NotTooOften());
     }

@@ -197,7 +197,7 @@ TEST_CASE("tiles of pixels with common paths raise no false alarms", "[study]") 
     };
     Moments moments = Simulate(r, 6, 0.001, random, shift).moments;
     independent += !TestTiles(moments, r, 16, 0.01).failed.empty();
-    moments.pixels_as_one = PixelsAsOne(16 * 16);
+    moments.pixels_as_one = DependenceFactor(16 * 16);
     alarms += !TestTiles(moments, r, 16, 0.01).failed.empty();
   }
   CHECK(independent == 40);

@@ -93,7 +93,7 @@ TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts
 
 TEST_CASE("any split: wavelengths that tiles share", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "reuse=block:16");
-  r.settings.transport = AskedTransport::kSpectral;
+  r.settings.transport = TransportSetting::kSpectral;
   CheckCuts(r, {3, 7});
 }
 

@@ -28,7 +28,7 @@ std::string SpectralText(const std::string& film, const std::string& world,
 
 Job SpectralJob(const std::string& text, std::uint64_t spp = 16,
                 const std::string& strategy = "",
-                std::optional<AskedTransport> asked = std::nullopt) {
+                std::optional<TransportSetting> asked = std::nullopt) {
   RenderSettings settings;
   settings.spp = spp;
   settings.seed = 3;
@@ -216,7 +216,7 @@ TEST_CASE("spectral film: other films have no stages for it", "[render][plan][bu
   std::string plain = text;
   plain.replace(plain.find("\"spectral\""), 10, "\"rgb\"");
   const Job with = SpectralJob(text);
-  const Job without = SpectralJob(plain, 16, "", AskedTransport::kSpectral);
+  const Job without = SpectralJob(plain, 16, "", TransportSetting::kSpectral);
   CHECK(with.plan.features.Has(Feature::kSpectralFilm));
   CHECK_FALSE(without.plan.features.Has(Feature::kSpectralFilm));
   CHECK(SamplePlanes(with.plan.features).count() == 7);
@@ -232,19 +232,19 @@ TEST_CASE("spectral film: other films have no stages for it", "[render][plan][bu
 
 TEST_CASE("spectral film: it selects spectral transport", "[render][spectral][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment);
-  for (const auto asked : {AskedTransport::kSpectral, AskedTransport::kByScene}) {
+  for (const auto asked : {TransportSetting::kSpectral, TransportSetting::kByScene}) {
     const Job job = SpectralJob(text, 1, "", asked);
     CHECK(job.scene.compiled->features.Has(Feature::kSpectral));
     CHECK(job.loaded->transport_why == "the film keeps spectra");
   }
-  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", AskedTransport::kRgb); }),
+  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", TransportSetting::kRgb); }),
              Catch::Contains("Film \"spectral\" keeps wavelengths") &&
                  Catch::Contains("--transport rgb"));
   const std::string says = SpectralText(
       "", kOneEnvironment, "Integrator \"path\" \"string transport\" \"rgb\"");
   CHECK_THAT(Refused([&] { SpectralJob(says); }),
              Catch::Contains("\"transport\" \"rgb\" of its Integrator"));
-  CHECK_NOTHROW(SpectralJob(says, 1, "", AskedTransport::kSpectral));
+  CHECK_NOTHROW(SpectralJob(says, 1, "", TransportSetting::kSpectral));
 }
 
 TEST_CASE("spectral film: RGB-only settings are refused", "[render][buckets]") {

@@ -35,7 +35,7 @@ TransportChoice ChoiceFor(const std::string& world, const std::string& strategy 
   return ChooseTransport(SceneOf(world), {&asked, 1});
 }
 
-Job JobOf(const std::string& world, std::optional<AskedTransport> asked) {
+Job JobOf(const std::string& world, std::optional<TransportSetting> asked) {
   RenderSettings settings;
   settings.transport = asked;
   return PrepareJob(SceneOf(world), settings);
@@ -98,13 +98,13 @@ TEST_CASE("transport: RGB with a reason where spectral is not supported",
 
 TEST_CASE("transport: a job uses the requested transport", "[render][spectral]") {
   const std::string scene = kLamp + kCopper;
-  const Job rgb = JobOf(scene, AskedTransport::kRgb);
+  const Job rgb = JobOf(scene, TransportSetting::kRgb);
   CHECK(rgb.scene.compiled->integrator.transport == Transport::kRgb);
   CHECK(rgb.loaded->transport_why.empty());
   CHECK_FALSE(rgb.plan.features.Has(Feature::kSpectral));
   // The scene decides by default.
   for (const auto asked :
-       {std::optional<AskedTransport>(), std::optional(AskedTransport::kByScene)}) {
+       {std::optional<TransportSetting>(), std::optional(TransportSetting::kByScene)}) {
     const Job chosen = JobOf(scene, asked);
     CHECK(chosen.plan.features.Has(Feature::kSpectral));
     CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
@@ -115,17 +115,17 @@ TEST_CASE("transport: a job uses the requested transport", "[render][spectral]")
   SceneDescription says = SceneOf(scene);
   says.integrator.transport = Transport::kRgb;
   CHECK_FALSE(PrepareJob(says, {}).plan.features.Has(Feature::kSpectral));
-  CHECK(JobOf(scene, AskedTransport::kSpectral).plan.features.Has(Feature::kSpectral));
+  CHECK(JobOf(scene, TransportSetting::kSpectral).plan.features.Has(Feature::kSpectral));
   const Job dark =
       JobOf("LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n" + kCopper,
-            AskedTransport::kByScene);
+            TransportSetting::kByScene);
   CHECK_FALSE(dark.plan.features.Has(Feature::kSpectral));
   CHECK(Notes(dark, "rendered in red, green and blue, since"));
 }
 
 TEST_CASE("transport: compared renders use the same transport", "[render][spectral]") {
   RenderSettings settings;
-  settings.transport = AskedTransport::kByScene;
+  settings.transport = TransportSetting::kByScene;
   Strategy& block = settings.compared.emplace_back();
   ApplyStrategy("reuse=block", {}, block);
   const Job job = PrepareJob(SceneOf(kLamp + kGlass), settings);

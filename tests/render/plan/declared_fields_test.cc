@@ -59,7 +59,7 @@ class Checker {
     MakePathValues();
     if (plan_.features.Has(Feature::kContributionShadowRoulette)) {
       const auto pixels = std::size_t{run_.width} * run_.height;
-      tables_.shadow_worth.inverse.assign(3 * pixels, 0.5f);
+      tables_.shadow_threshold.inverse.assign(3 * pixels, 0.5f);
     }
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     if (plan_.features.Has(Feature::kReuse)) reuse_.emplace(plan_, scene_.strategy);

@@ -127,7 +127,7 @@ TEST_CASE("the leader counts the remaining samples of other ranks", "[ranks]") {
     work.RunRound({0, 12, 4}, patient);
     CHECK(work.Done() == 12);
     CHECK(work.IsAt(12));
-    CHECK(work.Taken() == 12 * kPixels);
+    CHECK(work.RenderedSamples() == 12 * kPixels);
     CHECK(work.Counts().samples < 12 * kPixels);
     work.RunRound({12, 16, 4}, patient);
     work.Gather();
@@ -154,7 +154,7 @@ TEST_CASE("moving tiles to a faster rank keeps the image bit-identical", "[ranks
     CHECK(dealt < kSpp * kPixels / 2);
     CountingWatch patient(1 << 30);
     work.RunRound({0, kSpp, 4}, patient);
-    CHECK(own.threads.Taken() > 3 * dealt / 2);
+    CHECK(own.threads.RenderedSamples() > 3 * dealt / 2);
     work.Gather();
     CHECK(work.Counts().samples == kSpp * kPixels);
     CHECK(work.IsAt(kSpp));

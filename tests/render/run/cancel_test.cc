@@ -160,7 +160,7 @@ Shape "sphere" "float radius" 3
     }
     CHECK(work.Done() == 64);
     CHECK(work.Counts().samples == 40 * 24 * 64);
-    CHECK(work.Taken() == 40 * 24 * 64);
+    CHECK(work.RenderedSamples() == 40 * 24 * 64);
     return film;
   };
   const FilmAccumulator whole = render({});

@@ -8,7 +8,7 @@ namespace lanelight::resume {
 namespace {
 
 // Begins a film with samples that all are 0.
-class LateStart : public RunKeeper {
+class LateStart : public Checkpointer {
  public:
   explicit LateStart(std::uint64_t first) : first_(first) {}
   bool Restore(RunState& state) override {
@@ -32,16 +32,16 @@ class LateStart : public RunKeeper {
 // Sums of samples [first, last), by replicate, of all pixels.
 std::vector<double> SumsOf(const std::string& strategy, std::uint64_t first,
                            std::uint64_t last, int threads = 2) {
-  LateStart keeper(first);
+  LateStart checkpointer(first);
   Request request;
   request.strategy = strategy;
   request.spp = last;
   request.threads = threads;
-  request.keeper = &keeper;
+  request.checkpointer = &checkpointer;
   const Rendered out = Render(request);
   CHECK(out.result.samples == last * kWidth * kHeight);
   CHECK(out.result.stop_reason == StopReason::kSamples);
-  const KeptColumn& sums = keeper.columns[1];
+  const KeptColumn& sums = checkpointer.columns[1];
   std::vector<double> values(sums.bytes.size() / sizeof(double));
   std::memcpy(values.data(), sums.bytes.data(), sums.bytes.size());
   return values;

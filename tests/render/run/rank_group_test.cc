@@ -13,7 +13,7 @@
 namespace lanelight {
 namespace {
 
-using resume::Pauser;
+using resume::InterruptingCheckpointer;
 using resume::Request;
 using resume::Rest;
 using resume::Same;
@@ -24,7 +24,7 @@ Rendered RenderOnRanks(int ranks, const Request& request) {
   OnRanks(ranks, [&](RankGroup& group) {
     Request own = request;
     own.group = &group;
-    if (!group.leads()) own.keeper = nullptr;
+    if (!group.leads()) own.checkpointer = nullptr;
     Rendered rendered = resume::Render(own);
     if (group.leads()) out.emplace(std::move(rendered));
   });
@@ -73,13 +73,13 @@ TEST_CASE("checkpoints can be resumed by any number of ranks", "[ranks]") {
     Rest rest;
     int pauses = 0;
     for (int ranks : {3, 1, 2, 4}) {
-      Pauser pauser(rest, 5 * ranks, /*stops=*/ranks != 4);
-      request.keeper = &pauser;
-      request.stop = &pauser.stop();
+      InterruptingCheckpointer interrupter(rest, 5 * ranks, /*stops=*/ranks != 4);
+      request.checkpointer = &interrupter;
+      request.stop = &interrupter.stop();
       const Rendered part = RenderOnRanks(ranks, request);
       pauses += part.result.stop_reason == StopReason::kInterrupted;
       if (ranks < 4) continue;
-      CHECK(pauser.kept() > 1);
+      CHECK(interrupter.kept() > 1);
       CHECK(Identical(part.film, alone.film));
       CHECK(Same(part.result, alone.result));
       CHECK(rest.counts.samples == 400 * resume::kWidth * resume::kHeight);

@@ -58,8 +58,8 @@ TEST_CASE("a training pass on several ranks has the samples of one process", "[r
 TEST_CASE("each task of a pass is rendered by one rank", "[ranks]") {
   std::vector<int> rendered(7);
   for (int rank = 0; rank < 3; ++rank) {
-    Meeting meeting(3);
-    ThreadRank group(meeting, rank);
+    RankExchange exchange(3);
+    ThreadRank group(exchange, rank);
     const RankPasses passes(group, nullptr);
     for (std::size_t task = 0; task < rendered.size(); ++task) {
       rendered[task] += passes.Renders(task);

@@ -21,9 +21,9 @@ struct Rest : RunRecord {
 };
 
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
-class Pauser : public RunKeeper {
+class InterruptingCheckpointer : public Checkpointer {
  public:
-  Pauser(Rest& rest, int max_calls, bool stops)
+  InterruptingCheckpointer(Rest& rest, int max_calls, bool stops)
       : rest_(rest), limit_(max_calls), stops_(stops) {}
 
   bool Restore(RunState& state) override {
@@ -58,7 +58,7 @@ struct Request {
   double target = 0;
   int threads = 2;
   std::uint32_t wavefront = 0;
-  RunKeeper* keeper = nullptr;
+  Checkpointer* checkpointer = nullptr;
   const std::atomic<bool>* stop = nullptr;
   RankGroup* group = nullptr;  // of which this is a rank
   bool keep_roulette = true;

@@ -15,17 +15,17 @@ constexpr std::size_t kPerPixel = 3 * kWidth * kHeight;  // 7770
 // Half a run, and what is left of it.
 Rest HalfOf(const Request& request, int max_calls = 7) {
   Rest rest;
-  Pauser pauser(rest, max_calls, true);
+  InterruptingCheckpointer interrupter(rest, max_calls, true);
   Request half = request;
-  half.keeper = &pauser;
-  half.stop = &pauser.stop();
+  half.checkpointer = &interrupter;
+  half.stop = &interrupter.stop();
   CHECK(Render(half).result.stop_reason == StopReason::kInterrupted);
   return rest;
 }
 
 FilmAccumulator RestOf(Request request, Rest rest) {
-  Pauser pauser(rest, 1 << 30, true);
-  request.keeper = &pauser;
+  InterruptingCheckpointer interrupter(rest, 1 << 30, true);
+  request.checkpointer = &interrupter;
   return Render(request).film;
 }
 

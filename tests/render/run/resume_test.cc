@@ -78,8 +78,8 @@ TEST_CASE("a resumed render may lower its error target", "[resume]") {
       CHECK(Identical(parts.film, whole.film));
       CHECK(Same(parts.result, whole.result));
       // Finished samples are not rendered again.
-      Pauser pauser(rest, 1 << 30, true);
-      request.keeper = &pauser;
+      InterruptingCheckpointer interrupter(rest, 1 << 30, true);
+      request.checkpointer = &interrupter;
       CHECK(Same(Render(request).result, whole.result));
     }
   }

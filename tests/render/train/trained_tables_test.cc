@@ -26,7 +26,7 @@ StrategyTables SmallTables() {
   fill(p.survive, p.grid.cells());
   fill(p.split, p.grid.cells());
   fill(p.inverse_pixel, 3 * kPixels);
-  fill(tables.shadow_worth.inverse, 3 * kPixels);
+  fill(tables.shadow_threshold.inverse, 3 * kPixels);
   return tables;
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("trained tables round-trip bit-identically", "[state]") {
   CHECK(back.path_values.survive == tables.path_values.survive);
   CHECK(back.path_values.split == tables.path_values.split);
   CHECK(back.path_values.inverse_pixel == tables.path_values.inverse_pixel);
-  CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
+  CHECK(back.shadow_threshold.inverse == tables.shadow_threshold.inverse);
   // Nothing has been learned.
   CHECK(ErrorOf(ExportTraining(StrategyTables()), kPixels) == "");
 }

@@ -134,8 +134,8 @@ TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   const auto milder_roulette = [&](const std::string& given, const std::string& changes) {
     PlanOptions options = WithChanges(scene, {}, given);
     StrategyTrial trial(scene, training, 1, 1 << 16);
-    TriedStrategy baseline = ToTry(scene, options, "", 1);
-    TriedStrategy tried = ToTry(scene, options, changes, 1);
+    TriedStrategy baseline = PrepareTrial(scene, options, "", 1);
+    TriedStrategy tried = PrepareTrial(scene, options, changes, 1);
     trial.Begin(1024);
     REQUIRE(trial.Try(baseline, baseline));
     REQUIRE(trial.Try(tried, baseline));

@@ -132,7 +132,8 @@ std::vector<Point> BrightTexel(double bright, const Effort& effort) {
                ViewOfPlane() + Plane(Diffuse(0.5)) + sky.Text(), kLitOnce, effort);
     // A light sample that picks another texel misses nearly all of the light.
     const double others = TexelSky::kSize * TexelSky::kSize - 1;
-    if (share > 0) point = WithRare(point, others / (others + bright), point.expected);
+    if (share > 0)
+      point = AllowForRareSamples(point, others / (others + bright), point.expected);
     points.push_back(Named(name, point));
   }
   return points;

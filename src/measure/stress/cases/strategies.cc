@@ -72,7 +72,8 @@ std::vector<Point> ByRoughness(double alpha, const Effort& effort) {
   for (Point& point : points) {
     if (!point.not_measured.empty()) continue;
     // Facets that send light below the surface: about alpha^2 of them.
-    if (!smooth && alpha < 0.5) point = WithRare(point, alpha * alpha, point.expected);
+    if (!smooth && alpha < 0.5)
+      point = AllowForRareSamples(point, alpha * alpha, point.expected);
     point.tolerance += 1e-4 * point.expected;  // of the integral
   }
   return points;

@@ -26,7 +26,7 @@ std::vector<std::string> Strategies() {
 constexpr double kMinExpectedHits = 40;
 
 // Its pilot, which has the default roulette, saw too little for a rule of its own.
-bool FoundNothing(const std::string& strategy, const RunResult& result) {
+bool HitNoLight(const std::string& strategy, const RunResult& result) {
   return HasTraining(strategy) && result.roulette == Roulette::kThroughput;
 }
 
@@ -47,7 +47,7 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
   }
   try {
     const JobRun rendered = RenderText(setup);
-    if (FoundNothing(strategy, rendered.result)) {
+    if (HitNoLight(strategy, rendered.result)) {
       return NotMeasured(strategy, rendered.result.training.note);
     }
     Point point = MeanOf(rendered);

@@ -48,20 +48,20 @@ double BaselineVariance(const std::vector<double>& variances) {
 
 }  // namespace
 
-TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
+TrainingOutcome TrainShadowThreshold(const TrainingContext& context) {
   const std::uint64_t samples = std::clamp<std::uint64_t>(
       context.options.planned_samples / 100, 1, kMaxShadowSamples);
   const TrainingWork work = MakeTrainingWork(context.scene, samples);
-  ShadowWorth& worth = context.tables.shadow_worth;
-  worth.inverse.clear();  // the pass traces every ray
+  ShadowThreshold& pixel_threshold = context.tables.shadow_threshold;
+  pixel_threshold.inverse.clear();  // the pass traces every ray
   const TrainingSamples pass = ShadowPass(context, work);
   const ImageGuess image = GuessImage(context.scene, pass, work);
   const double variance = BaselineVariance(RelativeVariances(pass, work, image));
   const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
   const Film& film = context.scene.view->film;
-  worth.inverse = InverseShadowWorth(image, std::uint32_t(film.width * film.height),
-                                     std::sqrt(kStratified * variance * share),
-                                     double{ExposureOf(context.scene)});
+  pixel_threshold.inverse = InverseShadowThreshold(
+      image, std::uint32_t(film.width * film.height),
+      std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});
   TrainingOutcome outcome;
   outcome.samples = pass.colors.size();
   outcome.rays = pass.rays();

@@ -11,8 +11,8 @@
 
 namespace lanelight {
 
-ReusedBvh FindTree(const Geometry& geometry, const AccelOptions& options,
-                   const CachedBvh* known) {
+ReusedBvh FindBvh(const Geometry& geometry, const AccelOptions& options,
+                  const CachedBvh* known) {
   const Stopwatch watch;
   ReusedBvh tree;
   tree.report.shared = known != nullptr && known->key == KeyOf(geometry, options);
