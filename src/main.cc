@@ -73,7 +73,7 @@ void SuggestFlag(const CLI::App& root, int argc, const char* const* argv) {
 // What a command line that was not understood, or asked for help, comes to.
 int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
                 const char* const* argv) {
-  const bool asked = error.get_exit_code() == 0;  // --help, --version
+  const bool is_help = error.get_exit_code() == 0;  // --help, --version
   std::ostringstream out, err;
   const auto commands = root.get_subcommands();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !commands.empty()) {
@@ -85,7 +85,7 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
     root.exit(error, out, err);
   }
   Print(out.str());
-  if (asked) return kExitGood;
+  if (is_help) return kExitGood;
   if (std::string text = err.str(); !text.empty()) {
     if (text.back() == '\n') text.pop_back();
     PrintError(text);

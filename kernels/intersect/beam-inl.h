@@ -85,14 +85,14 @@ LANELIGHT_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
   }
   uint32_t bits = 0;
   for (int i = 0; i < Leaf::kLanes; i += kStep) {
-    const auto least = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
+    const auto minimum = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
       return Min3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
     };
     const auto largest = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
       return Max3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
     };
     const V zero = hn::Zero(d);
-    const auto below = hn::Le(hn::Max(least(lo[0]), least(lo[1])), zero);
+    const auto below = hn::Le(hn::Max(minimum(lo[0]), minimum(lo[1])), zero);
     const auto above = hn::Ge(hn::Min(largest(hi[0]), largest(hi[1])), zero);
     bits |= MaskBits(d, hn::And(below, above)) << i;
   }

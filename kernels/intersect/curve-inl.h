@@ -79,9 +79,9 @@ LANELIGHT_INLINE M8 MayMeet(const VisiblePieces<V8>& s, V8 t_max) {
   const V8 r = hn::Max(s.radius[0], s.radius[1]);
   const V8 reach = hn::Mul(r, hn::Sqrt(hn::MulAdd(cx, cx, hn::Mul(cy, cy))));
   const auto spans = [&](const V8 a[4], V8 low, V8 high) HWY_ATTR {
-    const V8 least = hn::Min(hn::Min(a[0], a[1]), hn::Min(a[2], a[3]));
-    const V8 most = hn::Max(hn::Max(a[0], a[1]), hn::Max(a[2], a[3]));
-    return hn::And(hn::Le(least, high), hn::Ge(most, low));
+    const V8 lowest = hn::Min(hn::Min(a[0], a[1]), hn::Min(a[2], a[3]));
+    const V8 highest = hn::Max(hn::Max(a[0], a[1]), hn::Max(a[2], a[3]));
+    return hn::And(hn::Le(lowest, high), hn::Ge(highest, low));
   };
   V8 across[4], along[4];
   for (int k = 0; k < 4; ++k) {
@@ -137,8 +137,8 @@ struct Nearing {
   /// The root between places where it is not above and above zero.
   LANELIGHT_INLINE V8 Root(V8 low, V8 high, V8 at_low, V8 at_high) const {
     const D8 d8;
-    const V8 share = hn::Div(at_low, hn::Sub(at_low, at_high));
-    V8 u = hn::MulAdd(hn::Sub(high, low), share, low);
+    const V8 fraction = hn::Div(at_low, hn::Sub(at_low, at_high));
+    V8 u = hn::MulAdd(hn::Sub(high, low), fraction, low);
     for (int i = 0; i < kCurveSteps; ++i) {
       const V8 value = At(u);
       const M8 above = hn::Gt(value, hn::Zero(d8));
@@ -193,10 +193,10 @@ LANELIGHT_INLINE void ForEachNearest(const VisiblePieces<V8>& s, M8 mask, Found&
   const auto clear = [&](V8 u, V8 t, V8 r) HWY_ATTR {
     const V8 dx = nearing.x.Slope(u), dy = nearing.y.Slope(u), dz = depth.Slope(u);
     const V8 across2 = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
-    const V8 least = hn::Mul(hn::Set(d8, kCurveClearance), r);
+    const V8 lowest = hn::Mul(hn::Set(d8, kCurveClearance), r);
     return hn::And(hn::Gt(t, zero),
                    hn::Gt(hn::Mul(hn::Mul(t, t), across2),
-                          hn::Mul(hn::Mul(least, least), hn::MulAdd(dz, dz, across2))));
+                          hn::Mul(hn::Mul(lowest, lowest), hn::MulAdd(dz, dz, across2))));
   };
   V8 low = zero, at_low = NearingEnd(s, 0, 1);
   const int brackets = IsAlongCurve(s, mask) ? kAlongBrackets : kCurveBrackets;

@@ -250,10 +250,10 @@ LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray,
   // Large triangles often straddle and small ones often have a small t det: few do both.
   const M near = hn::And(Straddles(d, at), hn::Le(hn::Abs(e.t_det), ray.t_scale));
   if (HWY_LIKELY(hn::AllFalse(d, hn::And(e.mask, near)))) return hit;
-  const M doubtful = UncertainSign(d, ray, at, e.t_det, hn::And(e.mask, near));
-  if (hn::AllFalse(d, doubtful)) return hit;
+  const M uncertain = UncertainSign(d, ray, at, e.t_det, hn::And(e.mask, near));
+  if (hn::AllFalse(d, uncertain)) return hit;
   hit.mask =
-      hn::Or(hn::AndNot(doubtful, hit.mask), hn::And(doubtful, is_ahead(doubtful)));
+      hn::Or(hn::AndNot(uncertain, hit.mask), hn::And(uncertain, is_ahead(uncertain)));
   return hit;
 }
 

@@ -12,18 +12,18 @@ LANELIGHT_BEGIN_KERNELS
 
 /// Returns the colour of a black body of at least kMinKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
-  const VF least = Splat(kMinKelvin);
-  const VF ratio = hn::Mul(hn::Max(kelvin, least), Splat(1 / kMinKelvin));
+  const VF min_kelvin = Splat(kMinKelvin);
+  const VF ratio = hn::Mul(hn::Max(kelvin, min_kelvin), Splat(1 / kMinKelvin));
   const VF at = hn::Mul(hn::Log(DF(), ratio), Splat(table.entries_per_log));
   // There are two entries at least.
   const auto last = static_cast<float>(table.colors.size() / 3 - 2);
   const VF low = hn::Clamp(hn::Floor(at), Splat(0), Splat(last));
-  const VF share = hn::Sub(at, low);
+  const VF fraction = hn::Sub(at, low);
   const VI entry = hn::Mul(hn::ConvertTo(DI(), low), hn::Set(DI(), 3));
   const auto channel = [&](int c) HWY_ATTR {
     const VF a = Gather(table.colors.data() + c, entry);
     const VF b = Gather(table.colors.data() + 3 + c, entry);
-    return hn::MulAdd(share, hn::Sub(b, a), a);
+    return hn::MulAdd(fraction, hn::Sub(b, a), a);
   };
   return {channel(0), channel(1), channel(2)};
 }

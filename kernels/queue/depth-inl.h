@@ -28,11 +28,11 @@ LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
 
 /// Returns the paths that may scatter once more.
 LANELIGHT_INLINE MF MayScatter(const Wave& wave, const Slots& slots) {
-  const VI most = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   const VI depth = Gather(wave.path.depth, slots);
-  if (wave.path.walked == nullptr) return hn::RebindMask(DF(), hn::Lt(depth, most));
+  if (wave.path.walked == nullptr) return hn::RebindMask(DF(), hn::Lt(depth, max_depth));
   const VI counted = hn::Sub(depth, Gather(wave.path.walked, slots));
-  const MF below = hn::RebindMask(DF(), hn::Lt(counted, most));
+  const MF below = hn::RebindMask(DF(), hn::Lt(counted, max_depth));
   return hn::Or(below, WalksInside(wave, slots));
 }
 

@@ -83,9 +83,9 @@ HWY_INLINE void ListSuffixes(const Wave& wave) {
   block.num_suffixes = 0;
   for (uint32_t i = 0; i < block.size; ++i) {
     const uint32_t r = block.records[i];
-    const float most = MaxSent(wave, r);
-    if (!(most > 0)) continue;
-    const float q = HWY_MIN(1.0f, most / block.certainly_kept);
+    const float maximum = MaxSent(wave, r);
+    if (!(maximum > 0)) continue;
+    const float q = HWY_MIN(1.0f, maximum / block.certainly_kept);
     if (!roulette.Keeps(q)) continue;
     SuffixRow& row = block.rows[block.num_suffixes];
     row = {r, block.num_suffixes++, 1 / q, SuffixPart::kEven};

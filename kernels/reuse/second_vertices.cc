@@ -50,10 +50,10 @@ HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
                          const AlignedVector<float>& table) HWY_ATTR {
     return column != nullptr ? Gather(column, slots) : Lookup(table, material);
   };
-  const VF least =
+  const VF minimum =
       hn::Min(alpha(p.alpha_x, materials.alpha_x), alpha(p.alpha_y, materials.alpha_y));
   const MF wide = hn::Or(hn::RebindMask(DF(), hn::Ne(kind, metal)),
-                         hn::Ge(least, Splat(kMinGlossyAlpha)));
+                         hn::Ge(minimum, Splat(kMinGlossyAlpha)));
   return hn::And(IsOfKinds(wave, slots, kGlossyKinds), wide);
 }
 

@@ -10,11 +10,12 @@
 //   variance    roulette adds E[x^2] (1/r - 1); splitting divides the variance of what
 //               follows by r. Survivors weigh at most 1 / kMinFactor times their parent
 //   cost        a hash and a compaction per vertex; copying the live columns per copy
-//   bound       a camera sample starts with a budget of kMostCopies, which its copies
+//   bound       a camera sample starts with a budget of kMaxSplitPaths, which its copies
 //               divide between them: copy c of k takes the names
 //               [branch + c b / k, branch + (c + 1) b / k) of its parent's b. So the
 //               result does not depend on how many slots happen to be free, names are
-//               unique, and live paths never need more than kMostCopies slots per sample
+//               unique, and live paths never need more than kMaxSplitPaths slots per
+//               sample
 #ifndef LANELIGHT_ROULETTE_WINDOW_INL_H_
 #define LANELIGHT_ROULETTE_WINDOW_INL_H_
 
@@ -118,11 +119,12 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   ForEachBatch(wave, queue, [&](const Slots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
     const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
-    const VF least = hn::IfThenElse(first, Splat(1.0f), Splat(kMinFactor));
-    const VF most = hn::ConvertTo(DF(), Gather(p.budget, slots));
+    const VF minimum = hn::IfThenElse(first, Splat(1.0f), Splat(kMinFactor));
+    const VF maximum = hn::ConvertTo(DF(), Gather(p.budget, slots));
     const VF wanted = Policy::Factor(wave, slots, beta);
     // Also catches what is not a number.
-    const VF r = hn::IfThenElse(hn::Gt(wanted, least), hn::Min(wanted, most), least);
+    const VF r =
+        hn::IfThenElse(hn::Gt(wanted, minimum), hn::Min(wanted, maximum), minimum);
     const VF whole = hn::Floor(r);
     const MF more = hn::Lt(DecisionNumber(wave, slots), hn::Sub(r, whole));
     const VF k = hn::Add(whole, hn::IfThenElseZero(more, Splat(1.0f)));

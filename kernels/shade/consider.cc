@@ -22,16 +22,16 @@ struct Reservoir {
 
   // Returns whether the candidate is taken. `candidate_weight` is finite and at least 0;
   // 0 is never taken, the first above 0 always is.
-  HWY_INLINE MF Take(VF candidate_weight) {
+  HWY_INLINE MF Accept(VF candidate_weight) {
     sum = hn::Add(sum, candidate_weight);
     const MF some = hn::Gt(candidate_weight, hn::Zero(DF()));
-    const VF share = hn::IfThenElseZero(some, hn::Div(candidate_weight, sum));
-    const MF take = hn::Lt(u, share);
+    const VF fraction = hn::IfThenElseZero(some, hn::Div(candidate_weight, sum));
+    const MF replaces = hn::Lt(u, fraction);
     const VF one = Splat(1.0f);
-    const VF part = hn::IfThenElse(take, share, hn::Sub(one, share));
-    const VF left = hn::Div(hn::IfThenElse(take, u, hn::Sub(u, share)), part);
+    const VF part = hn::IfThenElse(replaces, fraction, hn::Sub(one, fraction));
+    const VF left = hn::Div(hn::IfThenElse(replaces, u, hn::Sub(u, fraction)), part);
     u = hn::Min(left, Splat(0x1.fffffep-1f));
-    return take;
+    return replaces;
   }
 };
 
@@ -43,16 +43,16 @@ HWY_INLINE VF Luminance(V3 c) {
                     hn::MulAdd(c.y, Splat(0.715160f), hn::Mul(c.z, Splat(0.072169f))));
 }
 
-// Stores in the lanes of `take`; the others keep their values.
-HWY_INLINE void Replace(MF take, VF value, float* column, const StoreSlots& slots) {
-  Scatter(hn::IfThenElse(take, value, Gather(column, slots)), column, slots);
+// Stores in the lanes of `replaces`; the others keep their values.
+HWY_INLINE void Replace(MF replaces, VF value, float* column, const StoreSlots& slots) {
+  Scatter(hn::IfThenElse(replaces, value, Gather(column, slots)), column, slots);
 }
 
-// Makes the light sample in ls_* the kept one in the lanes of `take`.
-HWY_INLINE void KeepSample(const PathColumns& p, MF take, VF candidate_weight,
+// Makes the light sample in ls_* the kept one in the lanes of `replaces`.
+HWY_INLINE void KeepSample(const PathColumns& p, MF replaces, VF candidate_weight,
                            const StoreSlots& slots) {
   const auto copy = [&](const float* from, float* to)
-                        HWY_ATTR { Replace(take, Gather(from, slots), to, slots); };
+                        HWY_ATTR { Replace(replaces, Gather(from, slots), to, slots); };
   copy(p.ls_x, p.kept_x), copy(p.ls_y, p.kept_y), copy(p.ls_z, p.kept_z);
   copy(p.ls_r, p.kept_r), copy(p.ls_g, p.kept_g), copy(p.ls_b, p.kept_b);
   copy(p.ls_distance, p.kept_distance);
@@ -61,7 +61,7 @@ HWY_INLINE void KeepSample(const PathColumns& p, MF take, VF candidate_weight,
     copy(reinterpret_cast<const float*>(p.ls_light),
          reinterpret_cast<float*>(p.kept_light));
   }
-  Replace(take, candidate_weight, p.candidate_weight, slots);
+  Replace(replaces, candidate_weight, p.candidate_weight, slots);
 }
 
 // Advances numbers in [0, 1) on the grid of 24 bits by `step` of that grid modulo 1:
@@ -124,16 +124,16 @@ HWY_NOINLINE void ConsiderKind(Wave& wave) {
   // Without scattered rays that find lights, light samples count in full.
   const MisParameters mis =
       wave.run->features.Has(Feature::kMis) ? wave.run->mis : MisParameters{0, 0, 0};
-  ForEachBatch(wave, wave.queue(ShadeQueue(kKind)),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 Reservoir reservoir = {Gather(p.candidate_weight_sum, slots),
-                                        Gather(p.u_candidate, slots)};
-                 const VF candidate_weight = CandidateWeight(reader, mis, slots);
-                 KeepSample(p, reservoir.Take(candidate_weight), candidate_weight, slots);
-                 Scatter(reservoir.sum, p.candidate_weight_sum, slots);
-                 Scatter(reservoir.u, p.u_candidate, slots);
-                 AdvanceCandidate(p, wave.run->candidates, slots);
-               });
+  ForEachBatch(
+      wave, wave.queue(ShadeQueue(kKind)), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        Reservoir reservoir = {Gather(p.candidate_weight_sum, slots),
+                               Gather(p.u_candidate, slots)};
+        const VF candidate_weight = CandidateWeight(reader, mis, slots);
+        KeepSample(p, reservoir.Accept(candidate_weight), candidate_weight, slots);
+        Scatter(reservoir.sum, p.candidate_weight_sum, slots);
+        Scatter(reservoir.u, p.u_candidate, slots);
+        AdvanceCandidate(p, wave.run->candidates, slots);
+      });
 }
 
 // The kinds that take light samples are those in kLit.

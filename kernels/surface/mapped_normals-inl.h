@@ -65,17 +65,17 @@ HWY_INLINE V3 Sided(V3 n, V3 ng, V3 before) {
 /// Turns `n`, a unit normal on the side of `ng`, as the top of this file says. `wo`
 /// points to the viewer and may be on either side.
 HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
-  const VF least = Splat(kMinCosine);
+  const VF min_cosine = Splat(kMinCosine);
   wo = Mul(wo, hn::CopySign(Splat(1.0f), Dot(ng, wo)));
   const VF cosine = Dot(n, wo);
   const V3 across = MulAdd(wo, hn::Neg(cosine), n);
   const float sine = 0.99987792f;  // sqrt(1 - kMinCosine^2)
-  const V3 grazed =
-      MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))), Mul(wo, least));
-  n = IfThenElse(hn::Lt(cosine, least), grazed, n);
+  const V3 grazed = MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))),
+                           Mul(wo, min_cosine));
+  n = IfThenElse(hn::Lt(cosine, min_cosine), grazed, n);
   // The mirrored viewer, lifted to the least height or to that of the viewer.
   const V3 mirrored = MulAdd(n, hn::Mul(Splat(2.0f), Dot(n, wo)), -wo);
-  const VF height = Dot(mirrored, ng), wanted = hn::Min(least, Dot(wo, ng));
+  const VF height = Dot(mirrored, ng), wanted = hn::Min(min_cosine, Dot(wo, ng));
   const V3 lifted = Normalize(MulAdd(ng, hn::Sub(wanted, height), mirrored));
   const MF low = hn::And(mirrors, hn::Lt(height, wanted));
   return IfThenElse(low, Normalize(lifted + wo), n);

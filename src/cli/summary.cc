@@ -99,9 +99,9 @@ std::string NextRow(const RenderReport& report, const Job& job,
 // Names the choices of the strategy that differ from the default.
 std::string StrategyRow(const RunResult& r, const Job& job) {
   const Strategy in_force = StrategyInForce(r, job);
-  Strategy usual;
-  usual.decide = in_force.decide;
-  const std::string changes = ChoicesNotIn(ToText(usual), ToText(in_force));
+  Strategy defaults;
+  defaults.decide = in_force.decide;
+  const std::string changes = ChoicesNotIn(ToText(defaults), ToText(in_force));
   if (changes.empty()) return "";
   const char* by =
       r.training.changes.empty() ? "" : " (chosen by a short trial run; details with -v)";

@@ -167,10 +167,10 @@ TEST_CASE("scenes without bump and normal maps have no stages for them",
   CHECK(scene.compiled->materials.normal_map_texture.empty());
   const Plan plan = MakePlan(scene, {});
   for (const PlannedStage& s : plan.paths().stages) {
-    const std::set<std::string> relief = {"footprints", "bumps", "normal_maps"};
-    CHECK(relief.count(s.stage.name) == 0);
+    const std::set<std::string> bump_stages = {"footprints", "bumps", "normal_maps"};
+    CHECK(bump_stages.count(s.stage.name) == 0);
   }
-  for (const Field field : {Field::ns_x, Field::tg_x, Field::tv_x, Field::spread_0}) {
+  for (const Field field : {Field::ns_x, Field::tg_x, Field::tv_x, Field::footprint_0}) {
     CHECK(std::count(plan.absent_fields.begin(), plan.absent_fields.end(), field) == 1);
   }
 }

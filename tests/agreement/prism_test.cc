@@ -92,10 +92,10 @@ Rgb ByLaw(double cut) {
   constexpr double kStep = 0.02;
   Rgb sum, all;
   for (double nm = kFirstCarriedNm; nm < kLastCarriedNm - 0.5 * kStep; nm += kStep) {
-    const Rgb share = WhiteFraction(nm) * kStep;
-    all += share;
+    const Rgb fraction = WhiteFraction(nm) * kStep;
+    all += fraction;
     const Arrival at = Through(index(nm));
-    if (at.height > cut) sum += share * (kRadiance * at.passes);
+    if (at.height > cut) sum += fraction * (kRadiance * at.passes);
   }
   return {sum.x / all.x, sum.y / all.y, sum.z / all.z};
 }

@@ -90,8 +90,9 @@ SceneDescription Patch(const ColorValue& reflectance, const ColorValue& light) {
 // Colour of light that a surface has changed, for light of luminance 1.
 Rgb ColorUnder(const Spectrum& light, const Spectrum& reflectance) {
   const Spectrum d65 = DaylightD65();
-  const Rgb lit = Seen([&](double nm) { return light(nm) * reflectance(nm) / d65(nm); });
-  return lit / Luminance(Seen([&](double nm) { return light(nm) / d65(nm); }));
+  const Rgb lit =
+      FilmRgb([&](double nm) { return light(nm) * reflectance(nm) / d65(nm); });
+  return lit / Luminance(FilmRgb([&](double nm) { return light(nm) / d65(nm); }));
 }
 
 }  // namespace
@@ -134,18 +135,18 @@ TEST_CASE("spectral: metamers match under one lamp only", "[spectral]") {
   const Spectrum bump = [](double nm) { return std::cos(nm / 22); };
   ColorMatrix m;
   for (int c = 0; c < 3; ++c) {
-    for (int k = 0; k < 3; ++k) m.row[c][k] = Seen(waves[k])[c];
+    for (int k = 0; k < 3; ++k) m.row[c][k] = FilmRgb(waves[k])[c];
   }
-  const Vec3d share = Inverse(m) * Seen(bump);
+  const Vec3d fraction = Inverse(m) * FilmRgb(bump);
   const Spectrum hidden = [&](double nm) {
-    return bump(nm) - share.x * waves[0](nm) - share.y * waves[1](nm) -
-           share.z * waves[2](nm);
+    return bump(nm) - fraction.x * waves[0](nm) - fraction.y * waves[1](nm) -
+           fraction.z * waves[2](nm);
   };
-  double most = 0;
-  for (int nm = 380; nm <= 780; ++nm) most = std::max(most, std::abs(hidden(nm)));
+  double maximum = 0;
+  for (int nm = 380; nm <= 780; ++nm) maximum = std::max(maximum, std::abs(hidden(nm)));
   const Spectrum plain = [](double) { return 0.5; };
-  const Spectrum other = [&](double nm) { return 0.5 + 0.45 * hidden(nm) / most; };
-  CHECK(Length(Seen(plain) - Seen(other)) < 1e-9);
+  const Spectrum other = [&](double nm) { return 0.5 + 0.45 * hidden(nm) / maximum; };
+  CHECK(Length(FilmRgb(plain) - FilmRgb(other)) < 1e-9);
   const Spectrum lamp = *SpectrumOfName("stdillum-A");
   Rgb color;
   REQUIRE(NamedSpectrum("stdillum-A", SpectrumUse::kIlluminant, &color));

@@ -92,14 +92,14 @@ std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
 
 void BiasPower::Add(const std::string& strategy, const BiasVerdict& verdict) {
   for (const std::string& choice : ChoicesOf(strategy)) {
-    auto& [tile, image] = least_.try_emplace(choice, 1e9, 1e9).first->second;
+    auto& [tile, image] = minimum_.try_emplace(choice, 1e9, 1e9).first->second;
     tile = std::min(tile, verdict.tile_power);
     image = std::min(image, verdict.image_power);
   }
 }
 
 void BiasPower::Check(double tile, double image) const {
-  for (const auto& [choice, power] : least_) {
+  for (const auto& [choice, power] : minimum_) {
     INFO(choice << ": a bias of " << 100 * power.first << " % of a tile, or of "
                 << 100 * power.second << " % of the image, would be found");
     CHECK((power.first < tile || power.second < image));
@@ -119,7 +119,7 @@ BiasPower CheckSceneBias(const std::vector<std::filesystem::path>& files,
       if (!Accepts(test.scene(), strategy) || IsBlind(files[i].string(), strategy))
         continue;
       const BiasVerdict verdict = test.Compare(strategy);
-      if (verdict.identical || !verdict.IsTelling()) continue;
+      if (verdict.identical || !verdict.HasPower()) continue;
       INFO(files[i] << ", " << strategy << ": " << verdict.worst);
       CHECK_FALSE(verdict.biased);
       power.Add(strategy, verdict);

@@ -38,11 +38,11 @@ AttributeBegin
 AttributeEnd
 )";
 
-std::vector<float> RenderWith(const std::string& scene, const std::string& most) {
+std::vector<float> RenderWith(const std::string& scene, const std::string& max_copies) {
   const TempDirectory directory;
   const ProcessResult r =
       RunLanelight({"render", scene, "-o", directory / "a.exr", "--resolution", "40x30",
-                    "--spp", "16", "--copied-triangles", most, "--quiet"});
+                    "--spp", "16", "--copied-triangles", max_copies, "--quiet"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   const Image image = ReadExr(directory / "a.exr");

@@ -82,10 +82,10 @@ TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
     if (line.rfind("scene", 0) != 0) CHECK(line.size() <= 100);
     if (line.rfind("total", 0) == 0) break;
     if (table) {
-      const double share = std::stod(line.substr(line.find('%') - 6, 6));
-      CHECK(share <= last);
-      last = share;
-      sum += share;
+      const double fraction = std::stod(line.substr(line.find('%') - 6, 6));
+      CHECK(fraction <= last);
+      last = fraction;
+      sum += fraction;
       ++rows;
     }
     table |= line.rfind("stage ", 0) == 0;
@@ -106,10 +106,10 @@ TEST_CASE("the JSON of a profile has the same values with more digits", "[cli]")
   CHECK(p.at("threads") == 2);
   CHECK(p.at("seed") == 3);
   CHECK(p.at("stopped_early") == false);
-  double shares = 0, seconds = 0;
+  double fractions = 0, seconds = 0;
   for (const Json& row : p.at("rows")) {
     INFO(row);
-    shares += row.at("share").get<double>();
+    fractions += row.at("share").get<double>();
     seconds += row.at("seconds").get<double>();
     if (row.at("kind") != "stage") continue;
     CHECK(row.at("calls") > 0);
@@ -124,7 +124,7 @@ TEST_CASE("the JSON of a profile has the same values with more digits", "[cli]")
         row.at("bytes_per_second").get<double>() ==
         Approx(bytes * row.at("items").get<double>() / row.at("seconds").get<double>()));
   }
-  CHECK(shares == Approx(1));
+  CHECK(fractions == Approx(1));
   CHECK(seconds == Approx(p.at("seconds").at("threads").get<double>()));
   CHECK(p.at("seconds").at("threads").get<double>() >=
         0.999 * p.at("seconds").at("cpu").get<double>());

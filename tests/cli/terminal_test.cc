@@ -90,10 +90,10 @@ TEST_CASE("output fits the terminal, without colours in a pipe", "[cli]") {
   CHECK(r.err.find('\r') == std::string::npos);
   const std::vector<std::string> bench = {
       "bench", scene, "--spp", "1", "--time", "100ms", "--threads", "1", "--within", "1"};
-  const ProcessResult usual = RunLanelight(bench, InColumns(""));
-  REQUIRE(usual.exit_code == kExitGood);
-  CHECK(WidestLine(usual.out) <= 80);
-  CHECK_THAT(usual.out, Contains("bytes/path") && Contains("repeats"));
+  const ProcessResult default_width = RunLanelight(bench, InColumns(""));
+  REQUIRE(default_width.exit_code == kExitGood);
+  CHECK(WidestLine(default_width.out) <= 80);
+  CHECK_THAT(default_width.out, Contains("bytes/path") && Contains("repeats"));
   const ProcessResult wide = RunLanelight(bench, InColumns("200"));
   CHECK(WidestLine(wide.out) > 80);
 }

@@ -85,13 +85,13 @@ bool OnlyMirrorsOrRefracts(MaterialKind kind) {
 // See kernels/surface/mapped_normals-inl.h.
 Vec3d KeepInView(Vec3d n, Vec3d ng, Vec3d wo, bool mirrors) {
   if (Dot(ng, wo) < 0) wo = -wo;
-  const double least = 1.0 / 64, steepest = std::acos(least);
-  if (Dot(n, wo) < least) {
+  const double min_cosine = 1.0 / 64, steepest = std::acos(min_cosine);
+  if (Dot(n, wo) < min_cosine) {
     const TangentFrame frame = MakeFrame(wo, n);
     n = std::sin(steepest) * frame.x + std::cos(steepest) * wo;
   }
   const Vec3d mirrored = 2 * Dot(n, wo) * n - wo;
-  const double wanted = std::min(least, Dot(wo, ng)), height = Dot(mirrored, ng);
+  const double wanted = std::min(min_cosine, Dot(wo, ng)), height = Dot(mirrored, ng);
   if (!mirrors || height >= wanted) return n;
   return Normalize(wo + Normalize(mirrored + (wanted - height) * ng));
 }

@@ -163,8 +163,9 @@ Rgb OnFilm(const Film& film, Rgb radiance) {
   const double x = 0.4124 * v.x + 0.3576 * v.y + 0.1805 * v.z;
   const double y = 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z;
   const double z = 0.0193 * v.x + 0.1192 * v.y + 0.9505 * v.z;
-  const double most = std::max({x, y, z});
-  if (most > film.response.max_component) v = v * (film.response.max_component / most);
+  const double maximum = std::max({x, y, z});
+  if (maximum > film.response.max_component)
+    v = v * (film.response.max_component / maximum);
   const Vec3d* m = film.response.matrix.row;
   return {m[0].x * v.x + m[0].y * v.y + m[0].z * v.z,
           m[1].x * v.x + m[1].y * v.y + m[1].z * v.z,

@@ -55,9 +55,9 @@ ThreadLimit::ThreadLimit(int threads)
                         : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
 
-int ThreadCount(int asked) {
+int ThreadCount(int requested) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return asked > 0 ? asked : static_cast<int>(cores);
+  return requested > 0 ? requested : static_cast<int>(cores);
 }
 
 int MaxThreads() {

@@ -50,9 +50,9 @@ class RankGroup {
   virtual std::vector<int> AllGather(int number) { return {number}; }
   /// Collective: the leader's bytes are put into those of the workers.
   virtual void Broadcast(std::span<char>) {}
-  /// Collective: `take` is called on the leader, for one worker after the other.
-  using Take = std::function<void(int rank, std::string_view bytes)>;
-  virtual void Gather(std::string_view, const Take&) {}
+  /// Collective: `receive` is called on the leader, for one worker after the other.
+  using Receiver = std::function<void(int rank, std::string_view bytes)>;
+  virtual void Gather(std::string_view, const Receiver&) {}
   /// Collective: the sum over all ranks, also of those that have failed. `should_stop` is
   /// asked while others are waited for; if it says so, there is no sum, and nothing
   /// collective may follow.

@@ -53,8 +53,8 @@ class WhiteFractions {
 };
 
 const WhiteFractions& Shares() {
-  static const WhiteFractions shares;
-  return shares;
+  static const WhiteFractions fractions;
+  return fractions;
 }
 
 Rgb SumBelow(const Vec3d& nm) {
@@ -91,8 +91,8 @@ Vec3d Solve(Vec3d nm, Rgb wanted) {
 
 // Weight of a wavelength in the response of the film.
 double Weight(double nm) {
-  const Rgb share = Shares().Density(nm);
-  return std::abs(share.x) + std::abs(share.y) + std::abs(share.z) + 1e-12;
+  const Rgb fraction = Shares().Density(nm);
+  return std::abs(fraction.x) + std::abs(fraction.y) + std::abs(fraction.z) + 1e-12;
 }
 
 double WeightedMean(double low, double high, const Spectrum& spectrum) {
@@ -111,8 +111,8 @@ WavelengthBins MakeBins() {
   Vec3d nm = {kFirstCarriedNm, kSecondSegment, kThirdSegment};
   const Rgb first = SumBelow(nm);
   for (int i = 0; i < kTriples; ++i) {
-    const double share = double(i) / kTriples;
-    if (i > 0) nm = Solve(nm, first + Rgb{share, share, share});
+    const double fraction = double(i) / kTriples;
+    if (i > 0) nm = Solve(nm, first + Rgb{fraction, fraction, fraction});
     for (int s = 0; s < 3; ++s) bins.edge[s * kTriples + i] = nm[s];
   }
   bins.edge.back() = kLastCarriedNm;

@@ -63,9 +63,9 @@ Target Find(std::span<const Point> points, double error) {
   const Point& next = *(last - 1);
   if (next.error == error) return {next.samples, next.seconds, false};
   if (last == points.rend()) return Continue(points, points.front(), error);
-  const double share = (error - last->error) / (next.error - last->error);
-  return {last->samples + share * (next.samples - last->samples),
-          last->seconds + share * (next.seconds - last->seconds), false};
+  const double fraction = (error - last->error) / (next.error - last->error);
+  return {last->samples + fraction * (next.samples - last->samples),
+          last->seconds + fraction * (next.seconds - last->seconds), false};
 }
 
 // The levels as columns: error and seconds of each, a row for each repetition that all

@@ -50,11 +50,12 @@ struct Tried {
 };
 
 // Returns a gain with its 90 % interval, which includes the scatter of the cost of rays
-// between scenes. `least`: the lower end without noise.
-Interval WithUncertainty(const TrialGain& gain, double least, double price_spread) {
+// between scenes. `minimum`: the lower end without noise.
+Interval WithUncertainty(const TrialGain& gain, double minimum,
+                         double price_uncertainty) {
   const double error =
-      kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_spread);
-  return {std::exp(gain.log), std::exp(least - error), std::exp(gain.most + error)};
+      kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_uncertainty);
+  return {std::exp(gain.log), std::exp(minimum - error), std::exp(gain.maximum + error)};
 }
 
 std::uint32_t SppFor(std::uint64_t samples) {
@@ -92,14 +93,14 @@ class Adviser {
   }
   // Returns the samples of each candidate in a round with this fraction of the trial. The
   // cost of a new combination is that of its first part.
-  std::uint64_t SamplesFor(const std::vector<Tried>& tried, double share) const {
+  std::uint64_t SamplesFor(const std::vector<Tried>& tried, double fraction) const {
     double rays = 0;
     for (const Tried& t : tried) {
       const bool known = !t.entry.measure.variances.empty();
       rays += (known ? t : tried[1]).entry.measure.cost;
     }
     if (rays == 0) return 0;
-    return std::uint64_t(share * pilot_ * kRaysPerSecond / rays);
+    return std::uint64_t(fraction * pilot_ * kRaysPerSecond / rays);
   }
 
   // Returns the candidates of the first round: as many as can have kMinSamples samples.
@@ -110,8 +111,8 @@ class Adviser {
     }
     const double of_all = double(kMinSamples) * kTypicalRays * double(tried.size());
     advice_.seconds_to_try = of_all / (kProbe * kRaysPerSecond);
-    const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
-    const auto reached = std::size_t(share * double(tried.size()));
+    const double fraction = std::min(1.0, pilot_ / advice_.seconds_to_try);
+    const auto reached = std::size_t(fraction * double(tried.size()));
     for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
       all_[tried[i].index].reason = "the trial's time did not reach it";
     }
@@ -119,8 +120,8 @@ class Adviser {
     return tried;
   }
 
-  bool Round(std::vector<Tried>& tried, double share) {
-    const std::uint64_t samples = std::max(SamplesFor(tried, share), kMinSamples);
+  bool Round(std::vector<Tried>& tried, double fraction) {
+    const std::uint64_t samples = std::max(SamplesFor(tried, fraction), kMinSamples);
     advice_.interrupted |= IsTooSlow() || !TryAll(tried, samples);
     if (advice_.interrupted) return false;
     for (const Tried& t : tried) {
@@ -135,7 +136,7 @@ class Adviser {
 
   // Tries the default first, on pixels of no other round. Returns false if stopped.
   bool TryAll(std::vector<Tried>& tried, std::uint64_t samples) {
-    trial_.Begin(samples, SppFor(samples), turn_++);
+    trial_.Begin(samples, SppFor(samples), round_++);
     for (Tried& t : tried) {
       const AdvisedCandidate& c = all_[t.index];
       if (!t.entry.has_learned) {
@@ -165,7 +166,7 @@ class Adviser {
     TrialGain gain = t.entry.EfficiencyGain();
     const double by_all = GainOf(t.entry.measure, t.entry.baseline).log;
     gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
-    return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_spread);
+    return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_uncertainty);
   }
 
   // Drops, after few samples, candidates that are not expected to become the best.
@@ -242,7 +243,7 @@ class Adviser {
     both.meaning = "gains where most of the noise is indirect light";
     const Interval baseline = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
     const Interval more =
-        WithUncertainty(blocks.gain, blocks.gain.least, kReusePriceSpread);
+        WithUncertainty(blocks.gain, blocks.gain.minimum, kReusePriceUncertainty);
     both.efficiency = {baseline.value * more.value, baseline.low * more.low,
                        baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
@@ -299,7 +300,7 @@ class Adviser {
   const double pilot_;  // seconds of kRaysPerSecond
   const TrainingOptions training_;
   StrategyTrial trial_;
-  std::uint64_t turn_ = 0;  // of rounds
+  std::uint64_t round_ = 0;  // of rounds
   std::size_t chosen_ = 0, unseen_ = 0;
   Advice advice_;
   std::vector<AdvisedCandidate>& all_ = advice_.candidates;

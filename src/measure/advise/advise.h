@@ -31,10 +31,10 @@ const char* Name(CandidateStatus status);
 
 /// A strategy to try on this scene, and its result.
 struct AdvisedCandidate {
-  Strategy strategy;                   // complete
-  std::string changes;                 // relative to the default
-  std::string meaning;                 // when it is more efficient
-  double price = 1, price_spread = 0;  // DecisionCandidate
+  Strategy strategy;                        // complete
+  std::string changes;                      // relative to the default
+  std::string meaning;                      // when it is more efficient
+  double price = 1, price_uncertainty = 0;  // DecisionCandidate
   CandidateStatus status = CandidateStatus::kSkipped;
   std::string reason = {};  // of the status
   /// Efficiency relative to the default (1 without bounds for the default itself) with

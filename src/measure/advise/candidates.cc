@@ -23,7 +23,7 @@ constexpr std::size_t kFewLights = 4;
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
 // Spread of the cost of a ray for strategies without measured cost.
-constexpr double kUnknownSpread = 0.15;
+constexpr double kUnknownPriceUncertainty = 0.15;
 
 // Returns why the scene refuses the strategy; empty if not, with `key` its plan's key.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
@@ -76,7 +76,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
   both.changes = a.changes;
   both.meaning = "both changes are more efficient";
   both.price = a.price * b.price;
-  both.price_spread = std::hypot(a.price_spread, b.price_spread);
+  both.price_uncertainty = std::hypot(a.price_uncertainty, b.price_uncertainty);
   return WithAddedChanges(both, b.changes);
 }
 
@@ -89,12 +89,12 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
     if (changed.strategy == own) continue;
     changed.meaning = c.reason;
     changed.price = c.price;
-    changed.price_spread = c.price_spread;
+    changed.price_uncertainty = c.price_uncertainty;
     out.push_back(changed);
   }
   if (own != baseline) {
     out.insert(out.begin() + kPlaceOfOwn,
-               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread});
+               {own, ToText(own), kOwnStrategy, 1, kUnknownPriceUncertainty});
   }
   std::vector<std::string> keys;
   for (AdvisedCandidate& candidate : out) {

@@ -21,10 +21,10 @@ std::string Name(AgreementVerdict verdict);
 /// Result of tests of equal means of the whole image and of its tiles, for each channel.
 struct Agreement {
   AgreementVerdict verdict = AgreementVerdict::kInconclusive;
-  std::string why;    // reason of kInconclusive
-  std::string doubt;  // reason to doubt kAgree; may be empty
-  double level = 0;   // probability of kDiffer for images that differ by noise alone
-  double p = 0;       // of all tests together; NaN for kInconclusive
+  std::string why;     // reason of kInconclusive
+  std::string caveat;  // reason to doubt kAgree; may be empty
+  double level = 0;    // probability of kDiffer for images that differ by noise alone
+  double p = 0;        // of all tests together; NaN for kInconclusive
   std::size_t tests = 0, untested = 0;  // untested: too few samples
   TileLayout layout;
   std::vector<double> z;            // of the worst channel of each tile; NaN: not tested

@@ -88,7 +88,7 @@ nlohmann::json AgreementJson(const Agreement& a) {
   tiles["failed"] = a.failed;
   return {{"verdict", Name(a.verdict)},
           {"why", a.why},
-          {"doubt", a.doubt},
+          {"doubt", a.caveat},
           {"text", AgreementText(a)},
           {"p", NumberJson(a.p)},
           {"false_alarm", a.level},

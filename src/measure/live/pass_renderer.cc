@@ -157,13 +157,13 @@ void CostMap::Add(const PixelRect& tile, const RunCounts& counts) {
     for (int x = tile.x0 / kCell; x < Cells(tile.x1); ++x) {
       const int w = std::min(tile.x1, (x + 1) * kCell) - std::max(tile.x0, x * kCell);
       const int h = std::min(tile.y1, (y + 1) * kCell) - std::max(tile.y0, y * kCell);
-      const double share = double(w) * h / pixels;
+      const double fraction = double(w) * h / pixels;
       Cell& cell =
           cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                  static_cast<std::size_t>(x)];
-      cell.samples += share * double(counts.samples);
-      cell.closest += share * double(counts.rays_closest);
-      cell.shadow += share * double(counts.rays_shadow);
+      cell.samples += fraction * double(counts.samples);
+      cell.closest += fraction * double(counts.rays_closest);
+      cell.shadow += fraction * double(counts.rays_shadow);
     }
   }
 }

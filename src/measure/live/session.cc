@@ -22,11 +22,11 @@ constexpr auto kCameraSettleTime = std::chrono::milliseconds(120);
 // Of strategies that have been left, so that coming back renders nothing again.
 constexpr std::size_t kMaxKeptBytes = std::size_t{256} << 20;
 
-int IndexOf(const json& message, const char* member, int most) {
+int IndexOf(const json& message, const char* member, int max_index) {
   const double value = message.at(member).get<double>();
-  if (!(value >= 0 && value <= most) || value != std::floor(value)) {
+  if (!(value >= 0 && value <= max_index) || value != std::floor(value)) {
     throw InputError(fmt::format("\"{}\" is {}; it must be a number from 0 to {}", member,
-                                 value, most));
+                                 value, max_index));
   }
   return static_cast<int>(value);
 }

@@ -87,9 +87,9 @@ std::optional<Work> Session::NextPass() {
   if (!work) return work;
   const double elapsed = SecondsSince(began_);
   work->spp = NextSpp(*work->renderer, std::clamp(elapsed / 4, 0.2, 2.0));
-  const auto most = static_cast<std::uint64_t>(other_spp);
-  if (pace_ == Pace::kSamples && work->renderer->spp() < most) {
-    work->spp = std::min(work->spp, most);
+  const auto max_spp = static_cast<std::uint64_t>(other_spp);
+  if (pace_ == Pace::kSamples && work->renderer->spp() < max_spp) {
+    work->spp = std::min(work->spp, max_spp);
   }
   if (work->spp > kMaxSamplesPerPixel) return std::nullopt;
   return work;

@@ -50,8 +50,10 @@ PointVerdict JudgeValue(const Point& point, double level) {
   if (!known || !std::isfinite(point.standard_error + point.tolerance)) {
     return Faulty(verdict, Fault::kNotNumber, "its error is not known");
   }
-  const double most = stat::StudentTwoSidedQuantile(level, point.degrees_of_freedom);
-  const double noise = point.standard_error > 0 ? most * point.standard_error : 0;
+  const double critical_value =
+      stat::StudentTwoSidedQuantile(level, point.degrees_of_freedom);
+  const double noise =
+      point.standard_error > 0 ? critical_value * point.standard_error : 0;
   verdict.allowance = point.tolerance + noise;
   verdict.detectable = Detectable(point, verdict.allowance);
   verdict.weak = !(verdict.detectable <= kWeakFrom);

@@ -174,8 +174,8 @@ std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& opt
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
 /// Appends a sentence, which may be empty, to a text.
 void AddSentence(const std::string& sentence, std::string& text);
-/// Returns "A, B and C", or "7 strategies" for more than `most`.
+/// Returns "A, B and C", or "7 strategies" for more than `max_names`.
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
-                      std::size_t most = kMaxNames);
+                      std::size_t max_names = kMaxNames);
 
 }  // namespace lanelight

@@ -157,8 +157,9 @@ void AddSentence(const std::string& sentence, std::string& text) {
 }
 
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
-                      std::size_t most) {
-  if (strategies.size() > most) return fmt::format("{} strategies", strategies.size());
+                      std::size_t max_names) {
+  if (strategies.size() > max_names)
+    return fmt::format("{} strategies", strategies.size());
   std::string text;
   for (std::size_t k = 0; k < strategies.size(); ++k) {
     text += k == 0 ? "" : k + 1 == strategies.size() ? " and " : ", ";

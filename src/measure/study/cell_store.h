@@ -60,7 +60,7 @@ struct Measurement {
   MachineInfo machine;
 
   bool HasSelf() const { return self_low <= self_high; }
-  bool SelfHolds() const { return self_low <= relmse && relmse <= self_high; }
+  bool SelfIntervalCovers() const { return self_low <= relmse && relmse <= self_high; }
 
  private:
   template <class T>

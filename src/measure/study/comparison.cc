@@ -37,12 +37,12 @@ class Comparison {
     std::vector<double> times;
     for (std::size_t i : out_.ranking) times.push_back(TimeOf(i));
     std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-    const double usual = times[times.size() / 2];
+    const double typical = times[times.size() / 2];
     for (std::size_t i : out_.ranking) {
       StrategyAnalysis& s = out_.strategies[i];
-      const double missed = std::log(TimeOf(i) / usual);
+      const double missed = std::log(TimeOf(i) / typical);
       s.budget_uncertainty =
-          Sensitivity(s) * std::hypot(runs_.strategies[i].count_spread,
+          Sensitivity(s) * std::hypot(runs_.strategies[i].count_deviation,
                                       std::isfinite(missed) ? missed : 0);
     }
   }
@@ -55,12 +55,12 @@ class Comparison {
   static double Sensitivity(const StrategyAnalysis& s) {
     if (!s.order_relmse) return 1;
     const Interval& order = *s.order_relmse;
-    double most = std::abs(1 + 2 * order.value);
-    if (!order.HasBounds()) return std::max(most, 1.0);
+    double maximum = std::abs(1 + 2 * order.value);
+    if (!order.HasBounds()) return std::max(maximum, 1.0);
     for (double bound : {order.low, order.high}) {
-      most = std::max(most, std::abs(1 + 2 * bound));
+      maximum = std::max(maximum, std::abs(1 + 2 * bound));
     }
-    return most;
+    return maximum;
   }
 
   Interval Relative(std::span<const stat::Cost> other_costs,

@@ -20,8 +20,8 @@ double SumRaw(const PixelError* begin, const PixelError* end) {
   return sum;
 }
 
-std::size_t Count(double share, std::size_t pixels) {
-  return std::max<std::size_t>(1, std::size_t(std::lround(share * double(pixels))));
+std::size_t Count(double fraction, std::size_t pixels) {
+  return std::max<std::size_t>(1, std::size_t(std::lround(fraction * double(pixels))));
 }
 
 void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {

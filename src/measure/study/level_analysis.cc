@@ -101,7 +101,7 @@ SelfCheck CheckSelf(const std::vector<Measurement>& all, double confidence) {
       continue;
     }
     ++self.total;
-    self.inside += m.SelfHolds();
+    self.inside += m.SelfIntervalCovers();
   }
   self.relmse = stat::MeanInterval(estimates, confidence);
   return self;

@@ -74,7 +74,7 @@ struct StrategyRuns {
   std::optional<std::size_t> same_as = {};  // index of the equal strategy of kSame
   /// Standard error of the logarithm of a budget's count, by the scatter of timed
   /// renders; 0 for given counts.
-  double count_spread = 0;
+  double count_deviation = 0;
 
   std::string Text() const { return ToText(named.strategy); }
 };

@@ -93,23 +93,23 @@ class TimedRenders {
     TimedStrategy& timed = renders_[i];
     timed.few.push_back(SecondsOf(Render(strategies_[i], timed.FewSpp()).result).cpu);
     const JobRun run = Render(strategies_[i], timed.spp);
-    const Seconds taken = SecondsOf(run.result);
+    const Seconds elapsed = SecondsOf(run.result);
     timed.for_small_error = ForSmallError(run.film, timed.spp);
-    timed.seconds.push_back(taken.cpu);
-    wall_per_cpu_.push_back(taken.wall / taken.cpu);
+    timed.seconds.push_back(elapsed.cpu);
+    wall_per_cpu_.push_back(elapsed.wall / elapsed.cpu);
   }
 
   Calibration Evaluate(const TimedStrategy& timed) const {
     std::vector<double> logarithms;
     for (double s : timed.seconds) logarithms.push_back(std::log(s));
     // The standard error of a median of normal values.
-    const double spread = StandardDeviation(logarithms) *
-                          std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
+    const double deviation = StandardDeviation(logarithms) *
+                             std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
     const double samples =
         SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
                         {double(timed.spp), stat::Median(timed.seconds)},
                         {double(timed.FewSpp()), stat::Median(timed.few)});
-    return {std::clamp(samples, 1.0, double(kMaxSpp)), spread, timed.for_small_error};
+    return {std::clamp(samples, 1.0, double(kMaxSpp)), deviation, timed.for_small_error};
   }
 
   const Job& job_;
@@ -167,7 +167,7 @@ void ChooseCounts(const StudyOptions& options, const Job& job,
   for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
     const Calibration& c = found[each ? i : 0];
     runs[i]->counts = CountsUpTo(each ? std::uint64_t(c.samples) : DefaultLargest(c));
-    runs[i]->count_spread = each ? c.spread : 0;
+    runs[i]->count_deviation = each ? c.deviation : 0;
   }
 }
 

@@ -236,7 +236,7 @@ std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
           const Measurement& m = cells.repetitions[r];
           text += fmt::format("{},{},{},{},{},{},{}\n", CsvQuoted(scene.runs.name),
                               CsvQuoted(runs.named.name), spp, r + 1, CsvRow(m),
-                              m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "",
+                              m.HasSelf() ? m.SelfIntervalCovers() ? "1" : "0" : "",
                               MachineCsvRow(m.machine));
         }
       }

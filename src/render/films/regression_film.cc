@@ -88,10 +88,10 @@ RegressionFilm::RegressionFilm(const PixelRect& window, const SampleGroups& grou
     : window_(window),
       groups_(groups),
       coefficient_(coefficient),
-      turns_(groups.replicates ? kReplicates : 2) {
+      replicates_(groups.replicates ? kReplicates : 2) {
   LL_CHECK(groups.unit == 1 || groups.replicates);
   const auto pixels = std::size_t(window.pixels());
-  ResizeInHugePages(sums_, pixels * turns_);
+  ResizeInHugePages(sums_, pixels * replicates_);
   ResizeInHugePages(colors_, pixels);
   ResizeInHugePages(products_, pixels);
   ResizeInHugePages(fitted_, pixels);
@@ -141,9 +141,9 @@ void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
   Products sums = products_[pixel][half];
   for (std::uint32_t i = 0; i < phi.size(); ++i) {
     const std::uint64_t sample = samples.first + begin + i;
-    const std::uint32_t turn = TurnOf(sample);
-    if (turn % 2 != half) continue;
-    Values& sum = sums_[pixel * turns_ + turn];
+    const std::uint32_t replicate = ReplicateOf(sample);
+    if (replicate % 2 != half) continue;
+    Values& sum = sums_[pixel * replicates_ + replicate];
     for (std::size_t j = 0; j < kFunctions; ++j) sum[j] += phi[i][j];
     for (int c = 0; c < 3; ++c) {
       const double f = double(samples.colors[c][begin + i]);
@@ -187,16 +187,16 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   if (all < 2) return out;
   // Beyond kMaxFittedSamples colours and functions know more than their products do.
   const double n = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half),
-               share = n / all;
+               fraction = n / all;
   const auto side = std::size_t(half);
   const Colors& own = colors_[pixel][side];
   const Products& sums = products_[pixel][side];
   out.freedom = float(n - 1);
   Values phi = {};
-  for (std::size_t t = side; t < turns_; t += 2) {
+  for (std::size_t t = side; t < replicates_; t += 2) {
     for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += Sums(pixel, t)[j];
   }
-  const auto inverse = float(share * share / n);
+  const auto inverse = float(fraction * fraction / n);
   const auto g = float((own.f[0] + own.f[1] + own.f[2]) / (3 * all));
   for (std::size_t j = 0; j < phi.size(); ++j) {
     out.squares[j] = std::max(0.0f, sums.squares[j] - phi[j] * phi[j] * inverse);
@@ -205,8 +205,8 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   }
   for (int c = 0; c < 3; ++c) {
     const double mean = own.f[c] / all;
-    out.ff[c] = float(std::max(0.0, own.ff[c] - own.f[c] * mean) * share);
-    const auto scale = float(mean * share);
+    out.ff[c] = float(std::max(0.0, own.ff[c] - own.f[c] * mean) * fraction);
+    const auto scale = float(mean * fraction);
     for (std::size_t j = 0; j < phi.size(); ++j) {
       out.products[c][j] = sums.products[c][j] - scale * phi[j];
     }
@@ -223,7 +223,7 @@ void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t 
   const double fitted = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half);
   const double more = fitted > 0 ? SamplesOfHalf(samples, half) / fitted : 0;
   for (int c = 0; c < 3; ++c) {
-    for (std::size_t t = side; t < turns_; t += 2) {
+    for (std::size_t t = side; t < replicates_; t += 2) {
       float sum = 0;
       for (std::size_t j = 0; j < b[c].size(); ++j) sum += b[c][j] * Sums(pixel, t)[j];
       out.corrections[t][c] = sum;
@@ -327,7 +327,7 @@ ControlReport RegressionFilm::Report(const ControlledColors& colors) const {
 std::vector<MutableStateColumn> RegressionFilm::Columns() {
   return {MakeStateColumn<float>("regression_sums",
                                  "sums of the functions, by replicate or half", sums_,
-                                 {turns_, kFunctions}),
+                                 {replicates_, kFunctions}),
           MakeStateColumn<double>("regression_colors",
                                   "sums of f, then of its square, by half and channel",
                                   colors_, {2, 2, 3}),

@@ -139,11 +139,11 @@ class RegressionFilm {
   };
   struct Scatter;
 
-  std::uint32_t TurnOf(std::uint64_t sample) const {
-    return std::uint32_t(sample / groups_.unit % turns_);
+  std::uint32_t ReplicateOf(std::uint64_t sample) const {
+    return std::uint32_t(sample / groups_.unit % replicates_);
   }
-  const Values& Sums(std::size_t pixel, std::size_t turn) const {
-    return sums_[pixel * turns_ + turn];
+  const Values& Sums(std::size_t pixel, std::size_t replicate) const {
+    return sums_[pixel * replicates_ + replicate];
   }
   double SamplesOfHalf(std::uint64_t samples, int half) const;
   Scatter ScatterOf(const ControlledColors& colors, std::size_t pixel, int half) const;
@@ -155,7 +155,7 @@ class RegressionFilm {
   PixelRect window_;
   SampleGroups groups_;
   double coefficient_;
-  std::uint32_t turns_;       // replicates, or halves
+  std::uint32_t replicates_;  // replicates, or halves
   std::vector<Values> sums_;  // of phi, by pixel and turn
   std::vector<Halves<Colors>> colors_;
   std::vector<Halves<Products>> products_;

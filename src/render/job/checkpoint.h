@@ -37,7 +37,7 @@ class StateLock {
 
  private:
   std::optional<LockFile> file_;  // none: no locks here
-  std::optional<HeldLock> lock_;
+  std::optional<ScopedLock> lock_;
 };
 
 /// Makes the content of a state, without tiles and window. `about`: further members of
@@ -116,7 +116,7 @@ class Checkpoint : public Checkpointer {
   CheckpointSettings settings_;
   const nlohmann::json identity_, head_;
   std::function<void(const std::string&)> on_problem_;
-  std::set<std::string> told_;  // problems
+  std::set<std::string> reported_;  // problems
   std::vector<PixelRect> tiles_;
   std::optional<StateLock> lock_;
   std::unique_ptr<StateFile> from_;

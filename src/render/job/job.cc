@@ -43,9 +43,9 @@ void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
       {choice.refused_at, "rendered in red, green and blue, since " + choice.why});
 }
 
-Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
+Job Prepare(LoadedScene loaded, const RenderSettings& requested) {
   Job job;
-  job.settings = asked;
+  job.settings = requested;
   const RenderSettings& settings = job.settings;
   SceneDescription& description = loaded.description;
   Stopwatch watch;

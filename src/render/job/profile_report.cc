@@ -110,11 +110,12 @@ ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks) {
   AddRows(result, report);
   AddSums(report);
   for (ProfileRow& row : report.rows) {
-    row.share = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
+    row.fraction = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
     if (row.kind == RowKind::kStage) PlaceOnRoofline(peaks, report.level, row);
   }
   std::ranges::sort(report.rows, [](const ProfileRow& a, const ProfileRow& b) {
-    return a.share != b.share ? a.share > b.share : a.counts.name < b.counts.name;
+    return a.fraction != b.fraction ? a.fraction > b.fraction
+                                    : a.counts.name < b.counts.name;
   });
   return report;
 }

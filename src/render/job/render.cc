@@ -95,7 +95,7 @@ struct ShownRun {
     options.group = hooks.group;
     options.on_training = hooks.on_training;
     if (hooks.on_progress) {
-      if (hooks.tells_error) error.Listen(job.window.pixels(), options);
+      if (hooks.reports_error) error.Listen(job.window.pixels(), options);
       options.on_progress = [&](const Progress& p) { hooks.on_progress(error.At(p)); };
     }
     if (!targets.display) return;
@@ -175,7 +175,7 @@ std::string PartialPath(const std::string& path) {
 }
 
 void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
-                    const RenderTargets& asked, const Json& members, Rendering& out) {
+                    const RenderTargets& requested, const Json& members, Rendering& out) {
   const std::uint64_t sampled = SampledPixels(film);
   out.report.unsampled_pixels =
       std::uint64_t(film.width()) * std::uint64_t(film.height()) - sampled;
@@ -187,7 +187,7 @@ void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
         fmt::format("{} pixels have no sample", facts.pixels - sampled);
   }
   const RenderTargets targets =
-      out.report.partial ? PartialTargets(asked, sampled > 0) : asked;
+      out.report.partial ? PartialTargets(requested, sampled > 0) : requested;
   out.report.black = IsBlack(film);
   ResultWriter writer;
   SaveImages(film, facts, targets, writer, out.report);

@@ -27,7 +27,7 @@ struct RenderTargets {
 
 struct RenderHooks {
   std::function<void(const RenderProgress&)> on_progress;
-  bool tells_error = false;  // progress has the error so far, which costs a little
+  bool reports_error = false;  // progress has the error so far, which costs a little
   std::function<void()> on_training;  // RunOptions
   std::function<void()> on_rendered;  // before anything is written
   /// Receives problems with states, watched images or the viewer; from any thread.

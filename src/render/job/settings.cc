@@ -83,26 +83,26 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
 }
 
 // A film that keeps spectra needs wavelengths.
-void ApplySpectralFilm(const std::optional<TransportSetting>& asked,
+void ApplySpectralFilm(const std::optional<TransportSetting>& requested,
                        std::optional<Transport>& transport) {
   const bool rgb =
-      asked ? *asked == TransportSetting::kRgb : transport == Transport::kRgb;
+      requested ? *requested == TransportSetting::kRgb : transport == Transport::kRgb;
   if (rgb) {
     throw InputError(fmt::format(
         "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
         "leave it out, or use Film \"rgb\"",
-        asked ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
+        requested ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
   }
   transport = Transport::kSpectral;
 }
 
 // Removes the transport where the scene decides.
-void ApplyTransport(const std::optional<TransportSetting>& asked,
+void ApplyTransport(const std::optional<TransportSetting>& requested,
                     std::optional<Transport>& transport) {
-  if (!asked) return;
+  if (!requested) return;
   transport.reset();
-  if (*asked == TransportSetting::kRgb) transport = Transport::kRgb;
-  if (*asked == TransportSetting::kSpectral) transport = Transport::kSpectral;
+  if (*requested == TransportSetting::kRgb) transport = Transport::kRgb;
+  if (*requested == TransportSetting::kSpectral) transport = Transport::kSpectral;
 }
 
 }  // namespace

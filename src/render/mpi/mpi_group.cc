@@ -102,13 +102,13 @@ void MpiGroup::Broadcast(std::span<char> bytes) {
   });
 }
 
-void MpiGroup::Gather(std::string_view bytes, const Take& take) {
+void MpiGroup::Gather(std::string_view bytes, const Receiver& receive) {
   PollFailures();
-  Collect(bytes, take);
+  Collect(bytes, receive);
 }
 
 // One worker after the other: the leader has room for the largest part only.
-void MpiGroup::Collect(std::string_view bytes, const Take& take) {
+void MpiGroup::Collect(std::string_view bytes, const Receiver& receive) {
   std::uint64_t size = bytes.size();
   const std::span<char> head(reinterpret_cast<char*>(&size), sizeof(size));
   if (!leads()) {
@@ -120,7 +120,7 @@ void MpiGroup::Collect(std::string_view bytes, const Take& take) {
     in_.resize(size);
     Receive(in_, r);
     bytes_ += size;
-    take(r, in_);
+    receive(r, in_);
   }
 }
 

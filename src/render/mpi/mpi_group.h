@@ -24,7 +24,7 @@ class MpiGroup : public RankGroup {
   std::uint64_t bytes() const override { return bytes_; }
   std::vector<int> AllGather(int number) override;
   void Broadcast(std::span<char> bytes) override;
-  void Gather(std::string_view bytes, const Take& take) override;
+  void Gather(std::string_view bytes, const Receiver& receive) override;
   std::optional<std::string> Swap(int partner, std::string bytes,
                                   const std::function<bool()>& should_stop) override;
   std::optional<RankStatus> Sum(const RankStatus& own,
@@ -35,7 +35,7 @@ class MpiGroup : public RankGroup {
  private:
   void PollFailures();
   [[noreturn]] void ThrowFailure();
-  void Collect(std::string_view bytes, const Take& take);
+  void Collect(std::string_view bytes, const Receiver& receive);
   bool SwapBytes(int partner, std::span<char> out, std::span<char> in,
                  const std::function<bool()>& should_stop);
 

@@ -21,9 +21,9 @@ struct RankLoad {
 };
 
 /// Returns the rank that `rank` compares itself with in this turn, or -1. Symmetric.
-inline int BalancePartner(int rank, int ranks, std::uint64_t turn) {
+inline int BalancePartner(int rank, int ranks, std::uint64_t round) {
   const auto dimensions = std::bit_width(static_cast<unsigned>(std::max(ranks - 1, 1)));
-  const int partner = rank ^ (1 << (turn % static_cast<unsigned>(dimensions)));
+  const int partner = rank ^ (1 << (round % static_cast<unsigned>(dimensions)));
   return partner < ranks ? partner : -1;
 }
 
@@ -50,9 +50,9 @@ class PollInterval {
   }
   /// Takes the sum of the status of all ranks.
   void Update(const RankStatus& all) {
-    const double seconds = since_.Lap(), taken = left_ - double(all.left);
+    const double seconds = since_.Lap(), rendered = left_ - double(all.left);
     left_ = double(all.left);
-    const double remaining = taken > 0 ? seconds * left_ / taken : kLongest;
+    const double remaining = rendered > 0 ? seconds * left_ / rendered : kLongest;
     until_next_ = std::clamp(remaining / 4, kShortest, kLongest);
   }
 

@@ -62,15 +62,15 @@ class RankWork::OwnRound {
   }
 
   /// Waits at most this long; returns whether the round has ended.
-  bool Wait(std::chrono::duration<double> most) {
-    const bool done = running_.wait_for(most) == std::future_status::ready;
+  bool Wait(std::chrono::duration<double> timeout) {
+    const bool done = running_.wait_for(timeout) == std::future_status::ready;
     const double seconds = since_.Lap();
     if (!done) busy_ += seconds;
     return done;
   }
   RankLoad load() const {
-    const std::uint64_t taken = RenderedSamples() - rendered_before_;
-    return {total_ - taken, busy_ > 0 ? double(taken) / busy_ : 0};
+    const std::uint64_t rendered = RenderedSamples() - rendered_before_;
+    return {total_ - rendered, busy_ > 0 ? double(rendered) / busy_ : 0};
   }
   std::vector<TileProgress> Release(std::uint64_t samples) {
     std::vector<TileProgress> tiles = scheduler().Release(samples);
@@ -164,7 +164,7 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
   } else if (all.behind > 0) {
     Gather();
   } else {
-    other_levels_ = {round.end, std::max(round.end, other_levels_.most)};
+    other_levels_ = {round.end, std::max(round.end, other_levels_.maximum)};
   }
 }
 
@@ -211,10 +211,10 @@ bool RankWork::Balance(std::uint64_t step, OwnRound& own,
   const std::uint64_t samples = SamplesToTransfer(mine, theirs);
   if (samples == 0 && SamplesToTransfer(theirs, mine) == 0) return true;
   std::string packed;
-  PackTiles(own.Release(samples), tiles(), films_, packed);
+  SerializeTiles(own.Release(samples), tiles(), films_, packed);
   const auto bytes = group_.Swap(partner, std::move(packed), should_stop);
   if (!bytes) return false;
-  own.Adopt(UnpackTiles(*bytes, tiles(), films_));
+  own.Adopt(DeserializeTiles(*bytes, tiles(), films_));
   return true;
 }
 
@@ -226,7 +226,7 @@ RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
   status.stopped = watcher.Stopped();
   status.cancelled = watcher.Cancelled();
   status.busy = !done;
-  status.behind = !done || threads_.Levels().least < round.end;
+  status.behind = !done || threads_.Levels().minimum < round.end;
   status.samples = threads_.RenderedSamples();
   return status;
 }
@@ -248,7 +248,8 @@ void RankWork::ReceivePiece(std::string_view bytes) {
   LL_CHECK_GE(bytes.size(), sizeof(counts));
   std::memcpy(&counts, bytes.data(), sizeof(counts));
   other_counts_.Add(counts);
-  other_levels_.Add(LevelsOf(UnpackTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
+  other_levels_.Add(
+      LevelsOf(DeserializeTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
 }
 
 void RankWork::SendPieces() {
@@ -261,8 +262,8 @@ void RankWork::SendPieces() {
   for (std::size_t i = 0; i < all; ++i) {
     bytes.clear();
     bytes += ToString(std::exchange(counts, {}));
-    PackTiles(i < pieces.size() ? pieces[i] : std::span<const TileProgress>(), tiles(),
-              films_, bytes);
+    SerializeTiles(i < pieces.size() ? pieces[i] : std::span<const TileProgress>(),
+                   tiles(), films_, bytes);
     group_.Gather(bytes, nullptr);
   }
 }

@@ -46,8 +46,8 @@ std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
 }  // namespace
 
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
-  const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
-  return std::uint32_t(seed ^ (seed >> 32) ^ (turn >> 32));
+  const std::uint64_t seed_offset = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
+  return std::uint32_t(seed ^ (seed >> 32) ^ (seed_offset >> 32));
 }
 
 RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,

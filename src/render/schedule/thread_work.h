@@ -59,11 +59,11 @@ class RoundRunner {
   virtual void Finish() {}
 
   /// Returns the samples per pixel that all tiles have.
-  std::uint64_t Done() const { return Levels().least; }
+  std::uint64_t Done() const { return Levels().minimum; }
   /// Returns whether all tiles have exactly so many samples per pixel.
   bool IsAt(std::uint64_t samples) const {
     const TileLevels levels = Levels();
-    return levels.least == samples && levels.most == samples;
+    return levels.minimum == samples && levels.maximum == samples;
   }
 };
 

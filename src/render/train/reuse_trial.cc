@@ -111,7 +111,7 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
   out.per_pixel = std::exp(out.gain.log);
   out.filtered =
       std::exp(GainOf(by_squares(shared, kReusePrice), by_squares(plain, 1)).log);
-  const double clear = out.gain.least - kGainStandardErrors * out.gain.standard_error;
+  const double clear = out.gain.minimum - kGainStandardErrors * out.gain.standard_error;
   out.gains_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
   out.pays = out.gains_per_pixel && out.filtered > kMinFilteredGain;
   return out;

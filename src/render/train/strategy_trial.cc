@@ -63,9 +63,10 @@ bool HasMilderRoulette(Strategy changed, const Strategy& baseline) {
 
 // Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
-  const Strategy given = PlannedStrategy(baseline.scene, baseline.options);
-  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
-         given.scale == 1 && given.First() == kThroughputFirst &&
+  const Strategy baseline_strategy = PlannedStrategy(baseline.scene, baseline.options);
+  return baseline_strategy.roulette == Roulette::kThroughput &&
+         baseline_strategy.Floor() == 0 && baseline_strategy.scale == 1 &&
+         baseline_strategy.First() == kThroughputFirst &&
          tried.changes == "roulette=adjoint";
 }
 
@@ -86,7 +87,7 @@ TrialGain TriedStrategy::Gain() const {
   TrialGain gain = EfficiencyGain();
   if (!paired)
     gain.log = std::min(gain.log, std::log(baseline.Score() / measure.Score()));
-  gain.log = std::min(gain.log, gain.least);
+  gain.log = std::min(gain.log, gain.minimum);
   return gain;
 }
 
@@ -102,9 +103,9 @@ bool TriedStrategy::IgnoresWorstPixels() const {
 }
 
 double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
-  const TrialGain told = EfficiencyGain();
+  const TrialGain gain = EfficiencyGain();
   const double must = std::log(must_gain);
-  if (told.least - standard_errors * told.standard_error <= must || MissesLight()) {
+  if (gain.minimum - standard_errors * gain.standard_error <= must || MissesLight()) {
     return 0;
   }
   if (IsCarriedByFew() && !IgnoresWorstPixels()) return 0;
@@ -136,8 +137,8 @@ StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& 
       planned_(planned),
       watcher_(training.stop) {}
 
-void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t turn) {
-  work_ = MakeTrainingWork(scene_, samples, spp, turn);
+void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t round) {
+  work_ = MakeTrainingWork(scene_, samples, spp, round);
   work_.spp -= work_.spp % kReplicates;
   image_.reset();
 }

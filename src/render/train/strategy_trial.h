@@ -23,7 +23,7 @@ struct DecisionCandidate {
   const char* reason;   // when it is more efficient
   /// Processor time of a counted ray (TrainingSamples::Cost) over that without the
   /// change, and how far the logarithm of that scatters from scene to scene.
-  double price, price_spread;
+  double price, price_uncertainty;
 };
 
 /// Least gain for which a change is chosen: a wrong change costs more than a missed one.
@@ -31,7 +31,7 @@ inline constexpr double kMinChangeGain = 1.05;
 
 /// Processor time of a counted ray with reuse=block relative to that without, and its
 /// scatter.
-inline constexpr double kReusePrice = 1.2, kReusePriceSpread = 0.27;
+inline constexpr double kReusePrice = 1.2, kReusePriceUncertainty = 0.27;
 
 // Costs are counted in rays, so that a choice depends on the scene only; prices make
 // up for what rays do not say. They are means over 32 scenes, 96 pixels wide, 64 spp, one
@@ -130,8 +130,8 @@ class StrategyTrial {
                 std::uint32_t seed, std::uint64_t planned);
 
   /// Renders about so many samples of each strategy from here on, `spp` in each pixel;
-  /// each `turn` has other pixels.
-  void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t turn = 0);
+  /// each `round` has other pixels.
+  void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t round = 0);
   /// Trains the strategy if needed, renders the pixels and fills its measures. The first
   /// one tried is the baseline strategy. Returns false if the user has stopped it.
   bool Try(TriedStrategy& tried, const TriedStrategy& baseline);

@@ -119,12 +119,12 @@ class Decider {
 
   TriedStrategy* Choose() {
     TriedStrategy* chosen = &entries_.front();
-    double most = 0;
+    double maximum = 0;
     for (TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
       const double beyond = entry.Beyond(kMinChangeGain, kStandardErrors);
-      if (beyond <= most) continue;
-      most = beyond;
+      if (beyond <= maximum) continue;
+      maximum = beyond;
       chosen = &entry;
     }
     Explain();

@@ -127,12 +127,13 @@ class Pilot {
                           std::max(events, 1.0));
     for (std::size_t i = 0; i < samples.records.size(); ++i) {
       const PathRecord& r = samples.records[i];
-      const double most =
+      const double maximum =
           ImageGuess::kClamp * image_->Brightness(work_.pixels[i / work_.spp]);
       for (int k = 0; k < kRecordedVertices; ++k) {
         const PathRecord::Vertex& v = r.vertices[k];
         if (v.cell == kNoCell || !(v.at > 0)) continue;
-        const double gathered = std::clamp<double>((r.end - v.got) * exposure, 0, most);
+        const double gathered =
+            std::clamp<double>((r.end - v.got) * exposure, 0, maximum);
         const double cost = std::max(1.0, double(r.depth) - k) * cost_of_event;
         records.Add(v.cell, gathered / v.at, cost);
       }

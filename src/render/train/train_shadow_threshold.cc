@@ -57,11 +57,11 @@ TrainingOutcome TrainShadowThreshold(const TrainingContext& context) {
   const TrainingSamples pass = ShadowPass(context, work);
   const ImageGuess image = GuessImage(context.scene, pass, work);
   const double variance = BaselineVariance(RelativeVariances(pass, work, image));
-  const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
+  const double fraction = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
   const Film& film = context.scene.view->film;
   pixel_threshold.inverse = InverseShadowThreshold(
       image, std::uint32_t(film.width * film.height),
-      std::sqrt(kStratified * variance * share), double{ExposureOf(context.scene)});
+      std::sqrt(kStratified * variance * fraction), double{ExposureOf(context.scene)});
   TrainingOutcome outcome;
   outcome.samples = pass.colors.size();
   outcome.rays = pass.rays();

@@ -10,7 +10,7 @@ namespace lanelight {
 namespace {
 
 struct Training {
-  Feature asks;
+  Feature trigger;
   TrainingOutcome (*train)(const TrainingContext&);
 };
 
@@ -35,7 +35,7 @@ void TrainingOutcome::Add(const TrainingOutcome& next) {
 bool NeedsTraining(const Plan& plan) {
   if (plan.features.Has(Feature::kDecides)) return true;
   for (const Training& t : kTrainings) {
-    if (plan.features.Has(t.asks)) return true;
+    if (plan.features.Has(t.trigger)) return true;
   }
   return false;
 }
@@ -44,7 +44,7 @@ TrainingOutcome Train(const TrainingContext& context) {
   if (context.plan.features.Has(Feature::kDecides)) return TrainDecision(context);
   TrainingOutcome all;
   for (const Training& t : kTrainings) {
-    if (!context.plan.features.Has(t.asks)) continue;
+    if (!context.plan.features.Has(t.trigger)) continue;
     all.Add(t.train(context));
   }
   return all;

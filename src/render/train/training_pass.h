@@ -62,10 +62,10 @@ struct TrainingSamples {
 };
 
 /// Chooses about `samples` samples (at least four), spread evenly over the rendered
-/// window, `spp` or more per pixel. Each `turn` has other pixels, unless all are taken.
+/// window, `spp` or more per pixel. Each `round` has other pixels, unless all are taken.
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
                               std::uint32_t spp = TrainingWork::kMinSpp,
-                              std::uint64_t turn = 0);
+                              std::uint64_t round = 0);
 
 /// Chooses whole tiles, as reuse=block needs them.
 TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,

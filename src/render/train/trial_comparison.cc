@@ -51,24 +51,26 @@ double TrialMeasure::Score() const { return cost * RobustMean(variances); }
 
 TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline) {
   LL_CHECK_EQ(other.variances.size(), baseline.variances.size());
-  const double others = other.Variance(), usuals = baseline.Variance();
-  const auto log_ratio = [&](double without_usual, double without_other) {
+  const double other_variance = other.Variance(), baseline_variance = baseline.Variance();
+  const auto log_ratio = [&](double without_baseline, double without_other) {
     constexpr double kMaxLogGain = 100;
-    const double u = usuals - without_usual, o = others - without_other;
+    const double u = baseline_variance - without_baseline,
+                 o = other_variance - without_other;
     if (o <= 0 && u <= 0) return 0.0;
     if (u <= 0) return -kMaxLogGain;
     return o <= 0 ? kMaxLogGain : std::log(baseline.cost * u / (other.cost * o));
   };
   TrialGain gain;
-  gain.log = gain.least = gain.most = log_ratio(0, 0);
-  if (others <= 0 || usuals <= 0) return gain;
+  gain.log = gain.minimum = gain.maximum = log_ratio(0, 0);
+  if (other_variance <= 0 || baseline_variance <= 0) return gain;
   double squares = 0;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
-    const double d = other.variances[i] / others - baseline.variances[i] / usuals;
+    const double d =
+        other.variances[i] / other_variance - baseline.variances[i] / baseline_variance;
     squares += d * d;
     const double without = log_ratio(baseline.variances[i], other.variances[i]);
-    gain.least = std::min(gain.least, without);
-    gain.most = std::max(gain.most, without);
+    gain.minimum = std::min(gain.minimum, without);
+    gain.maximum = std::max(gain.maximum, without);
   }
   gain.standard_error = std::sqrt(squares);
   return gain;

@@ -84,8 +84,8 @@ void BlockReuse::PlacePairs() {
       std::min(kMaxReceivers, paths_ + kMaxLanes * KindsOf(plan_.features));
   const std::uint32_t rows =
       plan_.features.Has(Feature::kReuseGlossy) ? 2 * paths_ : paths_;
-  const std::size_t most = std::size_t{receivers} * paths_;
-  const std::size_t stride = Placer(nullptr, most).stride();
+  const std::size_t maximum = std::size_t{receivers} * paths_;
+  const std::size_t stride = Placer(nullptr, maximum).stride();
   const std::size_t of_pairs = Placer(nullptr, std::size_t{receivers} * rows).stride();
   const std::size_t small = Placer(nullptr, receivers).stride();
   pairs_.resize(of_pairs * kColumnsOf<PairColumns> + stride * kRayColumns + small * 4);
@@ -93,7 +93,7 @@ void BlockReuse::PlacePairs() {
 #define X(type, name, meaning) placer.Place(block_.pairs.name);
   LANELIGHT_PAIR_COLUMNS(X)
 #undef X
-  Placer rays(placer.end(), most);
+  Placer rays(placer.end(), maximum);
   PathColumns& ray = wave_.path;
   for (float** column :
        {&ray.p_x, &ray.p_y, &ray.p_z, &ray.ng_x, &ray.ng_y, &ray.ng_z, &ray.p_error,
@@ -108,7 +108,7 @@ void BlockReuse::PlacePairs() {
   Placer rest(rays.end(), receivers);
   rest.Place(block_.receivers);
   for (float*& sums : block_.sums) rest.Place(sums);
-  wave_.capacity = std::uint32_t(most);
+  wave_.capacity = std::uint32_t(maximum);
 }
 
 void BlockReuse::MakeRoom(std::uint32_t samples, const PathColumns& paths) {
@@ -170,16 +170,16 @@ float BlockReuse::CertainlyKept(std::uint32_t sample) {
   const std::uint32_t pixels = wave_.work.num_pixels;
   sent_.clear();
   for (std::uint32_t i = 0; i < pixels; ++i) {
-    const float most = MaxSent(wave_, sample * pixels + i);
-    if (most > 0) sent_.push_back(most);
+    const float maximum = MaxSent(wave_, sample * pixels + i);
+    if (maximum > 0) sent_.push_back(maximum);
   }
   const double kept = kKeptSuffixes * double(sent_.size());
   double c = std::numeric_limits<double>::infinity();
   for (;;) {
     double dim = 0, bright = 0;
-    for (const float most : sent_) {
-      if (most < c) {
-        dim += most;
+    for (const float maximum : sent_) {
+      if (maximum < c) {
+        dim += maximum;
       } else {
         ++bright;
       }

@@ -94,7 +94,7 @@ class StageClock {
   std::uint64_t task_start_ = 0, ticks_ = 0;
   double task_cpu_ = 0, cpu_seconds_ = 0;
   // Counters follow the thread; threads may take over each other's workspaces.
-  bool want_counters_, first_ = true;
+  bool use_counters_, first_ = true;
   std::thread::id thread_;
   std::optional<CounterGroup> group_;
   CounterValues at_{};

@@ -64,7 +64,8 @@ TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
 
 SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
   const bool splits = plan_.features.Has(Feature::kSplitting);
-  const std::uint32_t rows = work.num_pixels * work.samples * (splits ? kMostCopies : 1);
+  const std::uint32_t rows =
+      work.num_pixels * work.samples * (splits ? kMaxSplitPaths : 1);
   const std::size_t size = std::size_t{rows} * std::size_t(run_.planes.count());
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
@@ -111,7 +112,7 @@ void TaskRunner::AddVisibleLights(const SampleRange& range, const PixelRect& rec
   visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
   const bool corrected =
       visible_lights_->Correct(seen, *space.visible_lights, clock, out.counts);
-  if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
+  if (clock && corrected) clock->FinishPart(TaskPart::kVisibleLights, seen.stride);
 }
 
 void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {

@@ -33,8 +33,8 @@ constexpr std::uint32_t kSmallLightRays = 256;
 constexpr std::uint32_t kFindSeed = 0x2545f491u;
 
 // Apart from the image's.
-std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
-  return (seed ^ 0x6a09e667u) + std::uint32_t(turn) * 0x9e3779b9u;
+std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t round) {
+  return (seed ^ 0x6a09e667u) + std::uint32_t(round) * 0x9e3779b9u;
 }
 
 struct Range {
@@ -185,9 +185,9 @@ bool VisibleLightEdges::Correct(const VisibleLightTask& task, VisibleLightRays& 
   if (edges.empty()) return false;
   const std::uint64_t each =
       samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
-  const std::size_t most = std::max<std::size_t>(1, kMaxRays / each);
-  for (std::size_t first = 0; first < edges.size(); first += most) {
-    CorrectPixels({edges.data() + first, std::min(most, edges.size() - first)}, task,
+  const std::size_t maximum = std::max<std::size_t>(1, kMaxRays / each);
+  for (std::size_t first = 0; first < edges.size(); first += maximum) {
+    CorrectPixels({edges.data() + first, std::min(maximum, edges.size() - first)}, task,
                   rays, clock);
   }
   // Counts the same rays for any split; rays that others of a turn need are traced again.
@@ -207,12 +207,12 @@ void VisibleLightEdges::CorrectPixels(const Places& places, const VisibleLightTa
              rays.own);
   const std::uint64_t end = task.begin + task.count;
   for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
-    const std::uint64_t turn = begin / kSamplesPerRaySeed;
-    next = std::min(end, (turn + 1) * kSamplesPerRaySeed);
-    const std::uint64_t base = turn * kSamplesPerRaySeed;
+    const std::uint64_t round = begin / kSamplesPerRaySeed;
+    next = std::min(end, (round + 1) * kSamplesPerRaySeed);
+    const std::uint64_t base = round * kSamplesPerRaySeed;
     const std::uint64_t first = samples_.Begin(begin - base);
     const auto count = std::uint32_t(samples_.End(next - base) - first);
-    rays.Trace({pixels.data(), places.count, RaySeed(seed, turn), first, count}, clock,
+    rays.Trace({pixels.data(), places.count, RaySeed(seed, round), first, count}, clock,
                rays.others);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t p = 0; p < places.count; ++p) {

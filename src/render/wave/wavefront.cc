@@ -104,15 +104,15 @@ Wave Wavefront::Narrowed(const FeatureSet& features) const {
 }
 
 void SumSplitPaths(float* values, std::uint32_t rows, const SamplePlanes& planes) {
-  const std::size_t samples = rows / kMostCopies;
-  LL_CHECK_EQ(samples * kMostCopies, rows);
+  const std::size_t samples = rows / kMaxSplitPaths;
+  LL_CHECK_EQ(samples * kMaxSplitPaths, rows);
   const auto fold = [&](int plane, bool sums) {
     const float* from = values + std::size_t(plane) * rows;
     float* to = values + std::size_t(plane) * samples;
     for (std::size_t i = 0; i < samples; ++i) {
-      float sum = from[i * kMostCopies];
-      for (std::uint32_t c = 1; c < kMostCopies && sums; ++c) {
-        sum += from[i * kMostCopies + c];
+      float sum = from[i * kMaxSplitPaths];
+      for (std::uint32_t c = 1; c < kMaxSplitPaths && sums; ++c) {
+        sum += from[i * kMaxSplitPaths + c];
       }
       to[i] = sum;
     }

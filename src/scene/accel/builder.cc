@@ -80,7 +80,7 @@ class TreeBuilder {
     if (count == 1) return range.begin;
     BuildItem* items = items_ + range.begin;
     const float area = box.HalfArea();
-    const bool may_cut = count >= cuts_.least && range.room() > count / 16;
+    const bool may_cut = count >= cuts_.minimum && range.room() > count / 16;
     ObjectSplit split;
     if (depth < kMaxSahDepth) {
       split = FindObjectSplit(
@@ -130,8 +130,8 @@ class TreeBuilder {
     range.end = range.limit = middle;
     if (second.room() == 0) return second;
     const double left = AreaOf(range), all = left + AreaOf(second);
-    const double share = all > 0 && std::isfinite(all) ? left / all : 0.5;
-    const auto room = static_cast<std::uint32_t>(share * second.room());
+    const double fraction = all > 0 && std::isfinite(all) ? left / all : 0.5;
+    const auto room = static_cast<std::uint32_t>(fraction * second.room());
     std::memmove(static_cast<void*>(items_ + middle + room), items_ + middle,
                  second.count() * sizeof(BuildItem));
     range.limit += room;

@@ -53,9 +53,9 @@ int HalvingsOf(const CurveRecord& curve) {
     bend = std::max(bend, Length(second));
   }
   const double width = std::max({curve.width[0], curve.width[1], 1e-30f});
-  const auto halvings = [](double pieces, int most) {
+  const auto halvings = [](double pieces, int maximum) {
     return pieces > 1
-               ? std::clamp(static_cast<int>(std::ceil(std::log2(pieces))), 0, most)
+               ? std::clamp(static_cast<int>(std::ceil(std::log2(pieces))), 0, maximum)
                : 0;
   };
   const double pieces = length / (kLong * width);

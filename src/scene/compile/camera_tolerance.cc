@@ -10,8 +10,8 @@ namespace {
 // Width of a pixel on the image plane at distance 1, or of an orthographic image.
 double PixelWidth(const Camera& camera, const Film& film) {
   const double* w = camera.screen_window;
-  const bool is_given = w[0] != w[1] && w[2] != w[3];
-  if (!is_given) return 2.0 / std::min(film.width, film.height);
+  const bool has_window = w[0] != w[1] && w[2] != w[3];
+  if (!has_window) return 2.0 / std::min(film.width, film.height);
   return std::min((w[1] - w[0]) / film.width, (w[3] - w[2]) / film.height);
 }
 

@@ -197,14 +197,15 @@ double SlabAlbedos::Of(double reflectance) const {
       std::clamp<std::ptrdiff_t>(below - reflectances_.begin() - 2, 0, kAlbedos - 4);
   double s = 0;
   for (std::ptrdiff_t i = first; i < first + 4; ++i) {
-    double share = NodeOf(static_cast<std::size_t>(i));
+    double fraction = NodeOf(static_cast<std::size_t>(i));
     for (std::ptrdiff_t j = first; j < first + 4; ++j) {
       const double at = reflectances_[static_cast<std::size_t>(j)];
       if (i != j) {
-        share *= (reflectance - at) / (reflectances_[static_cast<std::size_t>(i)] - at);
+        fraction *=
+            (reflectance - at) / (reflectances_[static_cast<std::size_t>(i)] - at);
       }
     }
-    s += share;
+    s += fraction;
   }
   return std::clamp(1 - s * s, 0.0, 1.0);
 }

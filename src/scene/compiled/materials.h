@@ -29,7 +29,7 @@ static_assert(sizeof(MeasuredWarp) == 20);
 struct MeasuredRecord {
   std::int32_t phis, thetas;      // of known directions
   std::int32_t phi_at, theta_at;  // their angles, radians
-  std::uint32_t turns;            // 1: azimuths of normals do not count from theirs
+  std::uint32_t is_anisotropic;   // 1: azimuths of normals do not count from theirs
   std::int32_t parts;             // MeasuredReflectance::parts
   MeasuredGrid ndf, sigma;
   MeasuredWarp vndf, luminance;

@@ -73,7 +73,7 @@ struct PlacedSparseGrid {
   float index_from_box[12] = {};
 };
 
-/// Colours of black bodies (RgbOfBlackbody) of kMinKelvin to `most`, evenly in the
+/// Colours of black bodies (RgbOfBlackbody) of kMinKelvin to `maximum`, evenly in the
 /// logarithm of the temperature, which is (t - offset) * scale.
 struct BlackbodyTable {
   float offset = 0, scale = 1;

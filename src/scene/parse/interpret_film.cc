@@ -50,8 +50,8 @@ void ReadCrop(ParamSet& params, Film* film) {
   bool outside = false;
   for (int i = 0; i < 4; ++i) {
     const int side = i < 2 ? film->width : film->height;
-    const double most = part != nullptr ? 1 : side;
-    const double value = std::clamp(param.numbers[i], 0.0, most);
+    const double max_coordinate = part != nullptr ? 1 : side;
+    const double value = std::clamp(param.numbers[i], 0.0, max_coordinate);
     outside = outside || value != param.numbers[i];
     crop[i] = static_cast<int>(part != nullptr ? std::ceil(value * side) : value);
   }

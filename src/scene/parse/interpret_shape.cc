@@ -15,10 +15,10 @@ void ReadPhi(ParamSet& params, Shape* shape) {
   shape->phi_max = std::min(params.Float("phimax", 360, kNotNegative), 360.0);
 }
 
-// `most` limits their distance from the middle. pbrt accepts them in either order.
-void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
-  const double a = std::clamp(params.Float("zmin", -absent), -most, most);
-  const double b = std::clamp(params.Float("zmax", absent), -most, most);
+// `max_height` limits their distance from the middle. pbrt accepts them in either order.
+void ReadHeights(ParamSet& params, double absent, double max_height, Shape* shape) {
+  const double a = std::clamp(params.Float("zmin", -absent), -max_height, max_height);
+  const double b = std::clamp(params.Float("zmax", absent), -max_height, max_height);
   shape->z_min = std::min(a, b);
   shape->z_max = std::max(a, b);
 }
@@ -57,8 +57,9 @@ double EdgeLength(ParseState& state, ParamSet& params) {
   constexpr const char* kGpuParameter = "displacement.edgelength";
   const Limits limits = {kTiny, kHuge};
   const double other = params.Float(kGpuParameter, 1, limits);
-  if (const Param* given = params.Find(kGpuParameter, {})) {
-    state.AddNote(given->where, "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
+  if (const Param* gpu_param = params.Find(kGpuParameter, {})) {
+    state.AddNote(gpu_param->where,
+                  "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
                   kGpuParameter);
   }
   return params.Float("edgelength", other, limits) * state.edge_scale;

@@ -134,9 +134,9 @@ void CheckCount(const Param& param) {
   // Grids of colours are rgb; ColorOf requires a single colour.
   const bool single =
       param.type == ParamType::kBlackbody || param.type == ParamType::kTexture;
-  const std::size_t most = single ? std::max(tuple, 1) : values;
+  const std::size_t max_values = single ? std::max(tuple, 1) : values;
   const bool mixed = !param.strings.empty() && (n > 0 || param.strings.size() > 1);
-  if (values > most || (param.type == ParamType::kSpectrum && mixed)) {
+  if (values > max_values || (param.type == ParamType::kSpectrum && mixed)) {
     throw InputError(param.where, who + " has more than one value");
   }
 }

@@ -72,7 +72,7 @@ class BodyReader {
     if (element.count == 0) return;
     if (element.properties.empty() ||
         element.count > std::numeric_limits<std::uint32_t>::max() ||
-        element.count > reader_.Left(element.least_bytes())) {
+        element.count > reader_.Left(element.min_bytes())) {
       Fail(
           "the PLY header promises {} of element {}, more than the rest of the file can "
           "hold",

@@ -149,7 +149,7 @@ PlyProperty ParseProperty(const HeaderReader& reader,
 
 }  // namespace
 
-std::size_t PlyElement::least_bytes() const {
+std::size_t PlyElement::min_bytes() const {
   std::size_t bytes = 0;
   for (const PlyProperty& property : properties) {
     bytes += PlySize(property.is_list ? property.count_type : property.type);

@@ -162,10 +162,10 @@ double ChanceOfLight(const PreparedScene& scene) {
   const CompiledScene& compiled = *scene.compiled;
   double power = 0, squares = 0;
   for (std::size_t i = 0; i < compiled.lights.lights.size(); ++i) {
-    const double share = Share(compiled, compiled.lights.lights[i]);
-    const double p = share > 0 ? compiled.lights.power[i] : 0;
+    const double fraction = Share(compiled, compiled.lights.lights[i]);
+    const double p = fraction > 0 ? compiled.lights.power[i] : 0;
     power += p;
-    if (p > 0) squares += p * p / share;
+    if (p > 0) squares += p * p / fraction;
   }
   return squares > 0 ? std::min(1.0, power * power / squares) : 1;
 }

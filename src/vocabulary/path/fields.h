@@ -85,7 +85,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
   LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
   LANELIGHT_XYZ(X, f32, tv, ({kBumps, kTextureFootprints}), kSurface, (), "dp/dv, not normalised")       \
-  LANELIGHT_4(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/camera.h)") \
+  LANELIGHT_4(X, f32, footprint, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/camera.h)") \
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
@@ -246,8 +246,8 @@ inline constexpr FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline constexpr FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
                                        Field::tv_x, Field::tv_y, Field::tv_z};
 inline constexpr FieldSet kUv = {Field::uv_u, Field::uv_v};
-inline constexpr FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
-                                     Field::spread_3};
+inline constexpr FieldSet kFootprint = {Field::footprint_0, Field::footprint_1,
+                                        Field::footprint_2, Field::footprint_3};
 inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
                                          Field::color0_b,       Field::color1_r,
                                          Field::color1_g,       Field::color1_b,

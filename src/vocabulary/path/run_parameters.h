@@ -103,7 +103,7 @@ struct MisParameters {
 
 /// Copies that one camera sample may become, itself included. Every sample has as many
 /// rows in the sample buffer.
-inline constexpr std::uint32_t kMostCopies = 8;
+inline constexpr std::uint32_t kMaxSplitPaths = 8;
 
 /// First scattering event after which roulette=throughput is played, by default.
 inline constexpr std::int32_t kThroughputFirst = 2;

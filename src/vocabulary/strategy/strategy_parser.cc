@@ -127,11 +127,12 @@ class Parser {
   }
 
   // Returns whether there are arguments, of which a choice takes at most so many.
-  bool Has(const Parts& parts, std::size_t most) const {
-    if (parts.size() <= most + 1) return parts.size() > 1;
-    if (most == 0) Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));
+  bool Has(const Parts& parts, std::size_t max_parts) const {
+    if (parts.size() <= max_parts + 1) return parts.size() > 1;
+    if (max_parts == 0)
+      Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));
     Fail(fmt::format("\"{}\" of {} takes at most {} arguments after ':'", parts[0], key_,
-                     most));
+                     max_parts));
   }
 
   template <class Choice>

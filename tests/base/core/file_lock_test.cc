@@ -34,7 +34,7 @@ TEST_CASE("a lock has one owner at a time", "[core][lock]") {
 TEST_CASE("a moved lock has the new owner", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::optional<HeldLock> kept;
+  std::optional<ScopedLock> kept;
   {
     auto x = a.Take("x");
     REQUIRE(x);
@@ -115,7 +115,7 @@ TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
 TEST_CASE("ten thousand locks use one file", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::vector<HeldLock> taken;
+  std::vector<ScopedLock> taken;
   for (int i = 0; i < 10000; ++i) {
     auto lock = a.Take("cell " + std::to_string(i));
     REQUIRE(lock);

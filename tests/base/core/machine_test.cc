@@ -70,18 +70,18 @@ TEST_CASE("processor-specific code is detected", "[machine]") {
 
 #if defined(__x86_64__) || defined(__aarch64__)
 TEST_CASE("subnormal numbers are flushed only within the scope", "[machine]") {
-  volatile float least = std::numeric_limits<float>::min();
-  volatile float subnormal = least / 4, scale = 1024, half = 0.5f;
+  volatile float minimum = std::numeric_limits<float>::min();
+  volatile float subnormal = minimum / 4, scale = 1024, half = 0.5f;
   REQUIRE(subnormal > 0);
   {
     const FlushToZero flush;
-    const volatile float result = least * half, operand = subnormal * scale;
+    const volatile float result = minimum * half, operand = subnormal * scale;
     CHECK(result == 0);
     CHECK(operand == 0);
   }
-  const volatile float result = least * half, operand = subnormal * scale;
+  const volatile float result = minimum * half, operand = subnormal * scale;
   CHECK(result > 0);
-  CHECK(operand == 256 * least);
+  CHECK(operand == 256 * minimum);
 }
 #endif
 

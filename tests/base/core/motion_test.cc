@@ -31,11 +31,11 @@ class Numbers {
 };
 
 double FarthestEntry(const Transform& a, const Transform& b) {
-  double most = 0;
+  double maximum = 0;
   for (int i = 0; i < 16; ++i) {
-    most = std::max(most, std::abs(a(i / 4, i % 4) - b(i / 4, i % 4)));
+    maximum = std::max(maximum, std::abs(a(i / 4, i % 4) - b(i / 4, i % 4)));
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace

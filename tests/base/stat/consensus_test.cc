@@ -41,10 +41,10 @@ double Rejected(int n, double bias, double understated, int trials) {
 TEST_CASE("measurements of the same quantity agree", "[stat]") {
   const int trials = 4000;
   // Five standard deviations of a proportion of 0.01: a false alarm in two million.
-  const double most = 0.01 + FiveSigma(0.01, trials);
+  const double maximum = 0.01 + FiveSigma(0.01, trials);
   for (int n : {2, 3, 8, 25}) {
     INFO(n);
-    CHECK(Rejected(n, 0, 1, trials) < most);
+    CHECK(Rejected(n, 0, 1, trials) < maximum);
   }
 }
 

@@ -149,7 +149,7 @@ TEST_CASE("the cost of a target is empty where the error does not fall", "[stat]
 
 TEST_CASE("intervals of the cost of a target have the stated coverage", "[stat]") {
   const int trials = 4000;
-  const auto held = [&](double target, double common, double truth) {
+  const auto coverage = [&](double target, double common, double truth) {
     return Share(trials, 5, [&](Random& random) {
       const auto cost =
           CostToTarget(PowerLaw(random, -0.5, 0.2, common, 5), target, 0.95);
@@ -158,13 +158,13 @@ TEST_CASE("intervals of the cost of a target have the stated coverage", "[stat]"
   };
   for (double common : {0.0, 0.9}) {
     for (double target : {0.12, 0.3, 0.003}) {
-      const double share = held(target, common, 1 / target);
-      INFO("target " << target << ", common " << common << ": " << share);
-      CHECK(share > 0.94 - FiveSigma(0.94, trials));
-      CHECK(share < 0.98);
+      const double fraction = coverage(target, common, 1 / target);
+      INFO("target " << target << ", common " << common << ": " << fraction);
+      CHECK(fraction > 0.94 - FiveSigma(0.94, trials));
+      CHECK(fraction < 0.98);
     }
   }
-  CHECK(held(0.12, 0, 1.5 / 0.12) < 0.5);  // a wrong cost is noticed
+  CHECK(coverage(0.12, 0, 1.5 / 0.12) < 0.5);  // a wrong cost is noticed
 }
 
 }  // namespace lanelight::stat

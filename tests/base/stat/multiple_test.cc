@@ -35,9 +35,9 @@ TEST_CASE("Holm's procedure keeps the family-wise error and has more power", "[s
     false_rejections += !rejected.empty() && rejected.front() < 6;
     for (std::size_t i : rejected) found += i >= 6;
   }
-  const double most = 0.05 + FiveSigma(0.05, trials);
-  CHECK(false_rejections < most * trials);
-  CHECK(uncorrected > most * trials);
+  const double maximum = 0.05 + FiveSigma(0.05, trials);
+  CHECK(false_rejections < maximum * trials);
+  CHECK(uncorrected > maximum * trials);
   CHECK(found > bonferroni);
 }
 

@@ -66,15 +66,15 @@ TEST_CASE("regression: coefficients never depend on their own half of the sample
     RegressionFilm of_a({0, 0, 4, 4}, groups, 1), of_b({0, 0, 4, 4}, groups, 1);
     a.AddTo(of_a), b.AddTo(of_b);
     of_a.Fit(colors), of_b.Fit(colors);
-    const std::uint32_t turns = groups.replicates ? kReplicates : 2;
+    const std::uint32_t num_replicates = groups.replicates ? kReplicates : 2;
     int differ = 0;
     for (std::size_t p = 0; p < 16; ++p) {
       ReplicateSums sums_a, sums_b;
       of_a.CorrectReplicates(p, sums_a), of_b.CorrectReplicates(p, sums_b);
-      for (std::uint32_t t = 0; t < turns; ++t) {
+      for (std::uint32_t t = 0; t < num_replicates; ++t) {
         const bool same = sums_a.of[t][0] == sums_b.of[t][0];
         CHECK(sums_a.of[t][0] != 0);
-        if (t % 2 == kChanged / groups.unit % turns % 2) CHECK(same);
+        if (t % 2 == kChanged / groups.unit % num_replicates % 2) CHECK(same);
         differ += !same;
       }
     }

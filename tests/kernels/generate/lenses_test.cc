@@ -84,7 +84,7 @@ Vec3d Turned(Vec3d v, Vec3d film, double sign) {
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
-void CheckRays(const Camera& camera, double most_stopped) {
+void CheckRays(const Camera& camera, double max_stopped) {
   const Shot shot(camera);
   const reference::Lenses twin(camera);
   const PathColumns& p = shot.fixture.wave.path;
@@ -110,7 +110,7 @@ void CheckRays(const Camera& camera, double most_stopped) {
           Approx(std::pow(cosine, 4) * area / (rear.z * rear.z)).epsilon(1e-4));
   }
   CHECK(differ < kPaths / 400);
-  CHECK(stopped < most_stopped * kPaths);
+  CHECK(stopped < max_stopped * kPaths);
   const Wave& wave = shot.fixture.wave;
   CHECK(const_cast<Wave&>(wave).queue(QueueId::kActive).size +
             const_cast<Wave&>(wave).queue(QueueId::kDone).size ==

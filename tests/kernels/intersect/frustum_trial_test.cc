@@ -8,13 +8,13 @@ namespace {
 
 // Of `packets` that meet so many leaves each, how many take the frustum.
 int FrustumPackets(FrustumTrial& trial, int packets, int leaves) {
-  int taken = 0;
+  int packets_seen = 0;
   for (int i = 0; i < packets; ++i) {
     if (!trial.IsOn()) continue;
-    ++taken;
-    trial.Add(trial.most() - leaves);
+    ++packets_seen;
+    trial.Add(trial.max_leaves() - leaves);
   }
-  return taken;
+  return packets_seen;
 }
 
 Accel LeavesOf(int triangles) {
@@ -41,12 +41,12 @@ TEST_CASE("packets use the frustum while they visit few leaves") {
 TEST_CASE("a single packet that visits many leaves does not disable the frustum") {
   const Accel accel = LeavesOf(kLeafTriangles);
   FrustumTrial trial(accel);
-  int taken = 0;
+  int packets_seen = 0;
   for (int i = 0; i < 100; ++i) {
-    taken += FrustumPackets(trial, 1, 14);
-    taken += FrustumPackets(trial, 4, 4);
+    packets_seen += FrustumPackets(trial, 1, 14);
+    packets_seen += FrustumPackets(trial, 4, 4);
   }
-  CHECK(taken == 500);
+  CHECK(packets_seen == 500);
 }
 
 TEST_CASE("an aborted packet counts all leaves that it visited") {

@@ -118,9 +118,9 @@ void CheckKept(const Vertices& vertices, const Candidates& candidates, bool weig
   CHECK(same);
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     INFO("candidate " << j);
-    const double share = Luminance(Carried(candidates[j], weighs)) / sum;
+    const double fraction = Luminance(Carried(candidates[j], weighs)) / sum;
     // Those that keep it lie in up to 2^j intervals, each cut off at both ends.
-    CHECK(kept[j] == Approx(share * kDraws).margin(share > 0 ? 1 << (j + 1) : 0));
+    CHECK(kept[j] == Approx(fraction * kDraws).margin(fraction > 0 ? 1 << (j + 1) : 0));
   }
 }
 

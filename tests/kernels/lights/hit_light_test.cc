@@ -171,7 +171,7 @@ TEST_CASE("escaped rays add every environment with the MIS weight of hits", "[li
     hits.fixture.Run(EscapeStage, hits.features());
     for (std::uint32_t i = 0; i < kHits; ++i) {
       Vec3d sum;
-      bool sure = true;
+      bool certain = true;
       for (const NamedLight& light : all.lights) {
         const auto shape = static_cast<LightShape>(light.record.shape);
         if (shape != LightShape::kInfiniteConstant &&
@@ -179,11 +179,11 @@ TEST_CASE("escaped rays add every environment with the MIS weight of hits", "[li
           continue;
         }
         const VisibleLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
-        sure &= seen.met;
+        certain &= seen.met;
         sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
       }
       INFO("path " << i);
-      if (sure) hits.CheckGained(i, sum, 1e-5);
+      if (certain) hits.CheckGained(i, sum, 1e-5);
     }
   }
 }

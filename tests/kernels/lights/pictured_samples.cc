@@ -135,8 +135,8 @@ std::vector<double> DensitiesAlong(const PreparedScene& scene, Vec3d from,
   bool same = true;  // what is seen at all
   for (std::size_t i = 0; i < weighed.size(); ++i) {
     same &= (weighed[i].x > 0) == (whole[i].x > 0);
-    const double share = weighed[i].x > 0 ? whole[i].x / weighed[i].x : 1;
-    pdf.push_back(std::sqrt(std::max(0.0, share - 1)));
+    const double fraction = weighed[i].x > 0 ? whole[i].x / weighed[i].x : 1;
+    pdf.push_back(std::sqrt(std::max(0.0, fraction - 1)));
   }
   CHECK(same);
   return pdf;

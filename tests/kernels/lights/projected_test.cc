@@ -69,11 +69,11 @@ double Irradiance(const Case& c) {
 
 // Least cosine of its corners.
 double Lowest(const Case& c) {
-  double least = c.f.rectangle ? Cosine(c.n, c.f.At(1, 1)) : 1;
+  double minimum = c.f.rectangle ? Cosine(c.n, c.f.At(1, 1)) : 1;
   for (const Vec3d v : {c.f.At(0, 0), c.f.At(1, 0), c.f.At(0, 1)}) {
-    least = std::min(least, Cosine(c.n, v));
+    minimum = std::min(minimum, Cosine(c.n, v));
   }
-  return least;
+  return minimum;
 }
 
 struct Moments {

@@ -41,10 +41,11 @@ double PValue(const Draw& draw, std::uint32_t count) {
       return f.At(double(a + u) / kBins, double(b + v) / kBins);
     };
     if (!f.rectangle && a + b > kBins - 1) continue;
-    const double share = count / total;
-    expected[2 * i] = share * TriangleAngle(corner(0, 0), corner(1, 0), corner(0, 1));
+    const double fraction = count / total;
+    expected[2 * i] = fraction * TriangleAngle(corner(0, 0), corner(1, 0), corner(0, 1));
     if (!f.rectangle && a + b == kBins - 1) continue;
-    expected[2 * i + 1] = share * TriangleAngle(corner(1, 1), corner(0, 1), corner(1, 0));
+    expected[2 * i + 1] =
+        fraction * TriangleAngle(corner(1, 1), corner(0, 1), corner(1, 0));
   }
   return stat::ChiSquareTest(observed, expected).p;
 }

@@ -15,8 +15,9 @@ constexpr Rgb kThickness = {0.3, 1, 2.5};
 
 // Returns the light of the slab for `emission`, without absorption in front.
 Rgb SlabOf(Rgb emission) {
-  const auto share = [](double sigma) { return 1 - std::exp(-sigma * 0.8); };
-  return emission * Rgb{share(kThickness.x), share(kThickness.y), share(kThickness.z)};
+  const auto fraction = [](double sigma) { return 1 - std::exp(-sigma * 0.8); };
+  return emission *
+         Rgb{fraction(kThickness.x), fraction(kThickness.y), fraction(kThickness.z)};
 }
 
 void CheckSlab(const SceneDescription& scene, Rgb expected) {

@@ -53,8 +53,8 @@ TEST_CASE("compaction: paths keep their live columns", "[queue]") {
   std::mt19937 engine(11);
   const EachTarget target;
   for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
-    for (int share = 0; share <= 4; ++share) {
-      CheckPacks(capacity, capacity * share / 4, engine);
+    for (int fraction = 0; fraction <= 4; ++fraction) {
+      CheckPacks(capacity, capacity * fraction / 4, engine);
     }
   }
 }

@@ -74,10 +74,10 @@ Reported Report(const std::vector<stat::ImageEstimate>& renders) {
   return {Scatter(means), Scatter(pixels), Scatter(images)};
 }
 
-Reported OfTwin(const SceneDescription& scene, const ReuseTwinOptions& asked) {
+Reported OfTwin(const SceneDescription& scene, const ReuseTwinOptions& twin_options) {
   std::vector<stat::ImageEstimate> renders(kRenders);
   ParallelFor(renders.size(), [&](std::size_t i) {
-    ReuseTwinOptions options = asked;
+    ReuseTwinOptions options = twin_options;
     options.samples = kSamples;
     options.seed = 1000 + i;
     renders[i] = Estimate(RenderReuseReference(scene, options));
@@ -112,9 +112,9 @@ TEST_CASE("reuse=block equals the reference implementation of its estimator", "[
   const SceneDescription scene = WallInRoom();
   const Reported renderer = OfRenderer(scene);
   const auto twin = [&](const ReuseTwinOptions& options) {
-    Reported told = OfTwin(scene, options);
-    UNSCOPED_INFO("twin: " << ToString(told));
-    return told;
+    Reported report = OfTwin(scene, options);
+    UNSCOPED_INFO("twin: " << ToString(report));
+    return report;
   };
   INFO("renderer: " << ToString(renderer));
   const Reported same = twin({});

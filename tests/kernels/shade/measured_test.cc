@@ -95,16 +95,16 @@ TEST_CASE("measured chalk and metal agree with the models that generated them",
 }
 
 TEST_CASE("measured: each wavelength has its own value", "[shade][measured][spectral]") {
-  for (const bool turns : {false, true}) {
+  for (const bool is_anisotropic : {false, true}) {
     // Linear between the wavelengths of the file.
-    auto model = reference::MetalModel(0.5, turns ? 0.25 : 0.5, 0.2, 0.9);
-    if (turns) model.phis = 9, model.parts = 4;
+    auto model = reference::MetalModel(0.5, is_anisotropic ? 0.25 : 0.5, 0.2, 0.9);
+    if (is_anisotropic) model.phis = 9, model.parts = 4;
     for (const int triple : {0, 40, 100, kTriples - 1}) {
       const TestMaterial m = SpectralMaterialOf(model, triple);
       for (int c = 0; c < 3; ++c) {
         const auto bin = static_cast<std::size_t>((2 - c) * kTriples + triple);
         const double nm = CarriedWavelengths().centre[bin];
-        INFO("turns " << turns << ", " << nm << " nm");
+        INFO("turns " << is_anisotropic << ", " << nm << " nm");
         CHECK(DistanceFrom(m, model, Upwards(0.6), c, nm) < 0.12);
         // Power: the value of another wavelength is not that near.
         if (c != 1) CHECK(DistanceFrom(m, model, Upwards(0.6), 1, nm) > 0.14);

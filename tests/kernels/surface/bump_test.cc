@@ -281,8 +281,8 @@ TEST_CASE("footprints equal those of the camera's pixels", "[relief]") {
       at.dpdu = {2, 0, 0.3};
       at.dpdv = {0.5, 3, 0};
       const reference::UvSteps half = reference::HalfFootprint(ramp.b.scene(), at);
-      const double u = (std::abs(p.spread_0[i]) + std::abs(p.spread_1[i])) / 2;
-      const double v = (std::abs(p.spread_2[i]) + std::abs(p.spread_3[i])) / 2;
+      const double u = (std::abs(p.footprint_0[i]) + std::abs(p.footprint_1[i])) / 2;
+      const double v = (std::abs(p.footprint_2[i]) + std::abs(p.footprint_3[i])) / 2;
       CHECK(u == Approx(half.u).epsilon(1e-3));
       CHECK(v == Approx(half.v).epsilon(1e-3));
     }

@@ -76,8 +76,8 @@ struct Lookups {
     for (std::uint32_t i = 0; i < n; ++i) {
       p.material[i] = 0;
       p.uv_u[i] = points[i].u, p.uv_v[i] = points[i].v;
-      p.spread_0[i] = points[i].dudx, p.spread_1[i] = points[i].dudy;
-      p.spread_2[i] = points[i].dvdx, p.spread_3[i] = points[i].dvdy;
+      p.footprint_0[i] = points[i].dudx, p.footprint_1[i] = points[i].dudy;
+      p.footprint_2[i] = points[i].dvdx, p.footprint_3[i] = points[i].dvdy;
       const auto [at, tg, tv] = std::tie(points[i].p, points[i].tg, points[i].tv);
       p.p_x[i] = at.x, p.p_y[i] = at.y, p.p_z[i] = at.z;
       p.tg_x[i] = tg.x, p.tg_y[i] = tg.y, p.tg_z[i] = tg.z;

@@ -150,7 +150,7 @@ TEST_CASE("equal seeds and equally rounded half floats are reported", "[agreemen
   NoisyRender render = {std::mt19937(6), 4, 0};
   Image image = render.Make(), reference = image;
   image.attributes["seed"] = reference.attributes["seed"] = std::string("7");
-  CHECK_THAT(TestAgreement(image, reference, false).doubt, Catch::Contains("seed 7"));
+  CHECK_THAT(TestAgreement(image, reference, false).caveat, Catch::Contains("seed 7"));
   // 1e-4 below, without noise: rounding to half floats may do that, to floats may not.
   for (int c = 0; c < 3; ++c) Brighten(image, 1 - 1e-4, 0, 0, kWide, kHigh, c);
   for (int c = 3; c < 6; ++c) {

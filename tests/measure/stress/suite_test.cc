@@ -213,8 +213,8 @@ TEST_CASE("stress: correct runs fail with the stated probability", "[stress]") {
     JudgeSuite(result);
     failed += result.cases[0].outcome == Outcome::kFailed;
   }
-  const double most = 0.05 * kRuns;
-  CHECK(failed < most + 4.9 * std::sqrt(most * 0.95));
+  const double maximum = 0.05 * kRuns;
+  CHECK(failed < maximum + 4.9 * std::sqrt(maximum * 0.95));
   CHECK(failed > 0.01 * kRuns);  // and the test is not useless: half of it is used
 }
 

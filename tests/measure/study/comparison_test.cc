@@ -42,7 +42,7 @@ Interval EfficiencyOf(const Case& c) {
   for (const char* name : {"first", "second"}) {
     runs.strategies.push_back({{name, {}}, RunStatus::kOk, "", {64}});
   }
-  runs.strategies[1].count_spread = c.spread;
+  runs.strategies[1].count_deviation = c.spread;
   StudyOptions options;
   options.repetitions = 8;
   if (c.budget) options.budget = 1;

@@ -373,9 +373,9 @@ TEST_CASE("the verdict mentions the effect of rare bright samples", "[study]") {
 
 TEST_CASE("lists of strategies", "[study]") {
   StudyOptions options;
-  const auto usual = StudyStrategies(options, {});
-  REQUIRE(usual.size() == 9);
-  CHECK(usual[8].strategy == usual[7].strategy);  // the scene's own is the default
+  const auto defaults = StudyStrategies(options, {});
+  REQUIRE(defaults.size() == 9);
+  CHECK(defaults[8].strategy == defaults[7].strategy);  // the scene's own is the default
   Strategy own;
   own.points = Points::kLattice;
   const auto named = StudyStrategies(options, own);

@@ -28,11 +28,12 @@ void KillAndResume(int kills, std::uint32_t seed) {
   std::mt19937 random(seed);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
-    const double share = std::uniform_real_distribution<double>(0, 0.6)(random);
+    const double fraction = std::uniform_real_distribution<double>(0, 0.6)(random);
     ProcessOptions options;
     options.trigger = "";
     options.action = [&](int child) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(share * whole.seconds));
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(fraction * whole.seconds));
       kill(child, SIGKILL);
     };
     const ProcessResult r = RunLanelight(arguments("out"), options);

@@ -247,11 +247,11 @@ TEST_CASE("sweep: efficiencies are ratios over pairs of equal seeds", "[sweep][r
   REQUIRE(json["leaders"].size() == 3);
   CHECK(json["leaders"][1]["values"] == Json({{"scene", "attic"}, {"spp", "16"}}));
   std::string best;
-  double most = 0;
+  double maximum = 0;
   for (const Json& group : json["groups"]) {
     if (group["values"]["scene"] != "attic" || group["values"]["spp"] != "16") continue;
-    if (group["efficiency"]["value"] <= most) continue;
-    most = group["efficiency"]["value"];
+    if (group["efficiency"]["value"] <= maximum) continue;
+    maximum = group["efficiency"]["value"];
     best = group["strategy"];
   }
   CHECK(json["leaders"][1]["best"] == best);

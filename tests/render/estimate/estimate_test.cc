@@ -338,9 +338,9 @@ ErrorEstimate OfAllPixels(double value) {
 
 TEST_CASE("a stopped estimate returns early without a result", "[study]") {
   std::atomic<bool> stop{false};
-  std::atomic<int> asked{0};
+  std::atomic<int> calls{0};
   const auto pixel = [&](int, int y) {
-    ++asked;
+    ++calls;
     if (y == 2) stop = true;
     PixelEstimate p;
     p.known = true;
@@ -349,10 +349,10 @@ TEST_CASE("a stopped estimate returns early without a result", "[study]") {
   };
   const ErrorEstimate halfway = EstimateError({0, 0, 8, 800}, pixel, 1, &stop);
   CHECK_FALSE(halfway.available);
-  CHECK(asked < 8 * 800);
-  asked = 0;
+  CHECK(calls < 8 * 800);
+  calls = 0;
   CHECK_FALSE(EstimateError({0, 0, 8, 800}, pixel, 1, &stop).available);
-  CHECK(asked == 0);
+  CHECK(calls == 0);
 }
 
 TEST_CASE("images without noise have rounding errors only", "[study]") {

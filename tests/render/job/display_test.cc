@@ -25,7 +25,8 @@ using Catch::Contains;
 class Viewer {
  public:
   /// Reads this many bytes, then ends the connection; `reads` false: keeps it, unread.
-  explicit Viewer(std::size_t most = ~std::size_t{0}, bool reads = true) : most_(most) {
+  explicit Viewer(std::size_t max_bytes = ~std::size_t{0}, bool reads = true)
+      : max_bytes_(max_bytes) {
     listener_ = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address = {};
     address.sin_family = AF_INET;
@@ -58,8 +59,8 @@ class Viewer {
     const int client = accept(listener_, nullptr, nullptr);
     if (client < 0) return;
     char buffer[4096];
-    while (bytes_.size() < most_) {
-      const ssize_t n = read(client, buffer, std::min(sizeof(buffer), most_));
+    while (bytes_.size() < max_bytes_) {
+      const ssize_t n = read(client, buffer, std::min(sizeof(buffer), max_bytes_));
       if (n <= 0) break;
       bytes_.append(buffer, static_cast<std::size_t>(n));
     }
@@ -67,7 +68,7 @@ class Viewer {
     close(client);
   }
 
-  const std::size_t most_;
+  const std::size_t max_bytes_;
   int listener_ = -1;
   std::uint16_t port_ = 0;
   std::string bytes_;
@@ -255,7 +256,7 @@ TEST_CASE("localhost connects to a viewer that listens on IPv4 only, as tev does
   std::string problem;
   {
     Display display({"localhost", viewer.endpoint().port}, "film", film, "srgb",
-                    [&](const std::string& told) { problem = told; });
+                    [&](const std::string& message) { problem = message; });
     display.Finish(film);
   }
   CHECK(problem.empty());

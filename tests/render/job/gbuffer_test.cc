@@ -156,8 +156,8 @@ TEST_CASE("gbuffer: pixels without hits are zero, edges are means of hits", "[re
     CHECK(b.At(kWidth - 1, y, kHit) == 0);
     CHECK(b.At(kWidth - 1, y, kP + 2) == 0);
     for (int x = 0; x < kWidth; ++x) {
-      const double share = b.At(x, y, kHit);
-      if (share == 0 || share == 1) continue;
+      const double fraction = b.At(x, y, kHit);
+      if (fraction == 0 || fraction == 1) continue;
       ++edges;
       CheckVector(b.Vector(x, y, kNs), {0, 0.6, -0.8}, 1e-5);
     }

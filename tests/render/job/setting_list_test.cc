@@ -134,7 +134,7 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
 TEST_CASE("only settings that change pixels change the render's identity", "[render]") {
   RenderSettings small;
   small.resolution = {8, 6};
-  const Json usual = IdentityOf(BoxWith(small));
+  const Json defaults = IdentityOf(BoxWith(small));
   for (const auto& [name, text] : OtherTexts()) {
     const Setting& setting = SettingNamed(name);
     INFO(name);
@@ -148,7 +148,7 @@ TEST_CASE("only settings that change pixels change the render's identity", "[ren
     }
     // What there is of them after all, which identities have.
     const bool differs = setting.Is(kIdentity) || name == "sampler" || name == "strategy";
-    CHECK((IdentityOf(BoxWith(settings)) != usual) == differs);
+    CHECK((IdentityOf(BoxWith(settings)) != defaults) == differs);
   }
 }
 

@@ -122,11 +122,11 @@ TEST_CASE("long renders choose a strategy by a trial run, unless one is given",
   towards.resolution = {1280, 720};
   CHECK(DecisionOf(towards) == Decide::kPilot);
   // Any word about the strategy.
-  RenderSettings told = Samples(1024);
-  told.strategy = ParseStrategy("points=cmj", {});
-  CHECK(DecisionOf(told) == Decide::kNone);
-  told.strategy = ParseStrategy("points=cmj,decide=pilot", {});
-  CHECK(DecisionOf(told) == Decide::kPilot);
+  RenderSettings explicit_settings = Samples(1024);
+  explicit_settings.strategy = ParseStrategy("points=cmj", {});
+  CHECK(DecisionOf(explicit_settings) == Decide::kNone);
+  explicit_settings.strategy = ParseStrategy("points=cmj,decide=pilot", {});
+  CHECK(DecisionOf(explicit_settings) == Decide::kPilot);
   CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
 }
 

@@ -28,11 +28,11 @@ std::string SpectralText(const std::string& film, const std::string& world,
 
 Job SpectralJob(const std::string& text, std::uint64_t spp = 16,
                 const std::string& strategy = "",
-                std::optional<TransportSetting> asked = std::nullopt) {
+                std::optional<TransportSetting> requested = std::nullopt) {
   RenderSettings settings;
   settings.spp = spp;
   settings.seed = 3;
-  settings.transport = asked;
+  settings.transport = requested;
   settings.strategy = ParseStrategy(strategy, {});
   return PrepareJob(ParseSceneText(text, "test.pbrt", "."), settings);
 }
@@ -232,8 +232,8 @@ TEST_CASE("spectral film: other films have no stages for it", "[render][plan][bu
 
 TEST_CASE("spectral film: it selects spectral transport", "[render][spectral][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment);
-  for (const auto asked : {TransportSetting::kSpectral, TransportSetting::kByScene}) {
-    const Job job = SpectralJob(text, 1, "", asked);
+  for (const auto requested : {TransportSetting::kSpectral, TransportSetting::kByScene}) {
+    const Job job = SpectralJob(text, 1, "", requested);
     CHECK(job.scene.compiled->features.Has(Feature::kSpectral));
     CHECK(job.loaded->transport_why == "the film keeps spectra");
   }

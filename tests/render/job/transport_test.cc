@@ -30,14 +30,14 @@ SceneDescription SceneOf(const std::string& world) {
 }
 
 TransportChoice ChoiceFor(const std::string& world, const std::string& strategy = "") {
-  Strategy asked;
-  ApplyStrategy(strategy, {}, asked);
-  return ChooseTransport(SceneOf(world), {&asked, 1});
+  Strategy requested;
+  ApplyStrategy(strategy, {}, requested);
+  return ChooseTransport(SceneOf(world), {&requested, 1});
 }
 
-Job JobOf(const std::string& world, std::optional<TransportSetting> asked) {
+Job JobOf(const std::string& world, std::optional<TransportSetting> requested) {
   RenderSettings settings;
-  settings.transport = asked;
+  settings.transport = requested;
   return PrepareJob(SceneOf(world), settings);
 }
 
@@ -103,13 +103,13 @@ TEST_CASE("transport: a job uses the requested transport", "[render][spectral]")
   CHECK(rgb.loaded->transport_why.empty());
   CHECK_FALSE(rgb.plan.features.Has(Feature::kSpectral));
   // The scene decides by default.
-  for (const auto asked :
+  for (const auto requested :
        {std::optional<TransportSetting>(), std::optional(TransportSetting::kByScene)}) {
-    const Job chosen = JobOf(scene, asked);
+    const Job chosen = JobOf(scene, requested);
     CHECK(chosen.plan.features.Has(Feature::kSpectral));
     CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
           std::string::npos);
-    CHECK_FALSE(JobOf(kLamp + kRed, asked).plan.features.Has(Feature::kSpectral));
+    CHECK_FALSE(JobOf(kLamp + kRed, requested).plan.features.Has(Feature::kSpectral));
   }
   // A scene that says so itself is asked no more.
   SceneDescription says = SceneOf(scene);

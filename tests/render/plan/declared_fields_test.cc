@@ -102,7 +102,7 @@ class Checker {
   std::uint32_t Rows() const {
     const bool splits = plan_.features.Has(Feature::kSplitting);
     return static_cast<std::uint32_t>(side_ * side_) * kSamples *
-           (splits ? kMostCopies : 1);
+           (splits ? kMaxSplitPaths : 1);
   }
 
   // What training passes and the roulettes that split go by: any values do.

@@ -64,7 +64,7 @@ void Expect(bool holds) {
 
 // Stops after so many tasks.
 struct CountingWatch : TaskWatcher {
-  explicit CountingWatch(int most) : left(most) {}
+  explicit CountingWatch(int maximum) : left(maximum) {}
   bool Stopped() const override { return left <= 0; }
   void TaskDone() override { --left; }
   std::atomic<int> left;
@@ -97,8 +97,8 @@ TEST_CASE("tiles of all ranks count when a run resumes", "[ranks]") {
     Expect(pixels == kPixels);
     Expect(work.Done() == 0);
     // One of them has the corner, and the others know.
-    Expect(own.threads.Levels().most == (rank == 0 ? 2 : 0));
-    Expect(work.Levels().most == 2);
+    Expect(own.threads.Levels().maximum == (rank == 0 ? 2 : 0));
+    Expect(work.Levels().maximum == 2);
     Expect(!work.IsAt(0));
   });
 }
@@ -120,7 +120,7 @@ TEST_CASE("the leader counts the remaining samples of other ranks", "[ranks]") {
     }
     CountingWatch hasty(static_cast<int>(own.threads.scheduler().Snapshot().size()));
     work.RunRound({0, 4, 4}, hasty);
-    CHECK(own.threads.Levels().least == 4);
+    CHECK(own.threads.Levels().minimum == 4);
     CHECK(work.Done() == 0);
     workers_are_slow = false;
     CountingWatch patient(1 << 30);

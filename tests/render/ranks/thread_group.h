@@ -75,11 +75,11 @@ class ThreadRank : public RankGroup {
     const auto all = exchange_.Exchange(rank_, {bytes.begin(), bytes.end()});
     std::copy(all[0].begin(), all[0].end(), bytes.begin());
   }
-  void Gather(std::string_view bytes, const Take& take) override {
+  void Gather(std::string_view bytes, const Receiver& receive) override {
     const auto all = exchange_.Exchange(rank_, std::string(bytes));
     for (int r = 1; leads() && r < ranks(); ++r) {
       gathered_ += all[static_cast<std::size_t>(r)].size();
-      take(r, all[static_cast<std::size_t>(r)]);
+      receive(r, all[static_cast<std::size_t>(r)]);
     }
   }
   std::optional<RankStatus> Sum(const RankStatus& own,

@@ -32,9 +32,9 @@ Shape "trianglemesh"
 struct Watcher : TaskWatcher {
   bool Stopped() const override { return false; }
   void TaskDone() override { ++done; }
-  bool Cancelled() const override { return ++asked > after; }
+  bool Cancelled() const override { return ++polls > after; }
   std::atomic<int> done{0};
-  mutable std::atomic<int> asked{0};
+  mutable std::atomic<int> polls{0};
   int after = 0;
 };
 

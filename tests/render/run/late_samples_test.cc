@@ -48,9 +48,10 @@ std::vector<double> SumsOf(const std::string& strategy, std::uint64_t first,
 }
 
 double Difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
+  double maximum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    maximum = std::max(maximum, std::abs(a[i] - b[i]));
+  return maximum;
 }
 
 }  // namespace

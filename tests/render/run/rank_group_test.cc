@@ -97,16 +97,16 @@ TEST_CASE("the film is gathered only once if nothing needs it earlier", "[ranks]
   request.strategy = "points=sobol";
   request.spp = 64;
   for (int ranks : {2, 4, 7}) {
-    double least = 1e9;
-    for (int i = 0; i < 8 && least >= 1.05; ++i) {
+    double minimum = 1e9;
+    for (int i = 0; i < 8 && minimum >= 1.05; ++i) {
       Rendered rendered = RenderOnRanks(ranks, request);
       std::size_t whole = 0;
       for (const auto& column : rendered.film.Columns()) whole += column.Bytes();
-      least =
-          std::min(least, double(rendered.result.bytes_between_ranks) / double(whole));
+      minimum =
+          std::min(minimum, double(rendered.result.bytes_between_ranks) / double(whole));
     }
     INFO(ranks << " ranks");
-    CHECK(least < 1.05);
+    CHECK(minimum < 1.05);
   }
 }
 

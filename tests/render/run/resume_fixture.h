@@ -32,11 +32,11 @@ class InterruptingCheckpointer : public Checkpointer {
     static_cast<RunRecord&>(state) = rest_;
     return true;
   }
-  bool Due() const override { return asked_.fetch_add(1) >= limit_; }
+  bool Due() const override { return polls_.fetch_add(1) >= limit_; }
   void Keep(RunState& state) override {
     rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
-    asked_ = 0;
+    polls_ = 0;
     if (stops_) stop_ = true;
   }
 
@@ -47,7 +47,7 @@ class InterruptingCheckpointer : public Checkpointer {
   Rest& rest_;
   int limit_;
   bool stops_;
-  mutable std::atomic<int> asked_{0};
+  mutable std::atomic<int> polls_{0};
   int kept_ = 0;
   std::atomic<bool> stop_{false};
 };

@@ -57,7 +57,7 @@ class TaskFixture {
     tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan);
     run_.tables = &tables_;
-    max_split_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;
+    max_split_ = plan.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1;
     if (NeedsTraining(plan)) MakeTrainedTables();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan, run_);
     TilePixels({0, 0, 32, 32}, 32, &pixels_);

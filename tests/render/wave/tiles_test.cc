@@ -52,8 +52,8 @@ TEST_CASE("parts cover all tiles once, in proportion to threads", "[tiles]") {
                                           {1, 3},
                                           {8, 0, 8},
                                           std::vector<int>(40, 2)}) {
-    for (const int least : {1, 16}) {
-      const auto parts = DistributeTiles(tiles, threads, least);
+    for (const int minimum : {1, 16}) {
+      const auto parts = DistributeTiles(tiles, threads, minimum);
       REQUIRE(parts.size() == threads.size());
       std::vector<std::uint32_t> all, pixels;
       int seats = 0;
@@ -66,9 +66,9 @@ TEST_CASE("parts cover all tiles once, in proportion to threads", "[tiles]") {
           of_part += pixels.size();
         }
         // Whole tiles, some of which the window cuts off.
-        if (least == 1)
+        if (minimum == 1)
           CHECK(of_part == Approx(20000.0 * threads[r] / seats).margin(900));
-        if (least == 16) CHECK(parts[r].size() >= tiles.size() * threads[r] / seats);
+        if (minimum == 16) CHECK(parts[r].size() >= tiles.size() * threads[r] / seats);
       }
       std::sort(all.begin(), all.end());
       CHECK(all.size() == 20000);

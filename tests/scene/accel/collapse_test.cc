@@ -42,11 +42,11 @@ class RandomTree {
   }
 
   double MinCost() const {
-    double least = INFINITY;
+    double minimum = INFINITY;
     for (std::uint32_t chosen = 0; chosen < 1u << inner_.size(); ++chosen) {
-      least = std::min(least, Cost(chosen));
+      minimum = std::min(minimum, Cost(chosen));
     }
-    return least;
+    return minimum;
   }
 
   /// Cost of the nodes that Collapse writes.

@@ -101,21 +101,21 @@ TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
   for (const auto& [shape, tolerance] : RoundCases()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
     const TriangleMesh mesh = Tessellate(shape, tolerance);
-    double least = 0, most = -1;
+    double minimum = 0, maximum = -1;
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
       for (const auto& w :
            {std::array<double, 3>{1. / 3, 1. / 3, 1. / 3},
             std::array<double, 3>{0.5, 0.5, 0}, std::array<double, 3>{0, 0.5, 0.5},
             std::array<double, 3>{0.5, 0, 0.5}}) {
         const double outside = Outside(shape, At(mesh, t, w).p);
-        least = std::min(least, outside);
-        most = std::max(most, outside);
+        minimum = std::min(minimum, outside);
+        maximum = std::max(maximum, outside);
       }
     }
-    CHECK(most <= 1e-15);
-    CHECK(least >= -tolerance);
+    CHECK(maximum <= 1e-15);
+    CHECK(minimum >= -tolerance);
     // And no finer than need be.
-    if (shape.kind != ShapeKind::kDisk) CHECK(least <= -0.4 * tolerance);
+    if (shape.kind != ShapeKind::kDisk) CHECK(minimum <= -0.4 * tolerance);
   }
 }
 

@@ -43,13 +43,13 @@ TEST_CASE("displacement heights agree with the reference", "[parse]") {
   for (Index i = 0; i < static_cast<Index>(textures.size()); ++i) {
     REQUIRE(HeightTexture::Problem(textures, i) == "");
     const HeightTexture height(textures, i);
-    double most = 0;
+    double maximum = 0;
     for (int k = 0; k < 200; ++k) {
       const double u = 4 * random.Uniform() - 2, v = 4 * random.Uniform() - 2;
-      most = std::max(most, std::abs(height.At(u, v) - truth.Eval(i, u, v).x));
+      maximum = std::max(maximum, std::abs(height.At(u, v) - truth.Eval(i, u, v).x));
     }
     CAPTURE(i);
-    CHECK(most < 1e-6);
+    CHECK(maximum < 1e-6);
   }
 }
 

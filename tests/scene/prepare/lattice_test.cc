@@ -67,11 +67,11 @@ namespace {
 // ratio finds where these are too many.
 double MinError(std::uint32_t m) {
   const std::uint32_t n = 1u << m;
-  double least = LatticeError(n, LatticeGenerator(n));
+  double minimum = LatticeError(n, LatticeGenerator(n));
   for (std::uint32_t z = 1; m <= 16 && z < n; z += 2) {
-    least = std::min(least, LatticeError(n, z));
+    minimum = std::min(minimum, LatticeError(n, z));
   }
-  return least;
+  return minimum;
 }
 
 double WorstRatio(std::uint32_t generator) {

@@ -46,25 +46,25 @@ class Power {
  public:
   void Add(const Combination& combination, double detectable) {
     for (std::size_t axis = 0; axis < Axes().size(); ++axis) {
-      const auto at = least_.try_emplace({axis, combination[axis]}, detectable).first;
+      const auto at = minimum_.try_emplace({axis, combination[axis]}, detectable).first;
       at->second = std::min(at->second, detectable);
     }
   }
   void Check(double wanted) const {
-    for (const auto& [choice, least] : least_) {
+    for (const auto& [choice, minimum] : minimum_) {
       const Axis& axis = Axes()[choice.first];
       INFO(axis.key << "=" << axis.values[choice.second]);
-      CHECK(least < wanted);
+      CHECK(minimum < wanted);
     }
   }
   bool SawEveryChoice() const {
     std::size_t choices = 0;
     for (const Axis& axis : Axes()) choices += axis.values.size();
-    return least_.size() == choices;
+    return minimum_.size() == choices;
   }
 
  private:
-  std::map<std::pair<std::size_t, std::size_t>, double> least_;
+  std::map<std::pair<std::size_t, std::size_t>, double> minimum_;
 };
 
 // Renders every combination and compares it with `truth`.
@@ -89,8 +89,8 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
     power.Add(fitted, result.detectable_bias);
   }
   REQUIRE(!uniformity.empty());
-  const double least = *std::min_element(uniformity.begin(), uniformity.end());
-  CHECK(least > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
+  const double minimum = *std::min_element(uniformity.begin(), uniformity.end());
+  CHECK(minimum > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
 }
 
 stat::ImageEstimate Reference(const SceneDescription& scene, int samples) {
