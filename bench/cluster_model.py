@@ -45,7 +45,7 @@ class Scene:
 
     @functools.lru_cache(maxsize=None)
     def parts(self, count):
-        """Share of the work of each of `count` parts: DealTiles of
+        """Share of the work of each of `count` parts: DistributeTiles of
         src/render/wave/tiles.cc."""
         side = TILE
         while count > 1 and side > 1 and self.number(side) < TILES_PER_PART * count:

@@ -31,8 +31,8 @@ RTCScene EmbreeCurves(RTCDevice device, const Geometry& geometry) {
     first[i] = static_cast<unsigned>(4 * i);
     for (int k = 0; k < 4; ++k, points += 4) {
       std::copy(curve.p[k], curve.p[k] + 3, points);
-      const float share = static_cast<float>(k) / 3;
-      points[3] = 0.5f * ((1 - share) * curve.width[0] + share * curve.width[1]);
+      const float fraction = static_cast<float>(k) / 3;
+      points[3] = 0.5f * ((1 - fraction) * curve.width[0] + fraction * curve.width[1]);
     }
   }
   rtcCommitGeometry(g);

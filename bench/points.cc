@@ -31,7 +31,7 @@ constexpr std::size_t kPoints = kPixels * kSamples;
 
 struct Batch {
   Points points;
-  PointsParameters parameters;
+  SamplerParameters parameters;
   std::vector<float> u0 = std::vector<float>(kPoints + 16), u1 = u0;
   std::vector<double> seconds = {};
 
@@ -80,7 +80,7 @@ int Main(int argc, char** argv) {
   const SimdTarget target(o.target);
   std::vector<Batch> batches;
   for (Points points : kSamplers) {
-    batches.push_back({points, MakePointsParameters(points)});
+    batches.push_back({points, MakeSamplerParameters(points)});
     Verify(batches.back(), o.target);
   }
   for (int r = 0; r < o.repeat; ++r) {

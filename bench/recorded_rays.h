@@ -25,7 +25,7 @@ struct RayTap {
   RaySet set;
 };
 inline RayTap closest_rays, shadow_rays;
-inline std::size_t most_rays = std::size_t{1} << 20;
+inline std::size_t max_rays = std::size_t{1} << 20;
 
 inline float TimeOf(const PathColumns& p, std::uint32_t i) {
   return p.time == nullptr ? 0 : p.time[i];
@@ -47,7 +47,7 @@ template <RayTap& kTap, QueueId kQueue,
           TestRay (&kRay)(const PathColumns&, std::uint32_t)>
 void RecordQueue(Wave& wave) {
   const Queue& queue = wave.queue(kQueue);
-  if (queue.size > 0 && kTap.set.rays.size() < most_rays) {
+  if (queue.size > 0 && kTap.set.rays.size() < max_rays) {
     for (std::uint32_t i = 0; i < queue.size; ++i) {
       kTap.set.rays.push_back(kRay(wave.path, queue.items[i]));
     }
@@ -139,7 +139,7 @@ inline void Measure(const CompiledScene& scene, RTCScene peer, const RayTap& tap
     of_sixteen.Add(rays / TraceEmbree(peer, EmbreeCall::kSixteen, set, theirs));
   }
   const auto shown = [](const Series& s) {
-    return fmt::format("{:.2f} [{:.2f}, {:.2f}]", s.Median(), s.Least(), s.Most());
+    return fmt::format("{:.2f} [{:.2f}, {:.2f}]", s.Median(), s.Min(), s.Max());
   };
   fmt::print(
       "{:8} {:5.2f} M rays  ours {}  Embree, one {}  16 {} Mray/s  same {:.2f} %\n",
@@ -162,7 +162,7 @@ inline int RunRecorded(int argc, char** argv, const char* name,
     return 2;
   }
   try {
-    if (argc > 2) most_rays = std::strtoull(argv[2], nullptr, 10);
+    if (argc > 2) max_rays = std::strtoull(argv[2], nullptr, 10);
     run(argv[1], argc > 3 ? std::atoi(argv[3]) : 5);
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

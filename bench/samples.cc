@@ -67,9 +67,9 @@ void Measure(const Flags& flags) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Series& ns = all[k].nanoseconds;
     std::printf("  %14llu %7.1f [%.1f, %.1f] %+8.2f %% %10.2f\n",
-                static_cast<unsigned long long>(flags.spp[k]), ns.Median(), ns.Least(),
-                ns.Most(), 100 * (ns.Median() / all[0].nanoseconds.Median() - 1),
-                all[k].peak.Most());
+                static_cast<unsigned long long>(flags.spp[k]), ns.Median(), ns.Min(),
+                ns.Max(), 100 * (ns.Median() / all[0].nanoseconds.Median() - 1),
+                all[k].peak.Max());
   }
 }
 

@@ -12,10 +12,10 @@ class Series {
  public:
   void Add(double value) { values_.push_back(value); }
   double Median() const { return Quantile(0.5); }
-  double Least() const { return Quantile(0); }
-  double Most() const { return Quantile(1); }
+  double Min() const { return Quantile(0); }
+  double Max() const { return Quantile(1); }
   nlohmann::json Json() const {
-    return {{"median", Median()}, {"least", Least()}, {"most", Most()}};
+    return {{"median", Median()}, {"least", Min()}, {"most", Max()}};
   }
 
  private:

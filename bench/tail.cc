@@ -81,8 +81,8 @@ void MeasureThreads(const Job& job, const Flags& flags, int threads,
   std::printf(
       "  %4d threads, traced: last tasks %6.1f ms [%.1f, %.1f], lost %.2f %% "
       "[%.2f, %.2f], %.0f of %.0f krays/s\n",
-      threads, 1e3 * alone.Median(), 1e3 * alone.Least(), 1e3 * alone.Most(),
-      100 * lost.Median(), 100 * lost.Least(), 100 * lost.Most(),
+      threads, 1e3 * alone.Median(), 1e3 * alone.Min(), 1e3 * alone.Max(),
+      100 * lost.Median(), 100 * lost.Min(), 100 * lost.Max(),
       1e-3 * lost.Median() * rays.Median(), 1e-3 * rays.Median());
   out["traced"].push_back({{"threads", threads},
                            {"alone_seconds", alone.Json()},

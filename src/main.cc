@@ -73,7 +73,7 @@ void SuggestFlag(const CLI::App& root, int argc, const char* const* argv) {
 // What a command line that was not understood, or asked for help, comes to.
 int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
                 const char* const* argv) {
-  const bool asked = error.get_exit_code() == 0;  // --help, --version
+  const bool is_help = error.get_exit_code() == 0;  // --help, --version
   std::ostringstream out, err;
   const auto commands = root.get_subcommands();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !commands.empty()) {
@@ -85,7 +85,7 @@ int ReportParse(const CLI::App& root, const CLI::ParseError& error, int argc,
     root.exit(error, out, err);
   }
   Print(out.str());
-  if (asked) return kExitGood;
+  if (is_help) return kExitGood;
   if (std::string text = err.str(); !text.empty()) {
     if (text.back() == '\n') text.pop_back();
     PrintError(text);
@@ -117,9 +117,9 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   AddHelpCommand(root);
 }
 
-// What the command line comes to without a command: an exit code; kGoOn if there is one
-// to run.
-constexpr int kGoOn = -1;
+// What the command line comes to without a command: an exit code; kNoExitCode if there is
+// one to run.
+constexpr int kNoExitCode = -1;
 
 int Parse(CLI::App& root, int argc, char** argv) {
   if (argc < 2) {
@@ -136,7 +136,7 @@ int Parse(CLI::App& root, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ReportParse(root, error, argc, argv);
   }
-  return kGoOn;
+  return kNoExitCode;
 }
 
 // Why a command has failed, by what it has thrown.
@@ -170,7 +170,7 @@ bool ForRanks(const CLI::App& root, const RankGroup& group) {
 }
 
 // On the leader: which rank's number is another than its own; empty if none is.
-std::string WhoDiffers(RankGroup& group, int number) {
+std::string RanksThatDiffer(RankGroup& group, int number) {
   const std::vector<int> numbers = group.AllGather(number);
   for (int r = 1; group.leads() && r < group.ranks(); ++r) {
     if (numbers[static_cast<std::size_t>(r)] != number) return group.Name(r);
@@ -180,13 +180,13 @@ std::string WhoDiffers(RankGroup& group, int number) {
 
 int Run(CLI::App& root, const Command& chosen, RankGroup& group, int argc, char** argv) {
   int exit_code = Parse(root, argc, argv);
-  if (const std::string who = WhoDiffers(group, exit_code); !who.empty()) {
+  if (const std::string who = RanksThatDiffer(group, exit_code); !who.empty()) {
     PrintError("error: " + who +
                " does not take this command line as rank 0 does: is a "
                "file missing there, or its program another?");
     return group.Fail(kExitUsage, "");
   }
-  if (exit_code != kGoOn) {
+  if (exit_code != kNoExitCode) {
     return group.Leave(FlushOutput() ? exit_code : static_cast<int>(kExitBadInput));
   }
   if (!ForRanks(root, group)) return group.Leave(kExitUsage);

@@ -5,7 +5,7 @@
 # system calls (seccomp), which the next sets; the others want to see what a render has
 # done in 0.2 s, and a pilot in 2.5 s.
 set(unable cli/lost_renders_test measure/sweep/directory_test
-  render/run/put_down_test cli/advise_test)
+  render/run/cancel_test cli/advise_test)
 # Scripts that start the program themselves, or preload a library into it.
 list(APPEND unable cases_run_once cli/completion docs/links failures/kill failures/disk
   failures/foreign)
@@ -24,7 +24,7 @@ set(long
   kernels/lights/projected_test kernels/media/agreement_test kernels/media/coloured_test kernels/media/distances_test
   kernels/media/varying_test scene/parse/format_test kernels/points/convergence_test
   reference/closed_form_test reference/estimators_test
-  render/job/cuts_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
+  render/job/any_split_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
   kernels/roulette/efficiency_test kernels/roulette/shadow_test kernels/roulette/splitting_test
   kernels/roulette/single_path_test scenes/closed_form_scenes_test scenes/scenes_test
   kernels/shade/coat_medium_test kernels/shade/limits_test kernels/shade/reference_test base/stat/convergence_test
@@ -32,14 +32,14 @@ set(long
   extremes/materials_test extremes/media_test extremes/paths_test extremes/round_test extremes/scenes_test extremes/triangles_test
   extremes/views_test measure/stress/suite_test
   measure/study/calibration_test measure/study/render_reference_test measure/study/shared_bias_test
-  measure/study/study_test measure/sweep/again_test measure/sweep/parts_test measure/sweep/ten_thousand_test
+  measure/study/study_test measure/sweep/rerun_test measure/sweep/parts_test measure/sweep/ten_thousand_test
   kernels/texture/pattern_kernel_test agreement/agreement_test
   agreement/alpha_places_test agreement/closed_form_test
   render/run/convergence_test render/train/decision_test render/plan/declared_fields_test
   render/wave/determinism_test agreement/force_diffuse_test agreement/mirrored_lights_test
-  render/run/open_ended_test agreement/relief_agreement_test
+  render/run/open_ended_test agreement/bump_agreement_test
   render/run/resume_mistakes_test render/run/resume_test agreement/round_shapes_test
-  render/wave/seen_lights_test agreement/textured_test
+  render/wave/visible_lights_test agreement/textured_test
   # Where scenes from elsewhere are found: more than 600 s, and 511 s.
   scenes/reference_images_test render/train/decision_scenes_test)
 

@@ -60,14 +60,14 @@ void Calibration::Rows(const Job& job, const std::string& scene,
   std::size_t left = cases * strategies_.size();
   for (std::size_t i = 0; i < cases; ++i) {
     for (const std::string& strategy : strategies_) {
-      const Deadline share = deadline.Share(double(left--));
+      const Deadline allotted = deadline.Share(double(left--));
       if (end_.Over()) {
         ++left_out_;
       } else if (stops) {
-        Stops(job, strategy, options_.targets[i], reference, share);
+        Stops(job, strategy, options_.targets[i], reference, allotted);
       } else {
         ErrorCoverage row;
-        Row(job, strategy, options_.spp[i], reference, share, row);
+        Row(job, strategy, options_.spp[i], reference, allotted, row);
         AddTotals(scene, strategy, options_.spp[i], row, reference);
       }
     }
@@ -86,7 +86,7 @@ void Calibration::Row(const Job& scene, const std::string& strategy, std::uint64
     return;
   }
   for (int seed = 1; seed <= options_.seeds; ++seed) {
-    if (seed > options_.least_seeds && deadline.Over()) break;
+    if (seed > options_.min_seeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
     FilmAccumulator film = RunJob(job).film;
     const ErrorEstimate stated = EstimateError(film);
@@ -109,8 +109,8 @@ void Calibration::AddTotals(const std::string& scene, const std::string& strateg
                             std::uint64_t spp, const ErrorCoverage& row,
                             const Reference& reference) {
   if (row.relmse.renders() == 0) return;
-  if (reference.OwnRelMse() > kMostOwnError * row.relmse.MeanTruth() ||
-      std::sqrt(reference.OwnMse() / kMostOwnError) > row.rmse.MeanTruth()) {
+  if (reference.OwnRelMse() > kMaxOwnError * row.relmse.MeanTruth() ||
+      std::sqrt(reference.OwnMse() / kMaxOwnError) > row.rmse.MeanTruth()) {
     ++coarse_;
     return;
   }
@@ -137,7 +137,7 @@ void Calibration::PrintTotals() const {
     fmt::print(
         "{} rows are in none of these totals: the reference's own squared error is "
         "more than {:g} of theirs\n",
-        coarse_, kMostOwnError);
+        coarse_, kMaxOwnError);
   }
   if (left_out_ > 0) {
     fmt::print("{} rows were left out: --minutes {:g} were over\n", left_out_,

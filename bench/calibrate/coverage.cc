@@ -14,7 +14,7 @@ void Coverage::Add(double true_error, const Interval& stated) {
   const bool too_low = true_error < stated.low - kRounding;
   if (!stated.HasBounds()) {
     ++refused_;
-    refused_held_ += !too_low;
+    refused_covered_ += !too_low;
     return;
   }
   ++printed_;
@@ -28,7 +28,7 @@ void Coverage::Add(const Coverage& other) {
   inside_ += other.inside_;
   below_ += other.below_;
   refused_ += other.refused_;
-  refused_held_ += other.refused_held_;
+  refused_covered_ += other.refused_covered_;
 }
 
 Interval Coverage::Inside() const {
@@ -41,23 +41,23 @@ std::string Coverage::CountsHead() {
 }
 
 std::string Coverage::Counts() const {
-  std::string share = "-", lower = "-";
+  std::string fraction = "-", lower = "-";
   if (printed_ > 0) {
     const Interval v = Inside();
-    share = fmt::format("{:5.1f} % [{:5.1f}, {:5.1f}]", 100 * v.value, 100 * v.low,
-                        100 * v.high);
+    fraction = fmt::format("{:5.1f} % [{:5.1f}, {:5.1f}]", 100 * v.value, 100 * v.low,
+                           100 * v.high);
   }
-  if (refused_ > 0) lower = fmt::format("{}/{}", refused_held_, refused_);
+  if (refused_ > 0) lower = fmt::format("{}/{}", refused_covered_, refused_);
   return fmt::format(
       "{:>7} {:>5.1f} % {:>22} {:>5} {:>5} {:>11}", renders(),
-      100.0 * double(refused_) / double(std::max<std::uint64_t>(1, renders())), share,
+      100.0 * double(refused_) / double(std::max<std::uint64_t>(1, renders())), fraction,
       below_, printed_ - inside_ - below_, lower);
 }
 
 std::string Coverage::Cells() const {
-  const std::string share =
+  const std::string fraction =
       printed_ > 0 ? fmt::format("{:.1f} %", 100 * Inside().value) : "-";
-  return fmt::format("{} | {} | {} | {} | {}", renders(), printed_, inside_, share,
+  return fmt::format("{} | {} | {} | {} | {}", renders(), printed_, inside_, fraction,
                      refused_);
 }
 
@@ -84,7 +84,7 @@ std::string Coverage::Sentence(const std::string& error) const {
   return fmt::format(
       "{}: {}; {} of {} renders stated no upper end, and {} of their lower "
       "ends held",
-      error, text, refused_, renders(), refused_held_);
+      error, text, refused_, renders(), refused_covered_);
 }
 
 void Totals::Add(const std::string& name, const ErrorCoverage& coverage) {

@@ -43,7 +43,7 @@ class Coverage {
 
  private:
   std::uint64_t printed_ = 0, inside_ = 0, below_ = 0;
-  std::uint64_t refused_ = 0, refused_held_ = 0;
+  std::uint64_t refused_ = 0, refused_covered_ = 0;
   double truth_ = 0, estimate_ = 0, width_ = 0;
 };
 

@@ -40,7 +40,7 @@ int Main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--seeds", options.seeds, "Most renders of each")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--least-seeds", options.least_seeds, "Fewest renders of each")
+  app.add_option("--least-seeds", options.min_seeds, "Fewest renders of each")
       ->check(CLI::Range(1, 100000));
   app.add_option("--spp", options.spp, "Samples per pixel");
   app.add_option("--resolutions", options.resolutions, "Sizes of the images, WxH");

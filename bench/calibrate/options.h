@@ -9,12 +9,12 @@
 
 namespace lanelight::bench {
 
-inline constexpr int kLeastSeeds = 10;
-inline constexpr std::uint64_t kLeastReferenceSpp = 1024;
-/// Squared error of the reference over that of renders. It adds 2 kMostOwnError to the
+inline constexpr int kMinSeeds = 10;
+inline constexpr std::uint64_t kMinReferenceSpp = 1024;
+/// Squared error of the reference over that of renders. It adds 2 kMaxOwnError to the
 /// relative variance of their errors (in units of that of the interval): above, true
 /// intervals would seem to fail.
-inline constexpr double kMostOwnError = 0.1;
+inline constexpr double kMaxOwnError = 0.1;
 
 struct CalibrateOptions {
   std::vector<std::string> scenes;  // empty: all that there are
@@ -26,7 +26,7 @@ struct CalibrateOptions {
   std::uint64_t reference_spp = 0;  // 0: what the time allows
   std::vector<double> targets;
   double minutes = 55;
-  int seeds = 200, least_seeds = kLeastSeeds, threads = 0;
+  int seeds = 200, min_seeds = kMinSeeds, threads = 0;
 };
 
 /// Scenes of the project (scenes/*.pbrt) and of $LANELIGHT_SCENES (../shared/scenes:

@@ -8,7 +8,7 @@
 namespace lanelight::bench {
 namespace {
 
-constexpr double kLeastSeconds = 0.1;  // of a render
+constexpr double kMinSeconds = 0.1;  // of a render
 
 }  // namespace
 
@@ -23,11 +23,11 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
   }
   job.target.relmse = target;
   // Where the samples cannot tell the error, the target is never reached.
-  job.seconds = std::max(kLeastSeconds, deadline.Left() / kLeastSeeds);
+  job.seconds = std::max(kMinSeconds, deadline.Left() / kMinSeeds);
   std::uint64_t reached = 0, stopped = 0, renders = 0;
   double error = 0, samples = 0, looks = 0;
   for (int seed = 1; seed <= options_.seeds; ++seed) {
-    if (seed > kLeastSeeds && deadline.Over()) break;
+    if (seed > kMinSeeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
     const auto [film, result] = RunJob(job);
     ++renders;
@@ -43,12 +43,12 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
   all_stopped_ += stopped;
   fmt::print("{:<48} target {:<8} stopped {}/{}", strategy, target, stopped, renders);
   if (stopped > 0) {
-    const Interval share = stat::ProportionInterval(reached, stopped, 0.95);
+    const Interval fraction = stat::ProportionInterval(reached, stopped, 0.95);
     const double n = double(stopped);
     fmt::print(
         ", reached {:5.1f} % [{:4.1f}, {:5.1f}], overshoot {:.3f}, {:.1f} spp, "
         "{:.1f} looks",
-        100 * share.value, 100 * share.low, 100 * share.high, target * n / error,
+        100 * fraction.value, 100 * fraction.low, 100 * fraction.high, target * n / error,
         samples / n, looks / n);
   }
   fmt::print("\n");

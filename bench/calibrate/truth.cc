@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kReferenceSeed = 0x5eed5eed;  // renders have 1, 2, ...
 constexpr std::uint64_t kTrialSpp = 64;
-constexpr double kMostReference = 1024;  // times kLeastReferenceSpp
+constexpr double kMaxReferenceFactor = 1024;  // times kMinReferenceSpp
 
 // Rows of an image, means and variances.
 Reference FromFilm(const FilmAccumulator& film, std::uint64_t spp) {
@@ -58,8 +58,8 @@ Reference MakeReference(const Job& scene, std::uint64_t spp, double seconds) {
   job.seed = kReferenceSeed;
   if (spp == 0) {  // a short render says how long samples take
     const double fit = seconds / RunJob(job).result.seconds * double(kTrialSpp);
-    spp = kLeastReferenceSpp *
-          std::uint64_t(std::clamp(fit / kLeastReferenceSpp, 1.0, kMostReference));
+    spp = kMinReferenceSpp *
+          std::uint64_t(std::clamp(fit / kMinReferenceSpp, 1.0, kMaxReferenceFactor));
   }
   job.spp = spp;
   FilmAccumulator film = RunJob(job).film;

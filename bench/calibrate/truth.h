@@ -20,7 +20,7 @@ Strategy ParseStrategy(const std::string& text);
 Job JobWith(Job job, const std::string& strategy, std::uint64_t spp);
 
 /// Renders a reference by Sobol' points with a seed of its own, with `spp` samples per
-/// pixel, or, for 0, as many as fit into the seconds, at least kLeastReferenceSpp.
+/// pixel, or, for 0, as many as fit into the seconds, at least kMinReferenceSpp.
 Reference MakeReference(const Job& scene, std::uint64_t spp, double seconds);
 
 /// Less the reference's own error.

@@ -40,9 +40,9 @@ struct BenchFilm {
 };
 
 /// Passes everything on to a checkpoint, except that `keep` is called instead of Keep.
-class WatchedKeeper : public RunKeeper {
+class WatchedCheckpointer : public Checkpointer {
  public:
-  WatchedKeeper(Checkpoint& checkpoint, std::function<void(RunState&)> keep)
+  WatchedCheckpointer(Checkpoint& checkpoint, std::function<void(RunState&)> keep)
       : checkpoint_(checkpoint), keep_(std::move(keep)) {}
   bool Restore(RunState& state) override { return checkpoint_.Restore(state); }
   bool Due() const override { return checkpoint_.Due(); }

@@ -49,8 +49,8 @@ Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& pa
     const Clock::time_point start = Clock::now();
     const double cpu = ProcessCpuSeconds();
     MergedRender merged = MergeStates(paths);
-    const std::chrono::duration<double> taken = Clock::now() - start;
-    const double taken_cpu = ProcessCpuSeconds() - cpu;
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
+    const double used_cpu = ProcessCpuSeconds() - cpu;
     if (i == 0) {  // warms up, and is verified
       BenchFilm film(job);
       film.film = std::move(*merged.film);
@@ -59,8 +59,8 @@ Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& pa
       }
       continue;
     }
-    m.seconds.Add(taken.count());
-    m.cpu.Add(taken_cpu);
+    m.seconds.Add(elapsed.count());
+    m.cpu.Add(used_cpu);
     m.peak = std::max(m.peak, double(PeakResidentBytes()) - before);
   }
   return m;
@@ -82,9 +82,9 @@ nlohmann::json MeasureMerging(const CheckpointBench& bench) {
       const Merging m = Measure(bench, paths, job, film);
       for (const std::string& path : paths) fs::remove(path);
       std::printf("  %5d %9.1f %8.3f %8.3f %8.3f %8.3f %8.2f %12.3f\n", count,
-                  1e-6 * m.file_bytes, m.seconds.Median(), m.seconds.Least(),
-                  m.seconds.Most(), m.cpu.Median(),
-                  1e-9 * film_bytes / m.seconds.Median(), m.peak / film_bytes);
+                  1e-6 * m.file_bytes, m.seconds.Median(), m.seconds.Min(),
+                  m.seconds.Max(), m.cpu.Median(), 1e-9 * film_bytes / m.seconds.Median(),
+                  m.peak / film_bytes);
       std::fflush(stdout);
       out.push_back({{"parts", count},
                      {"film_bytes", film_bytes},
@@ -97,10 +97,10 @@ nlohmann::json MeasureMerging(const CheckpointBench& bench) {
   };
   CheckpointSettings none;
   Checkpoint checkpoint(job, none, HeadOf(job), ThrowProblem);
-  WatchedKeeper keeper(checkpoint, measure);
+  WatchedCheckpointer checkpointer(checkpoint, measure);
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  options.keeper = &keeper;
+  options.checkpointer = &checkpointer;
   Run(job.scene, job.plan, options, film.film);
   return out;
 }

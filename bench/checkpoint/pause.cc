@@ -37,7 +37,7 @@ struct Steps {
 };
 
 void Print(const char* what, const Series& s) {
-  std::printf("  %-34s %8.3f  [%.3f, %.3f]\n", what, s.Median(), s.Least(), s.Most());
+  std::printf("  %-34s %8.3f  [%.3f, %.3f]\n", what, s.Median(), s.Min(), s.Max());
 }
 
 CheckpointSettings SettingsOf(const CheckpointBench& bench, double seconds) {
@@ -59,7 +59,7 @@ Speed RenderWith(const Job& job, const CheckpointBench& bench, double seconds) {
   Checkpoint checkpoint(job, SettingsOf(bench, seconds), HeadOf(job), ThrowProblem);
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  if (seconds > 0) options.keeper = &checkpoint;
+  if (seconds > 0) options.checkpointer = &checkpoint;
   const Clock::time_point start = Clock::now();
   const double cpu = ProcessCpuSeconds();
   Run(job.scene, job.plan, options, film.film);
@@ -78,14 +78,14 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
   const CheckpointSettings settings = SettingsOf(bench, 1e9);
   Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
   Steps steps;
-  WatchedKeeper keeper(checkpoint, [&](RunState& state) {
+  WatchedCheckpointer checkpointer(checkpoint, [&](RunState& state) {
     checkpoint.Keep(state);  // warms up
     checkpoint.Finish();
     for (int i = 0; i < bench.repeats; ++i) steps.Time(checkpoint, state);
   });
   RunOptions options = RunOptionsOf(job);
   options.tiles = checkpoint.tiles();
-  options.keeper = &keeper;
+  options.checkpointer = &checkpointer;
   Run(job.scene, job.plan, options, film.film);
   const double film_bytes = double(film.Bytes()),
                file_bytes = double(fs::file_size(settings.path));
@@ -93,18 +93,18 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
   // The fraction of a minute of all threads, on an otherwise idle machine.
   const double threads = MaxThreads();
   const double cost = steps.pause.Median() + steps.write_cpu.Median() / threads;
-  const double least = (steps.pause_cpu.Median() + steps.write_cpu.Median()) / threads;
+  const double minimum = (steps.pause_cpu.Median() + steps.write_cpu.Median()) / threads;
   std::printf("  film %.1f MB, file %.1f MB\n", 1e-6 * film_bytes, 1e-6 * file_bytes);
   Print("pause, s", steps.pause);
   Print("processor time of it, s", steps.pause_cpu);
   Print("writing beside the render, s", steps.write);
   Print("processor time of it, s", steps.write_cpu);
   std::printf("  of a minute: %.2f %%; by processor time alone %.2f %%\n", cost / 0.6,
-              least / 0.6);
+              minimum / 0.6);
   return {{"film_bytes", film_bytes},     {"file_bytes", file_bytes},
           {"pause", steps.pause.Json()},  {"pause_cpu", steps.pause_cpu.Json()},
           {"write", steps.write.Json()},  {"write_cpu", steps.write_cpu.Json()},
-          {"share_of_minute", cost / 60}, {"share_of_minute_cpu", least / 60}};
+          {"share_of_minute", cost / 60}, {"share_of_minute_cpu", minimum / 60}};
 }
 
 nlohmann::json MeasureSlowdown(const CheckpointBench& bench) {
@@ -132,7 +132,7 @@ nlohmann::json MeasureSlowdown(const CheckpointBench& bench) {
         "  every %2.0f s: processor %.2f s, wall %.2f s, against none %+.2f %% "
         "[%+.2f, %+.2f] of processor time\n",
         kEvery[way], cpu[way].Median(), wall[way].Median(), 100 * ratio[way].Median(),
-        100 * ratio[way].Least(), 100 * ratio[way].Most());
+        100 * ratio[way].Min(), 100 * ratio[way].Max());
     out.push_back({{"every_seconds", kEvery[way]},
                    {"cpu", cpu[way].Json()},
                    {"wall", wall[way].Json()},

@@ -43,7 +43,7 @@ nlohmann::json MeasureTiles(const CheckpointBench& bench) {
     }
     std::printf("  %5llu %14.3f %14.3f %+8.2f %% [%+.2f, %+.2f]\n",
                 static_cast<unsigned long long>(spp), ordinary.Median(), kept.Median(),
-                100 * ratio.Median(), 100 * ratio.Least(), 100 * ratio.Most());
+                100 * ratio.Median(), 100 * ratio.Min(), 100 * ratio.Max());
     std::fflush(stdout);
     out.push_back({{"spp", spp},
                    {"ordinary_cpu", ordinary.Json()},

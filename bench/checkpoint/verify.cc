@@ -14,11 +14,11 @@ namespace {
 constexpr std::uint64_t kSpp = 24;
 constexpr std::array<int, 2> kSmall = {200, 120};
 
-void Render(const Job& job, BenchFilm& out, RunKeeper* keeper,
+void Render(const Job& job, BenchFilm& out, Checkpointer* checkpointer,
             const std::vector<PixelRect>& tiles,
             const std::atomic<bool>* stop = nullptr) {
   RunOptions options = RunOptionsOf(job);
-  options.keeper = keeper;
+  options.checkpointer = checkpointer;
   options.tiles = tiles;
   options.stop = stop;
   Run(job.scene, job.plan, options, out.film);
@@ -45,11 +45,11 @@ void VerifyResume(const CheckpointBench& bench, const Job& job, BenchFilm& whole
     BenchFilm begun(job);
     std::atomic<bool> stop{false};
     Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
-    WatchedKeeper keeper(checkpoint, [&](RunState& state) {
+    WatchedCheckpointer checkpointer(checkpoint, [&](RunState& state) {
       checkpoint.Keep(state);
       stop = true;
     });
-    Render(job, begun, &keeper, checkpoint.tiles(), &stop);
+    Render(job, begun, &checkpointer, checkpoint.tiles(), &stop);
     checkpoint.Finish();
     Expect(!begun.SameAs(whole), "the render was not interrupted");
   }

@@ -32,8 +32,8 @@ bool IsWrong(const CompiledScene& scene, const TestRay& r, bool shadow,
                                     brute::ToDouble(r.d));
   if (shadow) return (truth.t < r.t_max) != (ours.t == 0);
   if (std::isinf(truth.t)) return !std::isinf(ours.t);
-  const double most = Tolerance(scene.geometry.triangles[truth.prim], r, truth.t);
-  return !(std::abs(truth.t - ours.t) <= most);
+  const double maximum = Tolerance(scene.geometry.triangles[truth.prim], r, truth.t);
+  return !(std::abs(truth.t - ours.t) <= maximum);
 }
 
 enum class Match { kSame, kTie, kDiffer };
@@ -64,9 +64,9 @@ Agreement CheckHits(const CompiledScene& scene, const RaySet& set,
   Agreement out;
   // About half a second.
   constexpr double kTests = 5e7;
-  const double most = kTests / (double(scene.geometry.triangles.size()) + 1e4);
+  const double maximum = kTests / (double(scene.geometry.triangles.size()) + 1e4);
   const auto step = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(double(set.rays.size()) / std::max(most, 10.0))));
+      std::max(1.0, std::ceil(double(set.rays.size()) / std::max(maximum, 10.0))));
   for (std::size_t i = 0; i < set.rays.size(); i += step) {
     ++out.sample;
     out.wrong += IsWrong(scene, set.rays[i], set.shadow, hits[i]);

@@ -56,7 +56,7 @@ BuildResult Summary(const Mesh& mesh, const Builder& builder,
   BuildResult out{mesh.name, builder.Name(), mesh.triangles.size()};
   std::vector<double> cpu;
   for (const BuildRun& run : one) cpu.push_back(run.cpu);
-  out.cpu = SpreadOf(cpu).median;
+  out.cpu = MedianRangeOf(cpu).median;
   // Other programs only ever add to these.
   out.wall_one = std::ranges::min(one, {}, &BuildRun::wall).wall;
   out.wall_two = std::ranges::min(two, {}, &BuildRun::wall).wall;

@@ -31,7 +31,7 @@ class Comparison {
     for (std::size_t e = 0; e < entries_.size(); ++e) result.entries.push_back(Result(e));
     result.best = Best(result.entries, false);
     result.best_robust = Best(result.entries, true);
-    result.ours = SpreadOf(our_rates_).median;
+    result.ours = MedianRangeOf(our_rates_).median;
   }
 
  private:
@@ -68,8 +68,8 @@ class Comparison {
     EntryResult out;
     out.entry = entries_[e];
     out.repetitions = static_cast<int>(rates_[e].size());
-    out.mrays = SpreadOf(rates_[e]).median;
-    if (!ratios_[e].empty()) out.ratio = SpreadOf(ratios_[e]);
+    out.mrays = MedianRangeOf(rates_[e]).median;
+    if (!ratios_[e].empty()) out.ratio = MedianRangeOf(ratios_[e]);
     return out;
   }
 
@@ -96,7 +96,7 @@ class Comparison {
 
 }  // namespace
 
-Spread SpreadOf(std::vector<double> values) {
+MedianRange MedianRangeOf(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t n = values.size();
   return {(values[(n - 1) / 2] + values[n / 2]) / 2, values.front(), values.back()};
@@ -106,7 +106,7 @@ SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& wh
                   Peer* peer, const CompareOptions& options) {
   OurTracer ours(scene, options.wave);
   const double seconds = ours.Trace(whole, nullptr);
-  const auto step = static_cast<std::size_t>(std::ceil(seconds / options.most_seconds));
+  const auto step = static_cast<std::size_t>(std::ceil(seconds / options.max_seconds));
   const RaySet set = EveryWave(whole, static_cast<std::size_t>(options.wave), step);
   SetResult result;
   result.mesh = mesh.name;
@@ -124,7 +124,7 @@ SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& wh
   for (int r = 0; r < options.repeat; ++r) {
     rates.push_back(Mrays(set, ours.Trace(set, nullptr)));
   }
-  result.ours = SpreadOf(rates).median;
+  result.ours = MedianRangeOf(rates).median;
   return result;
 }
 

@@ -10,16 +10,16 @@
 namespace lanelight::bench {
 
 /// Median and extremes of the repetitions.
-struct Spread {
+struct MedianRange {
   double median = 0, low = 0, high = 0;  // low, high: least and largest
 };
-Spread SpreadOf(std::vector<double> values);
+MedianRange MedianRangeOf(std::vector<double> values);
 
 struct EntryResult {
   PeerEntry entry;
   int repetitions = 0;
-  double mrays = 0;  // millions of rays per second, median
-  Spread ratio;      // ours / this entry in rays per second
+  double mrays = 0;   // millions of rays per second, median
+  MedianRange ratio;  // ours / this entry in rays per second
 };
 
 /// How hits of ours agree with others', over all rays but where it says otherwise.
@@ -41,14 +41,14 @@ struct SetResult {
 
 struct CompareOptions {
   int wave = 2048, repeat = 9;
-  double most_seconds = 0.25;
+  double max_seconds = 0.25;
 };
 
 /// First every entry runs twice. Entries slower than 0.85 of the best of their class
 /// (robust or not; by the faster run) are out: they cannot be the bar, and there are
 /// dozens. The others then run `repeat` times, each time right beside a run of ours,
 /// which goes first in every second repetition: each pair gives one ratio. Of a set that
-/// takes ours longer than `most_seconds` only every n-th wave is traced.
+/// takes ours longer than `max_seconds` only every n-th wave is traced.
 SetResult Compare(const Mesh& mesh, const CompiledScene& scene, const RaySet& whole,
                   Peer* peer, const CompareOptions& options);
 

@@ -18,11 +18,11 @@ struct Tap {
   RaySet set;
   std::size_t step = 1, calls = 0, rays = 0;
 
-  void Start(std::size_t take_every) {
-    step = take_every;
+  void Start(std::size_t sample_stride) {
+    step = sample_stride;
     calls = rays = 0;
   }
-  bool Takes(std::uint32_t size) {
+  bool IsSampled(std::uint32_t size) {
     rays += size;
     return step > 0 && calls++ % step == 0;
   }
@@ -45,7 +45,7 @@ TestRay ShadowRay(const PathColumns& p, std::uint32_t i) {
 template <Tap& kTap, QueueId kQueue, TestRay (&kRay)(const PathColumns&, std::uint32_t)>
 void Record(Wave& wave) {
   const Queue& queue = wave.queue(kQueue);
-  if (kTap.Takes(queue.size)) {
+  if (kTap.IsSampled(queue.size)) {
     for (std::uint32_t i = 0; i < queue.size; ++i) {
       kTap.set.rays.push_back(kRay(wave.path, queue.items[i]));
     }
@@ -75,7 +75,7 @@ void Render(Job& job, std::uint64_t spp) {
 
 }  // namespace
 
-SceneRays RecordRays(const std::string& path, std::size_t most) {
+SceneRays RecordRays(const std::string& path, std::size_t max_rays) {
   RenderSettings settings;
   settings.spp = kRecordedSpp;
   Job job = PrepareJob(path, settings);
@@ -92,7 +92,7 @@ SceneRays RecordRays(const std::string& path, std::size_t most) {
   shadow_tap.Start(0);
   Render(job, 1);
   for (Tap* tap : {&closest_tap, &shadow_tap}) {
-    tap->Start(std::max<std::size_t>(1, tap->rays * kRecordedSpp / most));
+    tap->Start(std::max<std::size_t>(1, tap->rays * kRecordedSpp / max_rays));
   }
   Render(job, kRecordedSpp);
   SceneRays out;

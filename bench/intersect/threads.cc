@@ -40,7 +40,7 @@ ThreadsResult BenchThreads(const Mesh& mesh, const CompiledScene& scene,
     rates.push_back(Mrays(scene, whole, options.wave));
     ratios.push_back(Mrays(scene, halves, options.wave) / rates.back());
   }
-  return {mesh.name, set.name, SpreadOf(rates).median, SpreadOf(ratios)};
+  return {mesh.name, set.name, MedianRangeOf(rates).median, MedianRangeOf(ratios)};
 }
 
 void PrintThreads(const ThreadsResult& r) {

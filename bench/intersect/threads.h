@@ -7,8 +7,8 @@ namespace lanelight::bench {
 
 struct ThreadsResult {
   std::string mesh, set;
-  double one = 0;  // Mrays/s, median
-  Spread scaling;  // rate of 2 threads together over the rate of 1, of paired runs
+  double one = 0;       // Mrays/s, median
+  MedianRange scaling;  // rate of 2 threads together over the rate of 1, of paired runs
 };
 
 /// Waves are dealt out in turn; the rate is the sum of the threads' rates by processor

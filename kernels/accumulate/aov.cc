@@ -128,7 +128,8 @@ HWY_INLINE FirstHit LoadHit(const Wave& wave, const Slots& slots) {
 
 // Returns the hit in the space of the camera at the start of its motion, as the moving
 // camera sees it at the path's time.
-HWY_NOINLINE FirstHit SeenAtStart(const Wave& wave, const Slots& slots, FirstHit hit) {
+HWY_NOINLINE FirstHit HitAtShutterStart(const Wave& wave, const Slots& slots,
+                                        FirstHit hit) {
   const MovedSpace moved =
       SpaceAt(OneMotion{wave.camera->motion}, Gather(wave.path.time, slots));
   const Map34 forward = moved.Forward();
@@ -144,7 +145,7 @@ void Gbuffer(Wave& wave) {
   const bool with_camera = wave.camera->moves && space.of_camera;
   ForEachBatch(wave, FirstHits(wave), [&](const StoreSlots& slots, MF) HWY_ATTR {
     FirstHit hit = LoadHit(wave, slots);
-    if (with_camera) hit = SeenAtStart(wave, slots, hit);
+    if (with_camera) hit = HitAtShutterStart(wave, slots, hit);
     const auto& [p, ng, ns, steps] = hit;
     const V3 place =
         Rows(space.x, space.y, space.z, p - SplatVec(space.from)) + SplatVec(space.to);

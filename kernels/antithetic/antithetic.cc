@@ -26,7 +26,7 @@ HWY_INLINE VF HalfTurned(VF u) {
   return hn::Add(u, hn::IfThenElse(hn::Lt(u, half), half, Splat(-0.5f)));
 }
 
-enum class Reflection { kReflect, kTurn };
+enum class Reflection { kReflect, kRotate };
 
 // Reflects one column for the odd samples of the queue.
 template <Reflection kHow>
@@ -35,7 +35,7 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
   const DI di;
   const PathColumns& p = wave.path;
   const VI one = hn::Set(di, 1);
-  // Pairs hold at every depth or at the first bounce only (MakePairParameters).
+  // Pairs hold at every depth or at the first bounce only (MakeAntitheticParameters).
   const bool first_only = wave.run->pairs.depths == 1;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
   for (uint32_t i = 0; i < queue.size; i += lanes) {
@@ -44,7 +44,7 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
     if (first_only) odd = hn::And(odd, hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
     const MF reflect = hn::RebindMask(DF(), odd);
     const VF u = Gather(column, slots);
-    const VF other = kHow == Reflection::kTurn ? HalfTurned(u) : Reflected(u);
+    const VF other = kHow == Reflection::kRotate ? HalfTurned(u) : Reflected(u);
     Scatter(hn::IfThenElse(reflect, other, u), column, slots);
   }
 }
@@ -77,7 +77,7 @@ void AntitheticBounce(Wave& wave) {
   // mirror.
   if (wave.run->pairs.Has(Dimension::kBsdf)) {
     ReflectColumn<Reflection::kReflect>(wave, queue, p.u_bsdf_0);
-    ReflectColumn<Reflection::kTurn>(wave, queue, p.u_bsdf_1);
+    ReflectColumn<Reflection::kRotate>(wave, queue, p.u_bsdf_1);
   }
   ReflectPoint(wave, queue, Dimension::kLobe, p.u_lobe, nullptr);
   ReflectPoint(wave, queue, Dimension::kSelect, p.u_select, nullptr);

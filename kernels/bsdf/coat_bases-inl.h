@@ -27,10 +27,10 @@ struct DiffuseLayer {
   /// Mixes a lobe for the reflection of the interface with a cosine lobe.
   LANELIGHT_INLINE VF Proxy(const CoatLayer& coat, V3 wo, V3 wi) const {
     const VF f = DielectricInterface(wo.z, coat.eta).reflectance;
-    const VF share = hn::IfThenZeroElse(coat.layer.smooth, hn::Mul(Splat(0.9f), f));
+    const VF fraction = hn::IfThenZeroElse(coat.layer.smooth, hn::Mul(Splat(0.9f), f));
     const VF mirrored = hn::Mul(Splat(0.25f), coat.layer.Visible(wo, Normalize(wo + wi)));
     const VF even = PdfCosineHemisphere(wi.z);
-    return hn::MulAdd(share, hn::Sub(mirrored, even), even);
+    return hn::MulAdd(fraction, hn::Sub(mirrored, even), even);
   }
 };
 

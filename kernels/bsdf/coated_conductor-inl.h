@@ -59,12 +59,13 @@ struct CoatedConductorBsdf : PlainBsdf {
                                   widened(p.metal.layer.ggx.ay, coat_y));
     const VF quarter = Splat(0.25f);
     const VF f = DielectricInterface(wo.z, p.coat.eta).reflectance;
-    const VF share = hn::IfThenElse(p.coat.layer.smooth, zero, hn::Mul(Splat(0.9f), f));
+    const VF fraction =
+        hn::IfThenElse(p.coat.layer.smooth, zero, hn::Mul(Splat(0.9f), f));
     const VF from_coat = hn::Mul(quarter, p.coat.layer.Visible(wo, m));
     const VF from_metal = hn::Mul(quarter, seen.Visible(wo, m));
     const VF even = hn::Mul(Splat(0.1f * kInvPi), wi.z);
-    const VF rest = hn::Sub(Splat(0.9f), share);
-    return hn::MulAdd(share, from_coat, hn::MulAdd(rest, from_metal, even));
+    const VF rest = hn::Sub(Splat(0.9f), fraction);
+    return hn::MulAdd(fraction, from_coat, hn::MulAdd(rest, from_metal, even));
   }
 
   /// One estimate of f |cos wi| by a walk from wo that is connected to wi at every

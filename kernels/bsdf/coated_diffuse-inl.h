@@ -183,7 +183,7 @@ struct CoatedDiffuseRoughBsdf : PlainBsdf {
     const VF cosine = hn::Clamp(Dot(wo, n), hn::Zero(DF()), one);
     const VF f = DielectricInterface(cosine, m.base.eta).reflectance;
     const VF half_d = hn::Mul(half, m.ggx.D(n));
-    const VF so = m.ggx.Spread(wo), si = m.ggx.Spread(wi);
+    const VF so = m.ggx.StretchedLength(wo), si = m.ggx.StretchedLength(wi);
     const VF reflection =
         hn::Mul(hn::Mul(half_d, f), HalfPairMasking(wo.z, so, wi.z, si));
     const VF coat_pdf = hn::Div(half_d, hn::Add(wo.z, so));

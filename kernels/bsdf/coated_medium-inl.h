@@ -119,11 +119,11 @@ struct CoatedMediumBsdf : PlainBsdf {
   }
 
   /// Returns the light of a walk that leaves along its direction, sampled with `pdf`
-  /// (`sure`: a mirror), through the interface towards wi.
-  static HWY_NOINLINE V3 ThroughCoat(const Params& p, MF sure, VF pdf, V3 wi,
+  /// (`mirror`: a mirror), through the interface towards wi.
+  static HWY_NOINLINE V3 ThroughCoat(const Params& p, MF mirror, VF pdf, V3 wi,
                                      const Walk& walk) {
     const LayerValue exit = p.coat.EvalExit(-walk.w, wi);
-    const VF weight = hn::IfThenElse(sure, Splat(1.0f), PowerHeuristic(pdf, exit.pdf));
+    const VF weight = hn::IfThenElse(mirror, Splat(1.0f), PowerHeuristic(pdf, exit.pdf));
     const VF passes = Passes(hn::Sub(p.thickness, walk.height), walk.w);
     const MF goes = hn::And(CarriesAny(walk.beta), hn::Gt(walk.w.z, hn::Zero(DF())));
     return IfThenElseZero(goes, Mul(Mul(walk.beta, exit.f), hn::Mul(weight, passes)));
@@ -152,8 +152,8 @@ struct CoatedMediumBsdf : PlainBsdf {
           p.coat.template Sample<Outcome::kReflect>(-walk.w, one, v[0], v[1], true);
       const V3 reflected = IfThenElseZero(next.at_coat, Mul(walk.beta, down.weight));
       const VF pdf = Scatter(p, next, u[1], u[2], walk);
-      const MF sure = hn::AndNot(next.scatters, p.base.Smooth());
-      sum = sum + ThroughCoat(p, sure, pdf, wi, walk);
+      const MF mirror = hn::AndNot(next.scatters, p.base.Smooth());
+      sum = sum + ThroughCoat(p, mirror, pdf, wi, walk);
       walk.w = IfThenElse(next.at_coat, down.wi, walk.w);
       walk.beta = IfThenElse(next.at_coat, reflected, walk.beta);
     }

@@ -43,7 +43,7 @@ struct ConductorRoughBsdf : PlainBsdf {
     const VF zo = hn::Abs(wo.z), zi = hn::Abs(wi.z);
     const V3 n = Normalize(wo + wi);
     const VF d = m.ggx.D(n);
-    const VF so = m.ggx.Spread(wo), si = m.ggx.Spread(wi);
+    const VF so = m.ggx.StretchedLength(wo), si = m.ggx.StretchedLength(wi);
     const VF shape = hn::Mul(hn::Mul(Splat(0.5f), d), HalfPairMasking(zo, so, zi, si));
     const VF pdf = hn::Div(hn::Mul(Splat(0.5f), d), hn::Add(zo, so));
     const MF reflects = SameSide(wo, wi);
@@ -58,7 +58,7 @@ struct ConductorRoughBsdf : PlainBsdf {
     const VF cosine = hn::Clamp(Dot(up, n), hn::Zero(DF()), Splat(1.0f));
     const V3 wi = Reflect(up, n, cosine);
     const MF reflects = hn::Gt(wi.z, hn::Zero(DF()));
-    const VF so = m.ggx.Spread(up), si = m.ggx.Spread(wi);
+    const VF so = m.ggx.StretchedLength(up), si = m.ggx.StretchedLength(wi);
     const VF pdf = hn::Div(hn::Mul(Splat(0.5f), m.ggx.D(n)), hn::Add(up.z, so));
     const V3 weight =
         Mul(FresnelConductor(cosine, m.eta, m.k), MaskingRatio(up.z, so, wi.z, si));

@@ -97,7 +97,8 @@ struct DielectricRoughBsdf : PlainBsdf {
     n = Mul(n, hn::CopySign(Splat(1.0f), n.z));
     const VF co = hn::Min(Dot(wo, n), Splat(1.0f)), ci = Dot(wi, n);
     const VF f = DielectricInterface(hn::Max(co, zero), eta).reflectance;
-    const VF d = m.ggx.D(n), so = m.ggx.Spread(wo), si = m.ggx.Spread(wi);
+    const VF d = m.ggx.D(n), so = m.ggx.StretchedLength(wo),
+             si = m.ggx.StretchedLength(wi);
     const VF q = hn::Add(ci, hn::Div(co, eta));
     const VF jacobian =
         hn::Div(hn::Mul(hn::Sub(Splat(1.0f), f), hn::Mul(co, hn::Neg(ci))), Sqr(q));
@@ -124,7 +125,7 @@ struct DielectricRoughBsdf : PlainBsdf {
     const V3 wi = IfThenElse(reflect, Reflect(wo, n, co), Refract(wo, n, at.bend, eta));
     const MF same_side = hn::Gt(wi.z, zero), below = hn::Lt(wi.z, zero);
     const MF exists = hn::Or(hn::And(reflect, same_side), hn::AndNot(reflect, below));
-    const VF so = m.ggx.Spread(wo), si = m.ggx.Spread(wi);
+    const VF so = m.ggx.StretchedLength(wo), si = m.ggx.StretchedLength(wi);
     // q = wi.m + (wo.m) / eta = -bend / eta, again without a difference.
     const VF q2 = Sqr(hn::Div(at.bend, eta));
     const VF jacobian =

@@ -19,7 +19,7 @@ struct Ggx {
     return {hn::Clamp(x, low, high), hn::Clamp(y, low, high)};
   }
 
-  LANELIGHT_INLINE VF Spread(V3 w) const {
+  LANELIGHT_INLINE VF StretchedLength(V3 w) const {
     const VF x = hn::Mul(ax, w.x), y = hn::Mul(ay, w.y);
     return hn::Sqrt(hn::MulAdd(w.z, w.z, hn::MulAdd(x, x, hn::Mul(y, y))));
   }

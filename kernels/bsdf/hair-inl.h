@@ -142,7 +142,7 @@ struct HairBsdf : PlainBsdf {
     Incline o[kLobes];
     VF phi_o, turn[kLobes - 1];
     V3 light[kLobes];
-    VF share[kLobes];
+    VF fraction[kLobes];
   };
 
   LANELIGHT_INLINE static VF Variance(const Params& m, int p) {
@@ -174,12 +174,12 @@ struct HairBsdf : PlainBsdf {
     VF sum = hn::Zero(DF());
     for (int p = 0; p < kLobes; ++p) {
       const V3 a = lobes.light[p];
-      lobes.share[p] = hn::Add(a.x, hn::Add(a.y, a.z));
-      sum = hn::Add(sum, lobes.share[p]);
+      lobes.fraction[p] = hn::Add(a.x, hn::Add(a.y, a.z));
+      sum = hn::Add(sum, lobes.fraction[p]);
     }
     // At an index of 1 along the fibre the sum can be 0.
     const VF all_light = hn::Max(sum, Splat(1e-30f));
-    for (VF& share : lobes.share) share = hn::Div(share, all_light);
+    for (VF& fraction : lobes.fraction) fraction = hn::Div(fraction, all_light);
   }
 
   LANELIGHT_INLINE static Lobes LobesOf(const Params& m, V3 wo) {
@@ -218,7 +218,7 @@ struct HairBsdf : PlainBsdf {
           p < kLobes - 1 ? m.around.Pdf(hn::Sub(phi, lobes.turn[p])) : Splat(1 / kTwoPi);
       const VF density = hn::Mul(AlongFibre(i, lobes.o[p], Variance(m, p)), around);
       sum.f_cos = MulAdd(lobes.light[p], density, sum.f_cos);
-      sum.pdf = hn::MulAdd(lobes.share[p], density, sum.pdf);
+      sum.pdf = hn::MulAdd(lobes.fraction[p], density, sum.pdf);
     }
     return sum;
   }
@@ -236,20 +236,20 @@ struct HairBsdf : PlainBsdf {
   LANELIGHT_INLINE static Chosen Choose(const Params& m, const Lobes& lobes, VF u) {
     const DF df;
     Chosen c = {lobes.o[0], Variance(m, 0), lobes.turn[0], u, hn::FirstN(df, 0)};
-    VF begin = hn::Zero(df), share = lobes.share[0];
+    VF begin = hn::Zero(df), fraction = lobes.fraction[0];
     for (int p = 1; p < kLobes; ++p) {
-      const VF next = hn::Add(begin, share);
-      const MF later = hn::And(hn::Ge(u, next), hn::Gt(lobes.share[p], hn::Zero(df)));
+      const VF next = hn::Add(begin, fraction);
+      const MF later = hn::And(hn::Ge(u, next), hn::Gt(lobes.fraction[p], hn::Zero(df)));
       begin = hn::IfThenElse(later, next, begin);
-      share = hn::IfThenElse(later, lobes.share[p], share);
+      fraction = hn::IfThenElse(later, lobes.fraction[p], fraction);
       c.o.sin = hn::IfThenElse(later, lobes.o[p].sin, c.o.sin);
       c.o.cos = hn::IfThenElse(later, lobes.o[p].cos, c.o.cos);
       c.variance = hn::IfThenElse(later, Variance(m, p), c.variance);
       if (p < kLobes - 1) c.turn = hn::IfThenElse(later, lobes.turn[p], c.turn);
       c.rest = p < kLobes - 1 ? c.rest : later;
     }
-    c.u =
-        hn::Clamp(hn::Div(hn::Sub(u, begin), share), hn::Zero(df), Splat(0x1.fffffep-1f));
+    c.u = hn::Clamp(hn::Div(hn::Sub(u, begin), fraction), hn::Zero(df),
+                    Splat(0x1.fffffep-1f));
     return c;
   }
 

@@ -49,13 +49,14 @@ struct Layer {
   }
   /// G2 / G1 of the pair, 1 where smooth.
   LANELIGHT_INLINE VF Ratio(V3 wo, V3 wi) const {
-    const VF rough = MaskingRatio(wo.z, ggx.Spread(wo), hn::Abs(wi.z), ggx.Spread(wi));
+    const VF rough = MaskingRatio(wo.z, ggx.StretchedLength(wo), hn::Abs(wi.z),
+                                  ggx.StretchedLength(wi));
     return hn::IfThenElse(smooth, Splat(1.0f), rough);
   }
   /// Dvis / (wo.m).
   LANELIGHT_INLINE VF Visible(V3 wo, V3 m) const {
     const VF d = ggx.D(m);
-    return hn::Div(hn::Add(d, d), hn::Add(wo.z, ggx.Spread(wo)));
+    return hn::Div(hn::Add(d, d), hn::Add(wo.z, ggx.StretchedLength(wo)));
   }
 };
 
@@ -91,12 +92,12 @@ struct CoatLayer {
                                  hn::AndNot(reflect, hn::Lt(wi.z, zero)));
     VF weight = layer.Ratio(wo, wi);
     // Probability of the outcome, or its energy where there was no choice.
-    const VF share = hn::IfThenElse(reflect, at.reflectance, pass);
+    const VF fraction = hn::IfThenElse(reflect, at.reflectance, pass);
     VF density = hn::Mul(Density(at, co, index, reflect), layer.Visible(wo, m));
     if constexpr (kOutcome == Outcome::kEither) {
-      density = hn::Mul(density, share);
+      density = hn::Mul(density, fraction);
     } else {
-      weight = hn::Mul(weight, share);
+      weight = hn::Mul(weight, fraction);
     }
     if (radiance) {
       weight = hn::IfThenElse(reflect, weight, hn::Div(weight, Sqr(index)));

@@ -82,7 +82,7 @@ struct MeasuredBsdf : PlainBsdf {
     VF flip_x, flip_y, flip_z;  // signs that move wo to the measured part
     V3 wo;
     VF theta, phi;
-    MF turns;
+    MF is_anisotropic;
     MeasuredSlices slices;
     MeasuredMap vndf, luminance;
 
@@ -109,7 +109,7 @@ struct MeasuredBsdf : PlainBsdf {
       flip_x = hn::Mul(flip_x, hn::IfThenElse(half, to_x, one));
       flip_y = hn::Mul(flip_y, hn::IfThenElse(half, to_y, one));
       wo = Fold(direction);
-      turns = record.IsSet(offsetof(MeasuredRecord, turns));
+      is_anisotropic = record.IsSet(offsetof(MeasuredRecord, is_anisotropic));
       theta = Atan2(hn::Sqrt(hn::MulAdd(wo.x, wo.x, hn::Mul(wo.y, wo.y))), wo.z);
       phi = Atan2(wo.y, wo.x);
       SetSlices();
@@ -128,24 +128,25 @@ struct MeasuredBsdf : PlainBsdf {
                             theta);
       slices.count = 2;
       slices.at[0] = t.first, slices.at[1] = t.next;
-      slices.share[1] = t.share, slices.share[0] = hn::Sub(Splat(1.0f), t.share);
+      slices.fraction[1] = t.fraction,
+      slices.fraction[0] = hn::Sub(Splat(1.0f), t.fraction);
       if (!table.any_turns) return;
       const MeasuredNodes p(nodes, word(offsetof(MeasuredRecord, phi_at)),
                             word(offsetof(MeasuredRecord, phis)), phi);
       slices.count = 4;
-      const VF rest = hn::Sub(Splat(1.0f), p.share);
+      const VF rest = hn::Sub(Splat(1.0f), p.fraction);
       for (int i = 0; i < 2; ++i) {
         const VI at = slices.at[i];
         slices.at[i] = hn::Add(hn::Mul(p.first, count), at);
         slices.at[i + 2] = hn::Add(hn::Mul(p.next, count), at);
-        slices.share[i + 2] = hn::Mul(slices.share[i], p.share);
-        slices.share[i] = hn::Mul(slices.share[i], rest);
+        slices.fraction[i + 2] = hn::Mul(slices.fraction[i], p.fraction);
+        slices.fraction[i] = hn::Mul(slices.fraction[i], rest);
       }
     }
 
     LANELIGHT_INLINE Normal Describe(V3 h) const {
       const VF sine = hn::Sqrt(hn::MulAdd(h.x, h.x, hn::Mul(h.y, h.y)));
-      const VF own = hn::IfThenElseZero(hn::Not(turns), phi);
+      const VF own = hn::IfThenElseZero(hn::Not(is_anisotropic), phi);
       const VF azimuth = hn::Sub(Atan2(h.y, h.x), own);
       const VF y = hn::MulAdd(azimuth, Splat(0.5f * kInvPi), Splat(0.5f));
       return {OfTheta(Atan2(sine, h.z)), hn::Sub(y, hn::Floor(y)), sine};
@@ -154,7 +155,7 @@ struct MeasuredBsdf : PlainBsdf {
     /// Converts a direction from the azimuths of the measurement.
     LANELIGHT_INLINE V3 FromOwnAzimuth(V3 w) const {
       const VF flat = hn::Sqrt(hn::MulAdd(wo.x, wo.x, hn::Mul(wo.y, wo.y)));
-      const MF plain = hn::Or(turns, hn::Eq(flat, hn::Zero(DF())));
+      const MF plain = hn::Or(is_anisotropic, hn::Eq(flat, hn::Zero(DF())));
       const VF c = hn::IfThenElse(plain, Splat(1.0f), hn::Div(wo.x, flat));
       const VF s = hn::IfThenElseZero(hn::Not(plain), hn::Div(wo.y, flat));
       return {hn::NegMulAdd(s, w.y, hn::Mul(c, w.x)), hn::MulAdd(s, w.x, hn::Mul(c, w.y)),

@@ -30,14 +30,14 @@ LANELIGHT_INLINE VI LastBelow(VI count, VF x, const Value& value) {
 /// The slices around a known direction, with the share that each has.
 struct MeasuredSlices {
   VI at[4];
-  VF share[4];
+  VF fraction[4];
   int count;  // used entries: 4 if azimuths matter, else 2
 };
 
 /// The nodes around x, first in [0, count - 1], and the share of the next one.
 struct MeasuredNodes {
   VI first, next;
-  VF share;
+  VF fraction;
 
   LANELIGHT_INLINE MeasuredNodes(const float* nodes, VI at, VI count, VF x) {
     const VI one = hn::Set(DI(), 1);
@@ -47,8 +47,8 @@ struct MeasuredNodes {
     const VF low = Gather(nodes, hn::Add(at, first));
     const VF size = hn::Sub(Gather(nodes, hn::Add(at, next)), low);
     const VF part = hn::Div(hn::Sub(x, low), size);
-    share = hn::IfThenElseZero(hn::Gt(size, hn::Zero(DF())),
-                               hn::Clamp(part, hn::Zero(DF()), Splat(1.0f)));
+    fraction = hn::IfThenElseZero(hn::Gt(size, hn::Zero(DF())),
+                                  hn::Clamp(part, hn::Zero(DF()), Splat(1.0f)));
   }
 };
 
@@ -78,8 +78,8 @@ struct MeasuredFunction {
     const DI di;
     const auto split = [&](VF u, VI size, VI& cell) HWY_ATTR {
       const VF scaled = hn::Mul(u, hn::ConvertTo(DF(), hn::Sub(size, hn::Set(di, 1))));
-      const VI most = hn::Sub(size, hn::Set(di, 2));
-      cell = hn::Clamp(hn::ConvertTo(di, scaled), hn::Zero(di), most);
+      const VI maximum = hn::Sub(size, hn::Set(di, 2));
+      cell = hn::Clamp(hn::ConvertTo(di, scaled), hn::Zero(di), maximum);
       return hn::Sub(scaled, hn::ConvertTo(DF(), cell));
     };
     Place place;
@@ -111,7 +111,7 @@ struct MeasuredFunction {
       const VI g = hn::Add(r, size), b = hn::Add(g, size);
       const V3 color = {Between(r, p.cell, p), Between(g, p.cell, p),
                         Between(b, p.cell, p)};
-      sum = MulAdd(color, slices.share[i], sum);
+      sum = MulAdd(color, slices.fraction[i], sum);
     }
     return sum;
   }
@@ -131,7 +131,7 @@ struct MeasuredFunction {
           const VI begin = hn::Add(hn::Mul(hn::Add(first, slice), size), at);
           return Between(begin, p.cell, p);
         };
-        sum = hn::MulAdd(Lerp(part, of(low), of(high)), slices.share[i], sum);
+        sum = hn::MulAdd(Lerp(part, of(low), of(high)), slices.fraction[i], sum);
       }
       return sum;
     };
@@ -200,7 +200,7 @@ struct MeasuredMap : MeasuredFunction {
     VF sum = hn::Zero(DF());
     for (int i = 0; i < slices.count; ++i) {
       const VI slice = hn::Add(first, hn::Mul(slices.at[i], stride));
-      sum = hn::MulAdd(Gather(values, hn::Add(slice, index)), slices.share[i], sum);
+      sum = hn::MulAdd(Gather(values, hn::Add(slice, index)), slices.fraction[i], sum);
     }
     return sum;
   }
@@ -230,8 +230,8 @@ struct MeasuredMap : MeasuredFunction {
   }
   // Returns part / whole in [0, 1]; 0 / 0 is 0.
   LANELIGHT_INLINE static VF Share(VF part, VF whole) {
-    const VF share = hn::Clamp(hn::Div(part, whole), hn::Zero(DF()), Splat(1.0f));
-    return hn::IfThenElseZero(hn::Gt(whole, hn::Zero(DF())), share);
+    const VF fraction = hn::Clamp(hn::Div(part, whole), hn::Zero(DF()), Splat(1.0f));
+    return hn::IfThenElseZero(hn::Gt(whole, hn::Zero(DF())), fraction);
   }
   LANELIGHT_INLINE static VF OfSquare(VI cell, VF t, VI size) {
     const VF cells = hn::ConvertTo(DF(), hn::Sub(size, hn::Set(DI(), 1)));

@@ -24,9 +24,9 @@ HWY_INLINE void StartVector(const PathColumns& p, const TileWork& work, uint32_t
   Scatter(hn::Zero(di), p.depth, slots);
 }
 
-// Returns the slots taken, at most `most`.
+// Returns the slots taken, at most `max_new`.
 template <bool kSplitting>
-HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
+HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t max_new) {
   const PathColumns p = wave.path;
   const Queue free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
@@ -34,53 +34,54 @@ HWY_INLINE uint32_t StartSamples(Wave& wave, uint32_t most) {
   const uint32_t together = work.together;
   uint32_t* const started = camera.items + camera.size;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DU()));
-  uint32_t taken = 0;
-  while (taken + together <= most && !work.Done()) {
+  uint32_t num_started = 0;
+  while (num_started + together <= max_new && !work.Done()) {
     const uint32_t end = HWY_MIN(work.next_sample + together, work.samples);
     uint32_t sample = work.next_sample;
     if constexpr (!kSplitting) {
-      for (; sample + lanes <= end; sample += lanes, taken += lanes) {
-        StartVector(p, work, sample, free.items + free.size - taken, started + taken);
+      for (; sample + lanes <= end; sample += lanes, num_started += lanes) {
+        StartVector(p, work, sample, free.items + free.size - num_started,
+                    started + num_started);
       }
     }
     for (; sample < end; ++sample) {
-      const uint32_t slot = free.items[free.size - 1 - taken];
+      const uint32_t slot = free.items[free.size - 1 - num_started];
       p.pixel[slot] = work.pixels[work.next_pixel];
       p.sample[slot] = work.first_sample + sample;
       p.output[slot] = work.next_pixel * work.samples + sample;
       p.depth[slot] = 0;
       if constexpr (kSplitting) {
-        p.output[slot] *= kMostCopies;
+        p.output[slot] *= kMaxSplitPaths;
         p.branch[slot] = 0;
-        p.budget[slot] = kMostCopies;
+        p.budget[slot] = kMaxSplitPaths;
       }
-      started[taken++] = slot;
+      started[num_started++] = slot;
     }
     if (++work.next_pixel == work.num_pixels) {
       work.next_pixel = 0;
       work.next_sample += together;
     }
   }
-  camera.size += taken;
+  camera.size += num_started;
   wave.work = work;
-  return taken;
+  return num_started;
 }
 
 // Where paths split, as many are started as keep the live paths below a share of
-// 1 / kMostCopies of the slots: none of them ever has a budget above kMostCopies, so a
-// split always finds free slots.
+// 1 / kMaxSplitPaths of the slots: none of them ever has a budget above kMaxSplitPaths,
+// so a split always finds free slots.
 template <bool kSplitting>
 HWY_INLINE void Start(Wave& wave) {
   Queue& free = wave.queue(QueueId::kFree);
   Queue& camera = wave.queue(QueueId::kCamera);
-  uint32_t most = free.size;
+  uint32_t max_new = free.size;
   if constexpr (kSplitting) {
-    const uint32_t share = wave.capacity / kMostCopies;
+    const uint32_t max_live = wave.capacity / kMaxSplitPaths;
     const uint32_t live = wave.queue(QueueId::kActive).size;
-    most = live < share ? share - live : 0;
+    max_new = live < max_live ? max_live - live : 0;
   }
-  const uint32_t taken = StartSamples<kSplitting>(wave, most);
-  free.size -= taken;
+  const uint32_t num_started = StartSamples<kSplitting>(wave, max_new);
+  free.size -= num_started;
   CountBatches(wave, camera);
 }
 

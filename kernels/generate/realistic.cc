@@ -52,7 +52,7 @@ HWY_INLINE LensRay LeaveFilm(const LensSystem& lenses, V3 film, VF u0, VF u1) {
 
 // Returns the bilinear transmittance of the aperture image, which is black outside; (x,
 // y) are in units of the stop's radius.
-HWY_INLINE VF ApertureShare(const LensSystem& lenses, VF x, VF y) {
+HWY_INLINE VF ApertureFraction(const LensSystem& lenses, VF x, VF y) {
   const DI di;
   const VF n = Splat(static_cast<float>(lenses.aperture_size)), half = Splat(0.5f);
   const auto texels = [&](VF v) HWY_ATTR {
@@ -89,8 +89,8 @@ HWY_INLINE void PassStop(const LensSystem& lenses, const LensSurface& stop,
   ray.o = MulAdd(ray.d, t, ray.o);
   if (lenses.aperture_size > 0) {
     const VF scale = Splat(1 / stop.aperture);
-    ray.weight = hn::Mul(ray.weight, ApertureShare(lenses, hn::Mul(ray.o.x, scale),
-                                                   hn::Mul(ray.o.y, scale)));
+    ray.weight = hn::Mul(ray.weight, ApertureFraction(lenses, hn::Mul(ray.o.x, scale),
+                                                      hn::Mul(ray.o.y, scale)));
   } else {
     ray.weight = hn::IfThenElseZero(InAperture(stop, ray.o), ray.weight);
   }

@@ -13,8 +13,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-LANELIGHT_INLINE float LeastLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
-LANELIGHT_INLINE float LargestLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
+LANELIGHT_INLINE float MinLane(VF v) { return hn::GetLane(hn::MinOfLanes(DF(), v)); }
+LANELIGHT_INLINE float MaxLane(VF v) { return hn::GetLane(hn::MaxOfLanes(DF(), v)); }
 
 /// Slopes may differ by at most this from the mean: beyond it the test costs more than it
 /// saves. On narrow targets only the rays of a frustum are so similar (AVX2: 0.25 costs
@@ -41,7 +41,7 @@ struct Beam {
 /// r and z = z0 +- q over the rays, s z = c z0 +- (|c| q + r |z0| + r q).
 LANELIGHT_INLINE Beam MakeBeam(const Shear<VF>& shear) {
   const auto middle = [](VF v, float& radius) HWY_ATTR {
-    const float lo = LeastLane(v), hi = LargestLane(v);
+    const float lo = MinLane(v), hi = MaxLane(v);
     constexpr float kRound = 2 * std::numeric_limits<float>::epsilon();
     radius = 0.5f * (hi - lo) + kRound * std::max(std::abs(lo), std::abs(hi));
     return 0.5f * lo + 0.5f * hi;
@@ -85,14 +85,14 @@ LANELIGHT_INLINE uint32_t TrianglesInBeam(const Beam& beam, const Leaf& leaf,
   }
   uint32_t bits = 0;
   for (int i = 0; i < Leaf::kLanes; i += kStep) {
-    const auto least = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
+    const auto minimum = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
       return Min3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
     };
     const auto largest = [&](const LeafColumn<Leaf>& v) HWY_ATTR {
       return Max3(v.Corner(leaf, 0, i), v.Corner(leaf, 1, i), v.Corner(leaf, 2, i));
     };
     const V zero = hn::Zero(d);
-    const auto below = hn::Le(hn::Max(least(lo[0]), least(lo[1])), zero);
+    const auto below = hn::Le(hn::Max(minimum(lo[0]), minimum(lo[1])), zero);
     const auto above = hn::Ge(hn::Min(largest(hi[0]), largest(hi[1])), zero);
     bits |= MaskBits(d, hn::And(below, above)) << i;
   }

@@ -31,7 +31,7 @@ inline constexpr float kCurveClearance = 1.1f;
 
 /// Pieces in the coordinates of a ray: x and y across it, z along it.
 template <class V>
-struct SeenPieces {
+struct VisiblePieces {
   V x[4], y[4], z[4], radius[2];
 };
 
@@ -53,10 +53,10 @@ LANELIGHT_INLINE CurveRay MakeCurveRay(const float o[3], const float d[3]) {
           set(b, sign + d[1] * d[1] * a, -d[1]), set(d[0], d[1], d[2])};
 }
 
-LANELIGHT_INLINE SeenPieces<V8> SeePieces(const CurveBlock& block, int i,
-                                          const CurveRay& ray) {
+LANELIGHT_INLINE VisiblePieces<V8> PiecesAlong(const CurveBlock& block, int i,
+                                               const CurveRay& ray) {
   const D8 d8;
-  SeenPieces<V8> seen;
+  VisiblePieces<V8> seen;
   for (int k = 0; k < 4; ++k) {
     const P3<V8> p =
         Sub({hn::Load(d8, block.p[k][0] + i), hn::Load(d8, block.p[k][1] + i),
@@ -73,15 +73,15 @@ LANELIGHT_INLINE SeenPieces<V8> SeePieces(const CurveBlock& block, int i,
 
 /// Lanes whose hull, widened, the ray may meet before t_max: as a box along the chord. A
 /// chord of no length rejects nothing.
-LANELIGHT_INLINE M8 MayMeet(const SeenPieces<V8>& s, V8 t_max) {
+LANELIGHT_INLINE M8 MayMeet(const VisiblePieces<V8>& s, V8 t_max) {
   const D8 d8;
   const V8 cx = hn::Sub(s.x[3], s.x[0]), cy = hn::Sub(s.y[3], s.y[0]);
   const V8 r = hn::Max(s.radius[0], s.radius[1]);
   const V8 reach = hn::Mul(r, hn::Sqrt(hn::MulAdd(cx, cx, hn::Mul(cy, cy))));
   const auto spans = [&](const V8 a[4], V8 low, V8 high) HWY_ATTR {
-    const V8 least = hn::Min(hn::Min(a[0], a[1]), hn::Min(a[2], a[3]));
-    const V8 most = hn::Max(hn::Max(a[0], a[1]), hn::Max(a[2], a[3]));
-    return hn::And(hn::Le(least, high), hn::Ge(most, low));
+    const V8 lowest = hn::Min(hn::Min(a[0], a[1]), hn::Min(a[2], a[3]));
+    const V8 highest = hn::Max(hn::Max(a[0], a[1]), hn::Max(a[2], a[3]));
+    return hn::And(hn::Le(lowest, high), hn::Ge(highest, low));
   };
   V8 across[4], along[4];
   for (int k = 0; k < 4; ++k) {
@@ -124,7 +124,7 @@ struct Cubic {
 struct Nearing {
   Cubic<V8> x, y;
 
-  LANELIGHT_INLINE explicit Nearing(const SeenPieces<V8>& s) : x(s.x), y(s.y) {}
+  LANELIGHT_INLINE explicit Nearing(const VisiblePieces<V8>& s) : x(s.x), y(s.y) {}
   LANELIGHT_INLINE V8 At(V8 u) const {
     return hn::MulAdd(x.At(u), x.Slope(u), hn::Mul(y.At(u), y.Slope(u)));
   }
@@ -137,8 +137,8 @@ struct Nearing {
   /// The root between places where it is not above and above zero.
   LANELIGHT_INLINE V8 Root(V8 low, V8 high, V8 at_low, V8 at_high) const {
     const D8 d8;
-    const V8 share = hn::Div(at_low, hn::Sub(at_low, at_high));
-    V8 u = hn::MulAdd(hn::Sub(high, low), share, low);
+    const V8 fraction = hn::Div(at_low, hn::Sub(at_low, at_high));
+    V8 u = hn::MulAdd(hn::Sub(high, low), fraction, low);
     for (int i = 0; i < kCurveSteps; ++i) {
       const V8 value = At(u);
       const M8 above = hn::Gt(value, hn::Zero(d8));
@@ -155,7 +155,7 @@ struct Nearing {
 
 /// The same at an end, whose direction is that to the first other point, or the second:
 /// where points coincide the curve does begin or end in a direction, but without speed.
-LANELIGHT_INLINE V8 NearingEnd(const SeenPieces<V8>& s, int end, int step) {
+LANELIGHT_INLINE V8 NearingEnd(const VisiblePieces<V8>& s, int end, int step) {
   const D8 d8;
   const auto toward = [&](const V8 a[4], int k) HWY_ATTR {
     const V8 e = hn::Sub(a[end + k * step], a[end]);
@@ -171,7 +171,7 @@ LANELIGHT_INLINE V8 NearingEnd(const SeenPieces<V8>& s, int end, int step) {
 }
 
 /// Returns whether a ray goes along one of the pieces, within 20 degrees.
-LANELIGHT_INLINE bool GoesAlong(const SeenPieces<V8>& s, M8 mask) {
+LANELIGHT_INLINE bool IsAlongCurve(const VisiblePieces<V8>& s, M8 mask) {
   const D8 d8;
   const V8 x = hn::Sub(s.x[3], s.x[0]), y = hn::Sub(s.y[3], s.y[0]),
            z = hn::Sub(s.z[3], s.z[0]);
@@ -184,7 +184,7 @@ LANELIGHT_INLINE bool GoesAlong(const SeenPieces<V8>& s, M8 mask) {
 /// place along the piece, and squared distance from its middle line over that of its
 /// edge, at most 1. `mask`: the lanes to look at.
 template <class Found>
-LANELIGHT_INLINE void ForEachNearest(const SeenPieces<V8>& s, M8 mask, Found&& found) {
+LANELIGHT_INLINE void ForEachNearest(const VisiblePieces<V8>& s, M8 mask, Found&& found) {
   const D8 d8;
   const V8 zero = hn::Zero(d8), wider = hn::Sub(s.radius[1], s.radius[0]);
   const Nearing nearing(s);
@@ -193,13 +193,13 @@ LANELIGHT_INLINE void ForEachNearest(const SeenPieces<V8>& s, M8 mask, Found&& f
   const auto clear = [&](V8 u, V8 t, V8 r) HWY_ATTR {
     const V8 dx = nearing.x.Slope(u), dy = nearing.y.Slope(u), dz = depth.Slope(u);
     const V8 across2 = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
-    const V8 least = hn::Mul(hn::Set(d8, kCurveClearance), r);
+    const V8 lowest = hn::Mul(hn::Set(d8, kCurveClearance), r);
     return hn::And(hn::Gt(t, zero),
                    hn::Gt(hn::Mul(hn::Mul(t, t), across2),
-                          hn::Mul(hn::Mul(least, least), hn::MulAdd(dz, dz, across2))));
+                          hn::Mul(hn::Mul(lowest, lowest), hn::MulAdd(dz, dz, across2))));
   };
   V8 low = zero, at_low = NearingEnd(s, 0, 1);
-  const int brackets = GoesAlong(s, mask) ? kAlongBrackets : kCurveBrackets;
+  const int brackets = IsAlongCurve(s, mask) ? kAlongBrackets : kCurveBrackets;
   for (int i = 1; i <= brackets; ++i) {
     const bool last = i == brackets;
     const V8 high = hn::Set(d8, static_cast<float>(i) / static_cast<float>(brackets));

@@ -39,9 +39,9 @@ struct CurveMaps {
 };
 
 /// Pieces i and further of a block as a ray sees them in their spaces.
-LANELIGHT_INLINE SeenPieces<V8> SeeInSpaces(const CurveMaps& maps,
-                                            const CurveBlock& block, int i,
-                                            const CurveRay& ray) {
+LANELIGHT_INLINE VisiblePieces<V8> PiecesInSpaces(const CurveMaps& maps,
+                                                  const CurveBlock& block, int i,
+                                                  const CurveRay& ray) {
   const D8 d8;
   P3<V8> row[3], column[3];
   for (int a = 0; a < 3; ++a) {
@@ -65,7 +65,7 @@ LANELIGHT_INLINE SeenPieces<V8> SeeInSpaces(const CurveMaps& maps,
     return P3<V8>{hn::Mul(Dot(column[0], v), k), hn::Mul(Dot(column[1], v), k),
                   hn::Mul(Dot(column[2], v), k)};
   };
-  SeenPieces<V8> seen = SeePieces(block, i, {ray.o, back(x), back(y), back(z)});
+  VisiblePieces<V8> seen = PiecesAlong(block, i, {ray.o, back(x), back(y), back(z)});
   for (V8& radius : seen.radius) radius = hn::Mul(radius, k);
   return seen;
 }

@@ -34,7 +34,7 @@ HWY_INLINE float AlongCurve(const PiecePlace& at) {
 
 // Ribbons are narrower where they are turned away from the ray.
 HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
-                            const float d[3], float share) {
+                            const float d[3], float fraction) {
   if (geometry.ribbons.empty()) return true;
   if (geometry.curves[at.curve].type != static_cast<uint32_t>(CurveType::kRibbon)) {
     return true;
@@ -45,7 +45,7 @@ HWY_INLINE bool MeetsRibbon(const Geometry& geometry, const PiecePlace& at,
     InCurveSpace(geometry.curve_spaces[at.curve], d, own);
   }
   const float cosine = n[0] * own[0] + n[1] * own[1] + n[2] * own[2];
-  return share <= cosine * cosine;
+  return fraction <= cosine * cosine;
 }
 
 // Prefetches nodes and leaves: BVHs of hair are larger than caches.
@@ -84,18 +84,18 @@ HWY_INLINE void TraceCurves(const SceneParts& scene, const float o[3], const flo
   const auto leaf = [&](uint32_t index) HWY_ATTR {
     const CurveBlock& block = blocks[index];
     for (int i = 0; i < kBvhWidth; i += Lanes8()) {
-      const SeenPieces<V8> seen =
+      const VisiblePieces<V8> seen =
           geometry.curve_spaces.empty()
-              ? SeePieces(block, i, ray)
-              : SeeInSpaces(CurveMaps(geometry, block), block, i, ray);
+              ? PiecesAlong(block, i, ray)
+              : PiecesInSpaces(CurveMaps(geometry, block), block, i, ray);
       const M8 may = MayMeet(seen, hn::Set(d8, best.t));
       if (hn::AllFalse(d8, may)) continue;
       ForEachNearest(
-          seen, may, [&](M8 meets, V8 t_lanes, V8 u_lanes, V8 shares) HWY_ATTR {
-            HWY_ALIGN float t[kBvhWidth], u[kBvhWidth], share[kBvhWidth];
+          seen, may, [&](M8 meets, V8 t_lanes, V8 u_lanes, V8 fractions) HWY_ATTR {
+            HWY_ALIGN float t[kBvhWidth], u[kBvhWidth], fraction[kBvhWidth];
             hn::Store(t_lanes, d8, t);
             hn::Store(u_lanes, d8, u);
-            hn::Store(shares, d8, share);
+            hn::Store(fractions, d8, fraction);
             for (uint32_t m = MaskBits(d8, meets); m != 0; m &= m - 1) {
               const int k = std::countr_zero(m);
               const uint32_t prim = block.prim[i + k];
@@ -104,7 +104,7 @@ HWY_INLINE void TraceCurves(const SceneParts& scene, const float o[3], const flo
                 continue;
               }
               const PiecePlace at = {prim - first, block.part[i + k], u[k]};
-              if (!MeetsRibbon(geometry, at, d, share[k])) continue;
+              if (!MeetsRibbon(geometry, at, d, fraction[k])) continue;
               best.found = true;
               if (kAny) return;
               best.t = t[k];

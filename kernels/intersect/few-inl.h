@@ -53,7 +53,7 @@ LANELIGHT_INLINE void ForEachFew(const SceneParts& scene, const Rays& rays, TMax
     };
     const TriangleHits<VF, MF> hit =
         TestTriangle(shear, {vertices[v[0]], vertices[v[1]], vertices[v[2]]}, t_max(),
-                     NotFrom(rays, triangle.prim), is_ahead);
+                     ExcludesStart(rays, triangle.prim), is_ahead);
     if (hn::AllFalse(df, hit.mask)) continue;
     MF mask = hit.mask;
     if constexpr (kAlpha) mask = CutOut(scene, rays, triangle.prim, hit, mask);
@@ -68,7 +68,7 @@ LANELIGHT_INLINE void ClosestFew(const Wave& wave, const Rays& rays, const Slots
   ForEachFew<kAlpha>(
       wave, rays, [&]() HWY_ATTR { return best.t; },
       [&](const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) HWY_ATTR {
-        best.Offer(hit, mask, id);
+        best.AcceptNearer(hit, mask, id);
         return false;
       });
   best.Store(wave.path, slots);

@@ -19,7 +19,7 @@ class FrustumTrial {
       : unit_(kLeafTriangles / accel.leaf_triangles) {}
 
   /// Returns how many leaves a packet may meet before its frustum is abandoned.
-  int most() const { return kMax * unit_; }
+  int max_leaves() const { return kMax * unit_; }
 
   /// Returns whether the next packet uses the frustum. Call it once per packet.
   bool IsOn() {
@@ -29,7 +29,9 @@ class FrustumTrial {
   }
 
   /// Records a packet that could have met `left` leaves more.
-  void Add(int left) { owed_ = std::max(0, owed_ + most() - left - kTypical * unit_); }
+  void Add(int left) {
+    owed_ = std::max(0, owed_ + max_leaves() - left - kTypical * unit_);
+  }
 
  private:
   // A packet that meets up to this many leaves is as fast as its rays in a stream.

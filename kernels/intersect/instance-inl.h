@@ -61,7 +61,7 @@ HWY_NOINLINE inline void PutMovingMaps(const AlignedVector<MotionRecord>& motion
 /// The primitives that those of an instance must be smaller than at equal distances,
 /// where (prim, inst) are the hits so far: between equal primitives the smaller instance
 /// is nearer.
-LANELIGHT_INLINE VI PrimsToBeat(VI prim, VI inst, uint32_t instance) {
+LANELIGHT_INLINE VI TieBreakPrimitives(VI prim, VI inst, uint32_t instance) {
   const DI di;
   const auto own = hn::Set(di, static_cast<int32_t>(instance));
   const auto world = hn::Eq(inst, hn::Set(di, static_cast<int32_t>(kWorldInstance)));

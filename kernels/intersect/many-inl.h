@@ -71,7 +71,7 @@ inline HWY_NOINLINE MF AheadOf(const Rays& rays, const float v0[3], const float 
 }
 
 /// Returns the lanes whose ray does not start on triangle `prim`.
-LANELIGHT_INLINE MF NotFrom(const Rays& rays, uint32_t prim) {
+LANELIGHT_INLINE MF ExcludesStart(const Rays& rays, uint32_t prim) {
   return hn::RebindMask(DF(),
                         hn::Ne(rays.from, hn::Set(DI(), static_cast<int32_t>(prim))));
 }
@@ -105,7 +105,8 @@ struct PacketBest {
   uint32_t blocker = kNoPrimitive;  // in a shadow query: a triangle that blocks a ray
 
   /// Takes over the lanes of `mask` where the hit on `id` is closer.
-  LANELIGHT_INLINE void Offer(const TriangleHits<VF, MF>& hit, MF mask, uint32_t id) {
+  LANELIGHT_INLINE void AcceptNearer(const TriangleHits<VF, MF>& hit, MF mask,
+                                     uint32_t id) {
     const DF df;
     const DI di;
     const VI own = hn::Set(di, static_cast<int32_t>(id));

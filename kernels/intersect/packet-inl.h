@@ -30,10 +30,10 @@ struct PacketBounds {
       if (!hn::AllTrue(df, negative) && !hn::AllFalse(df, negative)) return false;
     }
     for (int a = 0; a < 3; ++a) {
-      d_min[a] = LeastLane(d[a]);
-      d_max[a] = LargestLane(d[a]);
-      o_min[a] = LeastLane(o[a]);
-      o_max[a] = LargestLane(o[a]);
+      d_min[a] = MinLane(d[a]);
+      d_max[a] = MaxLane(d[a]);
+      o_min[a] = MinLane(o[a]);
+      o_max[a] = MaxLane(o[a]);
     }
     return true;
   }
@@ -122,12 +122,12 @@ LANELIGHT_INLINE void TraceFrustum(const SceneParts& scene, const Bvh& bvh,
   PacketRays packet =
       MakePacket(rays, MakeShear(order, rays, Splat(bvh.reach)), order, all);
   if constexpr (kAlpha) packet.home = of.home;
-  float bound = LargestLane(best.t);
+  float bound = MaxLane(best.t);
   Traverse(scene.accel->nodes.data(), bvh.root, MakeFrustum(of.bounds, bvh), bound,
            [&](uint32_t ref) HWY_ATTR {
              if (--left < 0) return true;
              TestLeafPacket<kAny, kAlpha>(scene, ref, packet, all, best);
-             bound = LargestLane(best.t);
+             bound = MaxLane(best.t);
              return bound < 0;
            });
 }

@@ -57,7 +57,8 @@ HWY_NOINLINE void TraceInstance(const PacketOfPaths& paths, uint32_t instance, i
     left = -1;
     return;
   }
-  PacketBest hit = NoHits(best.hit.t, PrimsToBeat(best.hit.prim, best.inst, instance));
+  PacketBest hit =
+      NoHits(best.hit.t, TieBreakPrimitives(best.hit.prim, best.inst, instance));
   TraceFrustum<false, kAlpha>(scene,
                               scene.accel->groups[geometry.instance_group[instance]],
                               {own, bounds, paths.rays}, left, hit);
@@ -77,7 +78,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
     TraceFrustum<false, kAlpha>(scene, accel.groups[0], {rays, bounds, rays}, left,
                                 best.hit);
   }
-  float bound = LargestLane(best.hit.t);
+  float bound = MaxLane(best.hit.t);
   if (left >= 0) {
     const PacketOfPaths paths = {wave, rays, slots};
     const bool moving = !scene.geometry->motions.empty();
@@ -85,7 +86,7 @@ LANELIGHT_INLINE void ClosestFrustumInstanced(const Wave& wave, const Rays& rays
              [&](uint32_t instance) HWY_ATTR {
                moving ? TraceInstance<kAlpha, true>(paths, instance, left, best)
                       : TraceInstance<kAlpha, false>(paths, instance, left, best);
-               bound = LargestLane(best.hit.t);
+               bound = MaxLane(best.hit.t);
                return left < 0;
              });
   }

@@ -116,7 +116,7 @@ LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
   for (; near != 0; near &= near - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(near));
     const P3<VF> p = corner(i, 0), q = corner(i, 1), r = corner(i, 2);
-    MF mask = NotFrom(packet.rays, leaf.prim[i]);
+    MF mask = ExcludesStart(packet.rays, leaf.prim[i]);
     if constexpr (kCheapEdges) {
       const P3<VF> edges = EdgesOf(df, p, q, r);
       weights.Keep(i, edges);
@@ -138,7 +138,8 @@ LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
     };
     const Corners<VF> at = {corner(i, 0), corner(i, 1), corner(i, 2)};
     auto edges = kCheapEdges ? JoinEdges(df, weights[i]) : TestEdges(df, at);
-    edges.mask = hn::And(hn::And(edges.mask, active), NotFrom(packet.rays, leaf.prim[i]));
+    edges.mask =
+        hn::And(hn::And(edges.mask, active), ExcludesStart(packet.rays, leaf.prim[i]));
     TestDistance(df, packet.shear, at, best.t, edges);
     if (hn::AllFalse(df, edges.mask)) continue;
     TriangleHits<VF, MF> hit = FinishHits(df, packet.shear, at, edges, is_ahead);
@@ -151,7 +152,7 @@ LANELIGHT_INLINE void TestLeafPacket(const SceneParts& scene, const Leaf& leaf,
       best.blocker = blocked != 0 ? leaf.prim[i] : best.blocker;
       best.t = hn::IfThenElse(mask, Splat(-1.0f), best.t);
     } else {
-      best.Offer(hit, mask, leaf.prim[i]);
+      best.AcceptNearer(hit, mask, leaf.prim[i]);
     }
   }
 }

@@ -25,7 +25,7 @@ class LastBlockers {
   LANELIGHT_INLINE void Add(uint32_t prim) {
     const uint32_t* const known = std::find(prim_, prim_ + count_, prim);
     if (known != prim_ + count_) return;
-    count_ = std::min(count_ + 1, kMost);
+    count_ = std::min(count_ + 1, kMaxBlockers);
     for (uint32_t i = count_ - 1; i > 0; --i) prim_[i] = prim_[i - 1];
     prim_[0] = prim;
   }
@@ -53,7 +53,7 @@ class LastBlockers {
       const V3 v = Splat3(p[k][0], p[k][1], p[k][2]);
       return ShearVertex(df, packet.shear, order.Permute(v));
     };
-    const MF tested = hn::And(MaskOf(df, lanes), NotFrom(packet.rays, prim));
+    const MF tested = hn::And(MaskOf(df, lanes), ExcludesStart(packet.rays, prim));
     const TriangleHits<VF, MF> hit =
         TestTriangle(packet.shear, {corner(0), corner(1), corner(2)}, best.t, tested,
                      [&](MF) HWY_ATTR { return AheadOf(packet.rays, p[0], p[1], p[2]); });
@@ -63,8 +63,8 @@ class LastBlockers {
     best.t = hn::IfThenElse(mask, Splat(-1.0f), best.t);
   }
 
-  static constexpr uint32_t kMost = 4;
-  uint32_t prim_[kMost];  // the latest first
+  static constexpr uint32_t kMaxBlockers = 4;
+  uint32_t prim_[kMaxBlockers];  // the latest first
   uint32_t count_ = 0;
 };
 
@@ -120,14 +120,14 @@ template <bool kAlpha, class Leaf>
 LANELIGHT_INLINE void TestLeafSingles(const SceneParts& scene, const Leaf& leaf,
                                       const PacketPlace& place, uint32_t lanes,
                                       PacketBest& best) {
-  LeafWeights weights[kTogether];
+  LeafWeights weights[kInterleavedRays];
   uint32_t blocked = 0;
   while (lanes != 0) {
-    LeafRay ray[kTogether];
-    const Leaf* same[kTogether];
-    LeafWeights* to[kTogether];
-    uint32_t lane[kTogether], bits[kTogether];
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    LeafRay ray[kInterleavedRays];
+    const Leaf* same[kInterleavedRays];
+    LeafWeights* to[kInterleavedRays];
+    uint32_t lane[kInterleavedRays], bits[kInterleavedRays];
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       // The last one twice, if they are odd.
       lane[j] = lanes != 0 ? static_cast<uint32_t>(std::countr_zero(lanes)) : lane[0];
       lanes &= lanes - 1;
@@ -136,7 +136,7 @@ LANELIGHT_INLINE void TestLeafSingles(const SceneParts& scene, const Leaf& leaf,
       to[j] = &weights[j];
     }
     TestLeaves(ray, same, to, bits);
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       if (bits[j] == 0) continue;
       const PacketPlace own = {place.rays, place.at + lane[j], place.home + lane[j]};
       const uint32_t blocker = BlockerOf<kAlpha>(scene, own, leaf, weights[j], bits[j]);

@@ -140,11 +140,11 @@ struct PacketSlabs {
     const VF o[3] = {ray_o.x, ray_o.y, ray_o.z}, d[3] = {ray_d.x, ray_d.y, ray_d.z};
     const VF largest = hn::Max(hn::Abs(o[0]), hn::Max(hn::Abs(o[1]), hn::Abs(o[2])));
     const VF delta = hn::MulAdd(slack, largest, margin);
-    const VF least = Splat(0x1p-80f);
+    const VF minimum = Splat(0x1p-80f);
     octant = hn::Zero(di);
     for (int a = 0; a < 3; ++a) {
-      const MF tiny = hn::Lt(hn::Abs(d[a]), least);
-      const VF da = hn::IfThenElse(tiny, hn::CopySign(least, d[a]), d[a]);
+      const MF tiny = hn::Lt(hn::Abs(d[a]), minimum);
+      const VF da = hn::IfThenElse(tiny, hn::CopySign(minimum, d[a]), d[a]);
       const VF r = hn::Div(Splat(1.0f), da);
       const VF c = hn::Neg(hn::Mul(o[a], r)), grow = hn::Mul(delta, hn::Abs(r));
       rcp[a] = r;

@@ -75,9 +75,9 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
   hit.t_near = hit.t_far = zero;
   if (hn::AllFalse(df, meets)) return hit;
   V c = hn::Sub(f2, r2);
-  const M doubtful =
+  const M uncertain =
       hn::And(meets, hn::Le(hn::Abs(c), hn::Mul(hn::Add(f2, r2), hn::Set(df, 0x1p-10f))));
-  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+  if (HWY_UNLIKELY(!hn::AllFalse(df, uncertain))) {
     const auto power = [](auto, auto ox, auto oy, auto oz, auto cx, auto cy, auto cz,
                           auto r) HWY_ATTR {
       const auto x = hn::Sub(ox, cx), y = hn::Sub(oy, cy), z = hn::Sub(oz, cz);
@@ -86,7 +86,7 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const SphereLanes<V>& s,
     };
     const V exact = InDouble(df, power, ray.o.x, ray.o.y, ray.o.z, s.center.x, s.center.y,
                              s.center.z, s.radius);
-    c = hn::IfThenElse(doubtful, exact, c);
+    c = hn::IfThenElse(uncertain, exact, c);
   }
   const V root = hn::Sqrt(hn::Mul(a, discriminant));
   const V q = hn::Add(b, hn::CopySign(root, b));
@@ -116,8 +116,8 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const LargeSphereLanes<V>& s,
   const V magnitude = hn::MulAdd(
       hn::Abs(q.x), hn::Abs(sum.x),
       hn::MulAdd(hn::Abs(q.y), hn::Abs(sum.y), hn::Mul(hn::Abs(q.z), hn::Abs(sum.z))));
-  const auto doubtful = hn::Le(hn::Abs(c), hn::Mul(magnitude, hn::Set(df, 0x1p-10f)));
-  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+  const auto uncertain = hn::Le(hn::Abs(c), hn::Mul(magnitude, hn::Set(df, 0x1p-10f)));
+  if (HWY_UNLIKELY(!hn::AllFalse(df, uncertain))) {
     const auto height = [](auto, auto ox, auto oy, auto oz, auto px, auto py, auto pz,
                            auto nx, auto ny, auto nz, auto curvature) HWY_ATTR {
       const auto term = [&](auto o, auto p, auto n) HWY_ATTR {
@@ -128,7 +128,7 @@ LANELIGHT_INLINE Candidates<V, M> TestShape(D df, const LargeSphereLanes<V>& s,
     };
     const V exact = InDouble(df, height, ray.o.x, ray.o.y, ray.o.z, s.point.x, s.point.y,
                              s.point.z, s.normal.x, s.normal.y, s.normal.z, s.curvature);
-    c = hn::IfThenElse(doubtful, exact, c);
+    c = hn::IfThenElse(uncertain, exact, c);
   }
   const V a = hn::Mul(s.curvature, Dot(ray.d, ray.d)), b = Dot(g, ray.d);
   const V discriminant = hn::NegMulAdd(a, c, hn::Mul(b, b));
@@ -145,9 +145,9 @@ LANELIGHT_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& 
   V height = Dot(n, f);
   const P3<V> abs_n = {hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)};
   const P3<V> abs_f = {hn::Abs(f.x), hn::Abs(f.y), hn::Abs(f.z)};
-  const auto doubtful =
+  const auto uncertain =
       hn::Le(hn::Abs(height), hn::Mul(Dot(abs_n, abs_f), hn::Set(df, 0x1p-10f)));
-  if (HWY_UNLIKELY(!hn::AllFalse(df, doubtful))) {
+  if (HWY_UNLIKELY(!hn::AllFalse(df, uncertain))) {
     const auto dot = [](auto, auto px, auto py, auto pz, auto ox, auto oy, auto oz,
                         auto nx, auto ny, auto nz) HWY_ATTR {
       return hn::Add(hn::Add(hn::Mul(nx, hn::Sub(px, ox)), hn::Mul(ny, hn::Sub(py, oy))),
@@ -155,7 +155,7 @@ LANELIGHT_INLINE V PlaneDistance(D df, P3<V> point, P3<V> n, const RayLanes<V>& 
     };
     const V exact = InDouble(df, dot, point.x, point.y, point.z, ray.o.x, ray.o.y,
                              ray.o.z, n.x, n.y, n.z);
-    height = hn::IfThenElse(doubtful, exact, height);
+    height = hn::IfThenElse(uncertain, exact, height);
   }
   return hn::Div(height, Dot(n, ray.d));
 }

@@ -10,7 +10,7 @@
 LANELIGHT_BEGIN_KERNELS
 
 /// Rays that take a step together, in one straight run of instructions.
-inline constexpr uint32_t kTogether = 2;
+inline constexpr uint32_t kInterleavedRays = 2;
 
 /// Places of rays, with room for a vector stored past the last one.
 struct RayList {
@@ -24,7 +24,7 @@ struct RayList {
   }
   /// Fills the last group up with its last ray, whose step is then done twice.
   LANELIGHT_INLINE void PadGroup() {
-    for (uint32_t j = 0; size > 0 && j < kTogether; ++j)
+    for (uint32_t j = 0; size > 0 && j < kInterleavedRays; ++j)
       place[size + j] = place[size - 1];
   }
 };

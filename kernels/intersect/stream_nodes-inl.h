@@ -150,10 +150,10 @@ class DeferredSubtrees {
   }
 
   // A vector may be stored behind the last one.
-  static constexpr uint32_t kMost = kDeferred * StreamRays::kLanes;
+  static constexpr uint32_t kMaxDeferred = kDeferred * StreamRays::kLanes;
   uint32_t size_ = 0, subtrees_ = 0, inside_ = 0;
-  int32_t lane_[kMost], ref_[kMost];
-  float entry_[kEntries ? kMost : 1];
+  int32_t lane_[kMaxDeferred], ref_[kMaxDeferred];
+  float entry_[kEntries ? kMaxDeferred : 1];
 };
 
 LANELIGHT_END_KERNELS

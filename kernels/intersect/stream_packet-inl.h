@@ -218,7 +218,7 @@ class PacketPhase {
     for (uint32_t bits = lanes; bits != 0; bits &= bits - 1) {
       const auto i = static_cast<uint32_t>(std::countr_zero(bits));
       if (!rays_.found[to + i]) continue;
-      rays_.TakeHit(to + i, home + i);
+      rays_.CopyHit(to + i, home + i);
       rays_.inst[home + i] = instance;
     }
   }
@@ -230,7 +230,7 @@ class PacketPhase {
     const Rays rays = spaces_.template Mapped<kMoving>(instance, home);
     const VI prim = hn::LoadU(di, rays_.prim + home);
     const VI inst = hn::LoadU(di, reinterpret_cast<const int32_t*>(rays_.inst) + home);
-    hn::StoreU(PrimsToBeat(prim, inst, instance), di, rays_.prim + to);
+    hn::StoreU(TieBreakPrimitives(prim, inst, instance), di, rays_.prim + to);
     hn::StoreU(hn::Zero(di), di, rays_.found + to);
     return rays;
   }

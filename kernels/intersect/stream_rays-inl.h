@@ -134,7 +134,7 @@ struct StreamRays {
   }
 
   /// Gives the hit of the ray at `from_ray` to that at `to`.
-  LANELIGHT_INLINE void TakeHit(uint32_t from_ray, uint32_t to) {
+  LANELIGHT_INLINE void CopyHit(uint32_t from_ray, uint32_t to) {
     found[to] = 1;
     t[to] = t[from_ray];
     prim[to] = prim[from_ray];

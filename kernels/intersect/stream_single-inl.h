@@ -64,7 +64,7 @@ class SinglePhase {
     uint32_t entered = 0;
     for (uint32_t i = 0; i < entering.size; ++i) {
       const auto r = static_cast<uint32_t>(entering.place[i]);
-      if (HWY_UNLIKELY(HasNothingInside(r))) PassBy(r);
+      if (HWY_UNLIKELY(HasNothingInside(r))) SkipInstance(r);
       entering.place[entered] = entering.place[i];
       entered += uint32_t{Next(r) < kReturnRef} & (Next(r) >> 31);
     }
@@ -72,7 +72,7 @@ class SinglePhase {
     for (uint32_t i = 0; i < entered; ++i) {
       const auto r = static_cast<uint32_t>(entering.place[i]);
       const uint32_t group = scene_.geometry->instance_group[rays_.space[r]];
-      stacks_.GoInside(r, scene_.accel->groups[group].root, IsResume(Next(r)));
+      stacks_.PushInstanceRoot(r, scene_.accel->groups[group].root, IsResume(Next(r)));
     }
   }
 
@@ -82,7 +82,7 @@ class SinglePhase {
     return IsResume(Next(r)) && stacks_.NothingInside(r);
   }
   // Goes on behind the way back from it.
-  HWY_NOINLINE void PassBy(uint32_t r) {
+  HWY_NOINLINE void SkipInstance(uint32_t r) {
     do {
       stacks_.Pop(r, rays_.top[r] - 1);
     } while (HasNothingInside(r));
@@ -98,7 +98,7 @@ class SinglePhase {
     const Stacks stacks = stacks_;
     const WideNode* const first = scene_.accel->nodes.data();
     StreamRays& rays = rays_;
-    for (uint32_t k = 0; k < nodes.size; k += kTogether) {
+    for (uint32_t k = 0; k < nodes.size; k += kInterleavedRays) {
       NodeStep(rays, stacks, first, nodes.place + k);
     }
   }
@@ -112,7 +112,7 @@ class SinglePhase {
       const int32_t* const list = leaves.place + base;
       const uint32_t n = std::min(leaves.size - base, kLeafBlock);
       uint32_t hits = 0;
-      for (uint32_t k = 0; k < n; k += kTogether) {
+      for (uint32_t k = 0; k < n; k += kInterleavedRays) {
         hits |= LeafStep<Leaf>(rays, stacks, list + k, k) << k;
       }
       // One of a pair may be there twice.
@@ -125,35 +125,36 @@ class SinglePhase {
 
   static LANELIGHT_INLINE void NodeStep(StreamRays& rays, const Stacks& stacks,
                                         const WideNode* first, const int32_t* list) {
-    const WideNode* node[kTogether];
-    uint32_t r[kTogether], top[kTogether];
-    V8 enter[kTogether][kParts], leave[kTogether][kParts];
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    const WideNode* node[kInterleavedRays];
+    uint32_t r[kInterleavedRays], top[kInterleavedRays];
+    V8 enter[kInterleavedRays][kParts], leave[kInterleavedRays][kParts];
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
       node[j] = first + static_cast<uint32_t>(rays.next[r[j]]);
     }
     for (uint32_t part = 0; part < kParts; ++part) {
       TestSlabs(rays, r, node, part, enter, leave);
     }
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       top[j] = stacks.PushEntered(r[j], *node[j], enter[j], leave[j]);
     }
-    for (uint32_t j = 0; j < kTogether; ++j) stacks.Pop(r[j], top[j]);
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) stacks.Pop(r[j], top[j]);
   }
 
   // Computes where rays r[j] enter and leave the children of a part of node[j].
   static LANELIGHT_INLINE void TestSlabs(const StreamRays& rays,
-                                         const uint32_t (&r)[kTogether],
-                                         const WideNode* const (&node)[kTogether],
-                                         uint32_t part, V8 (&enter)[kTogether][kParts],
-                                         V8 (&leave)[kTogether][kParts]) {
+                                         const uint32_t (&r)[kInterleavedRays],
+                                         const WideNode* const (&node)[kInterleavedRays],
+                                         uint32_t part,
+                                         V8 (&enter)[kInterleavedRays][kParts],
+                                         V8 (&leave)[kInterleavedRays][kParts]) {
     const D8 d8;
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       enter[j][part] = hn::Zero(d8);
       leave[j][part] = hn::Set(d8, rays.t[r[j]]);
     }
     for (int a = 0; a < 3; ++a) {
-      for (uint32_t j = 0; j < kTogether; ++j) {
+      for (uint32_t j = 0; j < kInterleavedRays; ++j) {
         constexpr uint32_t kUpper = kBvhWidth * sizeof(float);
         const AxisSlab& slab = rays.slab[a][r[j]];
         const auto lower = std::bit_cast<uint32_t>(slab.lower);
@@ -180,11 +181,12 @@ class SinglePhase {
   template <class Leaf>
   LANELIGHT_INLINE uint32_t LeafStep(StreamRays& rays, const Stacks& stacks,
                                      const int32_t* list, uint32_t at) {
-    LeafRay ray[kTogether];
-    const Leaf* leaf[kTogether];
-    LeafWeights* weights[kTogether];
-    uint32_t r[kTogether], next[kTogether], bits[kTogether], top[kTogether];
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    LeafRay ray[kInterleavedRays];
+    const Leaf* leaf[kInterleavedRays];
+    LeafWeights* weights[kInterleavedRays];
+    uint32_t r[kInterleavedRays], next[kInterleavedRays], bits[kInterleavedRays],
+        top[kInterleavedRays];
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       r[j] = static_cast<uint32_t>(list[j]);
       next[j] = static_cast<uint32_t>(rays.next[r[j]]);
       leaf[j] = &stacks.leaf_places().template Of<Leaf>(next[j]);
@@ -192,9 +194,9 @@ class SinglePhase {
       weights[j] = &weights_[at + j];
     }
     TestLeaves(ray, leaf, weights, bits);
-    for (uint32_t j = 0; j < kTogether; ++j) top[j] = rays.top[r[j]];
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) top[j] = rays.top[r[j]];
     uint32_t hits = 0;
-    for (uint32_t j = 0; j < kTogether; ++j) {
+    for (uint32_t j = 0; j < kInterleavedRays; ++j) {
       const uint32_t none = bits[j] == 0;
       bits_[at + j] = bits[j];
       hits |= (none ^ 1) << j;
@@ -261,8 +263,8 @@ class SinglePhase {
   Spaces<kInstances>& spaces_;
   Stacks stacks_;
   RayLists<kInstances> lists_;
-  uint32_t bits_[kLeafBlock + kTogether];
-  LeafWeights weights_[kLeafBlock + kTogether];
+  uint32_t bits_[kLeafBlock + kInterleavedRays];
+  LeafWeights weights_[kLeafBlock + kInterleavedRays];
 };
 
 LANELIGHT_END_KERNELS

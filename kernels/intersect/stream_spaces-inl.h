@@ -47,10 +47,10 @@ class RaySpaces {
     const VF octant = hn::BitCast(df, slabs.octant);
     rays_.SetSlabs(slabs, at);
     for (int a = 0; a < 3; ++a) {
-      std::copy_n(rays_.slab[a] + at, StreamRays::kLanes, home_.slab[a] + at);
+      std::copy_n(rays_.slab[a] + at, StreamRays::kLanes, top_level_.slab[a] + at);
     }
-    StoreFours(rays.o.x, rays.o.y, rays.o.z, octant, home_.o + at);
-    StoreFours(rays.d.x, rays.d.y, rays.d.z, hn::Zero(df), home_.d + at);
+    StoreFours(rays.o.x, rays.o.y, rays.o.z, octant, top_level_.o + at);
+    StoreFours(rays.d.x, rays.d.y, rays.d.z, hn::Zero(df), top_level_.d + at);
   }
 
   /// Moves rays to the spaces of the instances that they are at. What is next stays.
@@ -65,8 +65,8 @@ class RaySpaces {
   /// Moves a ray back to the tree over instances.
   LANELIGHT_INLINE void Leave(uint32_t r) {
     rays_.space[r] = kTopSpace;
-    for (int a = 0; a < 3; ++a) rays_.slab[a][r] = home_.slab[a][r];
-    rays_.octant[r] = std::bit_cast<uint32_t>(home_.o[r].octant);
+    for (int a = 0; a < 3; ++a) rays_.slab[a][r] = top_level_.slab[a][r];
+    rays_.octant[r] = std::bit_cast<uint32_t>(top_level_.o[r].octant);
   }
 
   /// Returns whether some instances move.
@@ -139,8 +139,8 @@ class RaySpaces {
       const Bvh& group = scene_.accel->groups[geometry.instance_group[instance]];
       const float* m = geometry.instances[instance].object_from_scene;
       for (int k = 0; k < 3; ++k) map[k].Set(j, m + 4 * k);
-      o.Set(j, home_.o + r);
-      d.Set(j, home_.d + r);
+      o.Set(j, top_level_.o + r);
+      d.Set(j, top_level_.d + r);
       const float growths[4] = {group.slack, group.margin, group.reach, 0};
       growth.Set(j, growths);
       rays_.space[r] = instance;
@@ -190,7 +190,7 @@ class RaySpaces {
   StreamRays& rays_;
   const float* const times_;
   // The rays in the tree over instances, by their places.
-  struct Home {
+  struct TopLevelRays {
     HWY_ALIGN AxisSlab slab[3][StreamRays::kRoom];
     struct Origin {
       float x, y, z, octant;
@@ -198,7 +198,7 @@ class RaySpaces {
     struct Direction {
       float x, y, z, unused;
     } d[StreamRays::kRoom];
-  } home_;
+  } top_level_;
 };
 
 /// Scenes without instances have one space.

@@ -50,7 +50,7 @@ class RayStacks {
 
   /// Goes to the root of an instance, and puts the way back on the stack; or, if
   /// `resume`, to the top of the stack, under which that is.
-  LANELIGHT_INLINE void GoInside(uint32_t r, uint32_t root, bool resume) const {
+  LANELIGHT_INLINE void PushInstanceRoot(uint32_t r, uint32_t root, bool resume) const {
     const uint32_t top = rays_->top[r], up = uint32_t{resume} - 1;
     const uint32_t ref = (refs_[top] & ~up) | (root & up);
     refs_[top + 1] = kReturnRef;

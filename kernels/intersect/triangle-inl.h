@@ -161,8 +161,8 @@ LANELIGHT_INLINE hn::Mask<D> Straddles(D d, const Corners<V>& at) {
 /// Lanes of `mask` (which straddle) whose t is so close to zero that its sign may be
 /// wrong.
 template <class D, class V, class M>
-LANELIGHT_INLINE M DoubtfulSign(D d, const Shear<V>& ray, const Corners<V>& at, V t_det,
-                                M mask) {
+LANELIGHT_INLINE M UncertainSign(D d, const Shear<V>& ray, const Corners<V>& at, V t_det,
+                                 M mask) {
   const auto& [a, b, c] = at;
   const V mx = Max3(hn::Abs(a.x), hn::Abs(b.x), hn::Abs(c.x));
   const V my = Max3(hn::Abs(a.y), hn::Abs(b.y), hn::Abs(c.y));
@@ -250,10 +250,10 @@ LANELIGHT_INLINE TriangleHits<V, M> FinishHits(D d, const Shear<V>& ray,
   // Large triangles often straddle and small ones often have a small t det: few do both.
   const M near = hn::And(Straddles(d, at), hn::Le(hn::Abs(e.t_det), ray.t_scale));
   if (HWY_LIKELY(hn::AllFalse(d, hn::And(e.mask, near)))) return hit;
-  const M doubtful = DoubtfulSign(d, ray, at, e.t_det, hn::And(e.mask, near));
-  if (hn::AllFalse(d, doubtful)) return hit;
+  const M uncertain = UncertainSign(d, ray, at, e.t_det, hn::And(e.mask, near));
+  if (hn::AllFalse(d, uncertain)) return hit;
   hit.mask =
-      hn::Or(hn::AndNot(doubtful, hit.mask), hn::And(doubtful, is_ahead(doubtful)));
+      hn::Or(hn::AndNot(uncertain, hit.mask), hn::And(uncertain, is_ahead(uncertain)));
   return hit;
 }
 

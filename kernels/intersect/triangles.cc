@@ -30,7 +30,7 @@ void IntersectRays(Wave& wave) {
                  rays.from = StartsOf(wave.path, slots, rays.t_max);
                  PacketBounds bounds;
                  if (bounds.Compute(rays) && bounds.IsNarrow(reach) && frustum.IsOn()) {
-                   int left = frustum.most();
+                   int left = frustum.max_leaves();
                    if constexpr (kInstances) {
                      ClosestFrustumInstanced<kAlpha>(wave, rays, bounds, slots, left);
                    } else {

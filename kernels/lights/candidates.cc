@@ -28,8 +28,9 @@ LANELIGHT_BEGIN_KERNELS
 
 void BeginCandidates(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kLit),
-               [&](const StoreSlots& slots, MF)
-                   HWY_ATTR { Scatter(hn::Zero(DF()), wave.path.worth_sum, slots); });
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 Scatter(hn::Zero(DF()), wave.path.candidate_weight_sum, slots);
+               });
 }
 
 // Stores the kept sample as the light sample. If no candidate could add light, the last
@@ -39,13 +40,14 @@ void KeepCandidate(Wave& wave) {
   const VF inverse_count = Splat(1.0f / static_cast<float>(wave.run->candidates));
   ForEachBatch(
       wave, wave.queue(QueueId::kLit), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        const VF sum = Gather(p.worth_sum, slots);
+        const VF sum = Gather(p.candidate_weight_sum, slots);
         const MF any = hn::Gt(sum, hn::Zero(DF()));
         const auto put = [&](const float* kept, float* out) HWY_ATTR {
           Scatter(hn::IfThenElse(any, Gather(kept, slots), Gather(out, slots)), out,
                   slots);
         };
-        const VF worth = hn::IfThenElse(any, Gather(p.kept_worth, slots), Splat(1.0f));
+        const VF worth =
+            hn::IfThenElse(any, Gather(p.candidate_weight, slots), Splat(1.0f));
         const VF factor = hn::Div(hn::Mul(sum, inverse_count), worth);
         const V3 light = Mul(Gather3(p.kept_r, p.kept_g, p.kept_b, slots), factor);
         Scatter3(IfThenElseZero(any, light), p.ls_r, p.ls_g, p.ls_b, slots);
@@ -64,7 +66,7 @@ Stage BeginCandidatesStage() {
           .input = QueueId::kLit,
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
-          .writes = {Field::worth_sum},
+          .writes = {Field::candidate_weight_sum},
           .resolve = Always<BeginCandidates>};
 }
 
@@ -75,7 +77,7 @@ Stage KeepCandidateStage() {
           .role = StageRole::kResample,
           .needs = {Feature::kLightCandidates, Feature::kLights, Feature::kScatters},
           .reads = fields::kKeptSample | fields::kLightSample |
-                   FieldSet{Field::worth_sum, Field::ls_light},
+                   FieldSet{Field::candidate_weight_sum, Field::ls_light},
           .writes = fields::kLightSample | FieldSet{Field::ls_light},
           .resolve = Always<KeepCandidate>};
 }

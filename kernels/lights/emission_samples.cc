@@ -40,11 +40,11 @@ HWY_INLINE PlacedPoint PointOnRectangle(const SceneParts& scene, const Lights& l
   const LightTriangle triangle(scene, first);
   const TriangleWeights a = WeightsOf(triangle, q);
   const TriangleWeights b = WeightsOf(LightTriangle(scene, second), q);
-  const auto least = [](const TriangleWeights& w) HWY_ATTR {
+  const auto minimum = [](const TriangleWeights& w) HWY_ATTR {
     const VF b0 = hn::Sub(hn::Sub(Splat(1.0f), w.b1), w.b2);
     return hn::Min(b0, hn::Min(w.b1, w.b2));
   };
-  const MF in_first = hn::Ge(least(a), least(b));
+  const MF in_first = hn::Ge(minimum(a), minimum(b));
   const VI prim = hn::IfThenElse(hn::RebindMask(DI(), in_first), first, second);
   const LightUv uv =
       TriangleUv(*scene.geometry, prim, hn::IfThenElse(in_first, a.b1, b.b1),
@@ -133,8 +133,8 @@ void CutSamples(Wave& wave) {
     const VF pdf = Gather(wave.path.ls_pdf, slots);
     Scatter(hn::IfThenZeroElse(unseen, pdf), wave.path.ls_pdf, slots);
     const VF alpha = EvalFloats(*scene.textures, texture, at, constant);
-    const VF share = hn::Min(hn::Max(alpha, Splat(0)), Splat(1.0f));
-    return hn::IfThenElse(unseen, Splat(1.0f), share);
+    const VF fraction = hn::Min(hn::Max(alpha, Splat(0)), Splat(1.0f));
+    return hn::IfThenElse(unseen, Splat(1.0f), fraction);
   };
   MultiplySamples<kMany>(wave, left);
 }

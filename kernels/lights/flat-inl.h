@@ -25,9 +25,9 @@ LANELIGHT_BEGIN_KERNELS
 LANELIGHT_INLINE Bilinear FlooredCosines(const Bilinear& c, VF middle) {
   const VF first = hn::Max(hn::Max(c.w00, c.w10), hn::Max(c.w01, c.w11));
   const VF part = hn::Mul(Splat(0.1f), hn::Max(first, middle));
-  const VF least = hn::Max(part, Splat(1e-6f));
-  return {hn::Max(c.w00, least), hn::Max(c.w10, least), hn::Max(c.w01, least),
-          hn::Max(c.w11, least)};
+  const VF min_part = hn::Max(part, Splat(1e-6f));
+  return {hn::Max(c.w00, min_part), hn::Max(c.w10, min_part), hn::Max(c.w01, min_part),
+          hn::Max(c.w11, min_part)};
 }
 
 /// The common members of both shapes:

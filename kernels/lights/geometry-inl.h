@@ -46,7 +46,7 @@ struct LightRectangle {
 
 /// True where a triangle or rectangle is sampled by its solid angle; else by area.
 LANELIGHT_INLINE MF BySolidAngle(VF omega) {
-  return hn::Ge(omega, Splat(kLeastSolidAngle));  // false for NaN
+  return hn::Ge(omega, Splat(kMinSolidAngle));  // false for NaN
 }
 
 struct LightSphere {

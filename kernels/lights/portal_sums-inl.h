@@ -140,9 +140,9 @@ class PortalSums {
     const VD first = hn::Max(texel, low), last = hn::Min(hn::Add(texel, one), high);
     const VD at_first = sum(first), width = hn::Sub(sum(last), at_first);
     const auto rises = hn::Gt(width, hn::Zero(DD()));
-    const VD share =
+    const VD fraction =
         hn::IfThenElse(rises, hn::Div(hn::Sub(wanted, at_first), width), half);
-    const VD inside = hn::Min(hn::Max(share, hn::Zero(DD())), one);
+    const VD inside = hn::Min(hn::Max(fraction, hn::Zero(DD())), one);
     return hn::MulAdd(hn::Sub(last, first), inside, first);
   }
 

@@ -62,7 +62,7 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
   const VF u_distance = Gather(p.u_medium_0, slots);
   const VF keep = hn::Sub(Splat(1.0f), u_distance);
-  Stretch path(p, slots);
+  SpectralThroughput path(p, slots);
   const V3 before = path.odds;
   const Channel channel(before, u);
   const VF drawn = channel.Of(sigma_t);
@@ -93,8 +93,8 @@ HWY_INLINE void Walk(Wave& wave, const StoreSlots& slots) {
   }
   // Absorbers let all rays reach the surface.
   const V3 passes = IfThenElse(samples, left, one);
-  path.Happen(IfThenElse(event, Mul(left, sigma_s), left),
-              IfThenElse(event, found, passes));
+  path.ApplyEvent(IfThenElse(event, Mul(left, sigma_s), left),
+                  IfThenElse(event, found, passes));
   path.Store(p, slots);
   if constexpr (Needs::kInterfaces) {
     const VF unused = hn::Div(keep, channel.Of(passes));

@@ -10,20 +10,20 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Returns the colour of a black body of at least kLeastKelvin.
+/// Returns the colour of a black body of at least kMinKelvin.
 LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
-  const VF least = Splat(kLeastKelvin);
-  const VF ratio = hn::Mul(hn::Max(kelvin, least), Splat(1 / kLeastKelvin));
+  const VF min_kelvin = Splat(kMinKelvin);
+  const VF ratio = hn::Mul(hn::Max(kelvin, min_kelvin), Splat(1 / kMinKelvin));
   const VF at = hn::Mul(hn::Log(DF(), ratio), Splat(table.entries_per_log));
   // There are two entries at least.
   const auto last = static_cast<float>(table.colors.size() / 3 - 2);
   const VF low = hn::Clamp(hn::Floor(at), Splat(0), Splat(last));
-  const VF share = hn::Sub(at, low);
+  const VF fraction = hn::Sub(at, low);
   const VI entry = hn::Mul(hn::ConvertTo(DI(), low), hn::Set(DI(), 3));
   const auto channel = [&](int c) HWY_ATTR {
     const VF a = Gather(table.colors.data() + c, entry);
     const VF b = Gather(table.colors.data() + 3 + c, entry);
-    return hn::MulAdd(share, hn::Sub(b, a), a);
+    return hn::MulAdd(fraction, hn::Sub(b, a), a);
   };
   return {channel(0), channel(1), channel(2)};
 }
@@ -31,7 +31,7 @@ LANELIGHT_INLINE V3 BlackbodyColor(const BlackbodyTable& table, VF kelvin) {
 /// Returns the spectra of black bodies of `kelvin` over their maxima (Planck's law);
 /// `planck` is the row kPlanck at the wavelengths.
 LANELIGHT_INLINE V3 BlackbodySpectra(V3 planck, VF kelvin) {
-  const VF safe = hn::Clamp(kelvin, Splat(kLeastKelvin), Splat(1e9f));
+  const VF safe = hn::Clamp(kelvin, Splat(kMinKelvin), Splat(1e9f));
   const auto one = [&](VF of) HWY_ATTR {
     const VF x = hn::Div(of, safe), q = hn::Mul(x, Splat(float(1 / kPlanckPeak)));
     const VF q2 = hn::Mul(q, q), q5 = hn::Mul(hn::Mul(q2, q2), q);
@@ -87,7 +87,7 @@ struct GridEmission {
     const VF kelvin = hn::Mul(hn::Sub(t, Splat(table.offset)), Splat(table.scale));
     const V3 body =
         spectral ? BlackbodySpectra(planck, kelvin) : BlackbodyColor(table, kelvin);
-    const MF glows = hn::Gt(kelvin, Splat(kLeastKelvin));
+    const MF glows = hn::Gt(kelvin, Splat(kMinKelvin));
     return Mul(factor, IfThenElseZero(glows, body));
   }
 };

@@ -16,8 +16,8 @@ HWY_INLINE VF AlbedoOf(const MediumTable& media, VI table, VF reflectance) {
   const VI first = hn::Add(table, cell);
   const VF low = Gather(media.albedos.data(), first);
   const VF high = Gather(media.albedos.data(), hn::Add(first, hn::Set(di, 1)));
-  const VF share = hn::Sub(at, hn::ConvertTo(DF(), cell));
-  return hn::MulAdd(share, hn::Sub(high, low), low);
+  const VF fraction = hn::Sub(at, hn::ConvertTo(DF(), cell));
+  return hn::MulAdd(fraction, hn::Sub(high, low), low);
 }
 
 // Paths that enter a material with a textured medium keep the albedo at that point.
@@ -83,14 +83,15 @@ Stage EnterMediaStage() {
 
 void Interfaces(Wave& wave) {
   const PathColumns& p = wave.path;
-  const VI most = hn::Set(DI(), static_cast<int32_t>(kMostCrossings));
+  const VI max_crossings = hn::Set(DI(), static_cast<int32_t>(kMaxInterfaceCrossings));
   Queue& surfaces = wave.queue(QueueId::kSurface);
   Queue rest = {surfaces.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, surfaces, [&](const Slots& slots, MF valid) HWY_ATTR {
     const MF passes = hn::And(valid, Sides(*wave.media, Gather(p.prim, slots)).Passes());
     const MF stays = hn::AndNot(passes, valid);
     const MF below = MayScatter(wave, slots);
-    const MF few = hn::RebindMask(DF(), hn::Lt(Gather(p.crossings, slots), most));
+    const MF few =
+        hn::RebindMask(DF(), hn::Lt(Gather(p.crossings, slots), max_crossings));
     const MF goes_on = hn::Or(hn::And(passes, few), hn::And(stays, below));
     Push(rest, slots, hn::And(stays, below));
     Push(wave.queue(QueueId::kDone), slots, hn::AndNot(goes_on, valid));

@@ -27,8 +27,8 @@ LANELIGHT_INLINE V3 DrawAnchor(const LightChances& table, VF u0, VF u1) {
 }
 
 /// Distances in (0, length) of a ray from o along d by the angle around `anchor`. The
-/// length may be infinite. The distance of ray and anchor is at least `least` > 0, which
-/// bounds the density of rays through the anchor.
+/// length may be infinite. The distance of ray and anchor is at least `min_distance` > 0,
+/// which bounds the density of rays through the anchor.
 struct Equiangular {
   VF closest;   // distance along the ray of the point nearest to the anchor
   VF beside;    // distance of the anchor from that point
@@ -36,11 +36,11 @@ struct Equiangular {
   VF angle;     // the angle of the length, seen from the anchor
   MF possible;  // the anchor is finite
 
-  LANELIGHT_INLINE Equiangular(V3 o, V3 d, VF length, V3 anchor, VF least) {
+  LANELIGHT_INLINE Equiangular(V3 o, V3 d, VF length, V3 anchor, VF min_distance) {
     const V3 to = anchor - o;
     closest = Dot(to, d);
     const V3 across = Cross(to, d);
-    beside = hn::Max(hn::Sqrt(Dot(across, across)), least);
+    beside = hn::Max(hn::Sqrt(Dot(across, across)), min_distance);
     squared = hn::MulAdd(closest, closest, Sqr(beside));
     // Not the difference of two angles, which cancels for anchors far away.
     angle = Atan2(beside, hn::Sub(hn::Div(squared, length), closest));
@@ -75,12 +75,12 @@ struct EquiangularHalf {
   /// T(t)).
   LANELIGHT_INLINE VF Sample(VF drawn, VF t, VF u) const {
     const VF half = Splat(0.5f);
-    const VF share = hn::Div(hn::Add(u, jitter), Interacted(drawn, t));
-    const MF turns = hn::And(around.possible, hn::Ge(share, half));
+    const VF fraction = hn::Div(hn::Add(u, jitter), Interacted(drawn, t));
+    const MF turns = hn::And(around.possible, hn::Ge(fraction, half));
     const VF rest = hn::IfThenElse(around.possible, hn::Add(u, u), u);
     const VF below_1 = hn::Min(rest, Splat(1 - 0x1p-24f));
     const VF straight = hn::Div(ExponentialOf(below_1), drawn);
-    const VF xi = hn::Min(hn::MulAdd(share, Splat(2), Splat(-1.0f)), Splat(1.0f));
+    const VF xi = hn::Min(hn::MulAdd(fraction, Splat(2), Splat(-1.0f)), Splat(1.0f));
     return hn::Min(hn::IfThenElse(turns, around.Sample(xi), straight), t);
   }
   /// Converts the densities of an event at d by transmittance alone.
@@ -104,8 +104,8 @@ struct EquiangularHalf {
     const V3 anchor = DrawAnchor(*wave.chances, u0, u1);
     const V3 to = anchor - o;
     const VF reach = hn::Min(t, hn::Div(Splat(1.0f), drawn));
-    const VF least = hn::Mul(Splat(1e-4f), hn::Add(hn::Sqrt(Dot(to, to)), reach));
-    return Equiangular(o, d, t, anchor, least);
+    const VF min_distance = hn::Mul(Splat(1e-4f), hn::Add(hn::Sqrt(Dot(to, to)), reach));
+    return Equiangular(o, d, t, anchor, min_distance);
   }
   LANELIGHT_INLINE static VF Jitter(WalkRandom& random) {
     VF u0, u1;

@@ -8,15 +8,15 @@
 LANELIGHT_BEGIN_KERNELS
 
 /// The throughput and the odds of the channels of a path.
-struct Stretch {
+struct SpectralThroughput {
   V3 beta, odds;
 
-  LANELIGHT_INLINE Stretch(const PathColumns& p, const Slots& slots)
+  LANELIGHT_INLINE SpectralThroughput(const PathColumns& p, const Slots& slots)
       : beta(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
         odds(Gather3(p.odds_r, p.odds_g, p.odds_b, slots)) {}
 
   /// Applies an event of contribution f and densities pdf, both over any common factor.
-  LANELIGHT_INLINE void Happen(V3 f, V3 pdf) {
+  LANELIGHT_INLINE void ApplyEvent(V3 f, V3 pdf) {
     const V3 each = Mul(odds, pdf);
     const VF scale = hn::Div(Splat(1.0f), MeanChannel(each));
     beta = Mul(beta, Mul(f, scale));

@@ -110,9 +110,9 @@ struct CellWalk {
     const VF across = hn::Mul(Splat(static_cast<float>(kMajorantCells)),
                               hn::Min(delta[0], hn::Min(delta[1], delta[2])));
     const MF stuck = hn::Gt(hn::Mul(sigma, hn::Max(t, across)), Splat(0x1p25f));
-    const VF least =
+    const VF minimum =
         hn::Max(hn::Mul(t, Splat(0x1p-20f)), hn::Mul(across, Splat(0x1p-16f)));
-    const VF step = hn::Max(dt, hn::IfThenElseZero(stuck, least));
+    const VF step = hn::Max(dt, hn::IfThenElseZero(stuck, minimum));
     t = hn::IfThenElse(mask, hn::Add(t, step), t);
   }
   /// Returns the distance at which the ray leaves the cell.

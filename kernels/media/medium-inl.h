@@ -101,7 +101,7 @@ static_assert(sizeof(MediumSides) == 16);
 
 /// The maximum number of interfaces that a path or a shadow ray passes. A ray can meet a
 /// shape that is finer than the rounding of points again and again.
-inline constexpr uint32_t kMostCrossings = 1u << 16;
+inline constexpr uint32_t kMaxInterfaceCrossings = 1u << 16;
 
 /// Returns exp(-sigma d); 1 if sigma is 0 and d infinite.
 LANELIGHT_INLINE VF Transmittance(VF sigma, VF d) {
@@ -141,8 +141,8 @@ struct Channel {
   }
   /// Returns a uniform number that draws the same channel by the odds after the event.
   LANELIGHT_INLINE VF Redrawn(V3 before, V3 after, VF u) const {
-    const VF share = hn::Div(hn::Sub(Thrice(u), Below(before)), Of(before));
-    const VF moved = hn::MulAdd(share, Of(after), Below(after));
+    const VF fraction = hn::Div(hn::Sub(Thrice(u), Below(before)), Of(before));
+    const VF moved = hn::MulAdd(fraction, Of(after), Below(after));
     return hn::Clamp(hn::Mul(moved, Splat(1.0f / 3)), Splat(0), Splat(1 - 0x1p-24f));
   }
 

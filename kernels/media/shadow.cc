@@ -136,7 +136,7 @@ void ShadowThrough(Wave& wave) {
   const Queue surfaces = wave.queue(QueueId::kSurface);
   std::swap(wave.queue(QueueId::kShadow), legs);
   wave.queue(QueueId::kShadow).size = 0;
-  for (uint32_t leg = 0; legs.size > 0 && leg < kMostCrossings; ++leg) {
+  for (uint32_t leg = 0; legs.size > 0 && leg < kMaxInterfaceCrossings; ++leg) {
     RunOn(wave, ray, QueueId::kActive, legs, {kernels.closest, kernels.num_closest});
     SortLegs(wave, leg);
     RunOn(wave, ray, QueueId::kSurface, legs, {kernels.surface, kernels.num_surface});

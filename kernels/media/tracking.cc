@@ -92,7 +92,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
                            const GridEmission* emission, const StoreSlots& slots) {
   const PathColumns& p = wave.path;
   const VF t = Gather(p.t, slots), u = Gather(p.u_medium_1, slots);
-  Stretch path(p, slots);
+  SpectralThroughput path(p, slots);
   const V3 before = path.odds;
   const Channel channel(before, u);
   CellWalk at(medium, Gather3(p.o_x, p.o_y, p.o_z, slots),
@@ -108,7 +108,7 @@ HWY_INLINE void TrackBatch(Wave& wave, const GridMedium& medium,
     const V3 l = Gather3(p.l_r, p.l_g, p.l_b, slots);
     Scatter3(l + Mul(path.beta, track.emitted), p.l_r, p.l_g, p.l_b, slots);
   }
-  path.Happen(track.f, track.pdf);
+  path.ApplyEvent(track.f, track.pdf);
   path.Store(p, slots);
   Scatter(behind_0, p.u_medium_0, slots);
   Scatter(channel.Redrawn(before, path.odds, u), p.u_medium_1, slots);

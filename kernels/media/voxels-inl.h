@@ -45,9 +45,9 @@ LANELIGHT_INLINE void ForVoxelsAround(const int32_t size[3], V3 p, const Visit& 
     for (int a = 2; a >= 0; --a) {
       const bool high = (corner >> a & 1) != 0;
       const VI at = high ? hn::Add(axes[a].low, hn::Set(di, 1)) : axes[a].low;
-      const VF share = axes[a].weight;
+      const VF fraction = axes[a].weight;
       index = hn::Add(hn::Mul(index, hn::Set(di, size[a])), at);
-      weight = hn::Mul(weight, high ? share : hn::Sub(Splat(1.0f), share));
+      weight = hn::Mul(weight, high ? fraction : hn::Sub(Splat(1.0f), fraction));
       inside = hn::And(inside, high ? axes[a].has_high : axes[a].has_low);
     }
     visit(hn::IfThenElseZero(hn::RebindMask(di, inside), index),

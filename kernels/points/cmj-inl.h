@@ -28,8 +28,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-struct CmjPoints : PointsByTurns {
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+struct CmjPoints : RoundRobinPoints {
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const Octave block = OctaveOf(at.index);

@@ -1,13 +1,13 @@
 // Fills the sample-point columns of a queue from a sampler policy.
 //
 // A policy is a struct with
-//   static GroupIndex Group(const PointsParameters&, VU sample)   (group-inl.h)
-//   static void Point(const PointsParameters&, const PointKey&, VF* u0, VF* u1)
+//   static GroupIndex Group(const SamplerParameters&, VU sample)   (group-inl.h)
+//   static void Point(const SamplerParameters&, const PointKey&, VF* u0, VF* u1)
 // giving a point in [0,1)^2 for a dimension key (src/vocabulary/path/dimensions.h). The
 // two coordinates of one key are stratified against each other where the policy
 // stratifies; different keys are independent of each other. A scalar dimension takes u0;
 // a policy whose u0 alone is less well stratified than one dimension can be has also
-//   static VF Number(const PointsParameters&, const PointKey&)
+//   static VF Number(const SamplerParameters&, const PointKey&)
 #ifndef LANELIGHT_POINTS_FILL_INL_H_
 #define LANELIGHT_POINTS_FILL_INL_H_
 
@@ -18,8 +18,9 @@
 LANELIGHT_BEGIN_KERNELS
 
 template <class Policy>
-concept HasNumber =
-    requires(const PointsParameters& points, PointKey of) { Policy::Number(points, of); };
+concept HasNumber = requires(const SamplerParameters& points, PointKey of) {
+  Policy::Number(points, of);
+};
 
 /// One batch of paths that draw numbers.
 struct Drawer {
@@ -39,7 +40,7 @@ LANELIGHT_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots
 
 /// Sample index that the numbers of a dimension come from: the two samples of an
 /// antithetic pair share it in the dimensions that the strategy pairs.
-LANELIGHT_INLINE VU PairedSample(const PairParameters& pairs, Dimension dimension,
+LANELIGHT_INLINE VU PairedSample(const AntitheticParameters& pairs, Dimension dimension,
                                  const Drawer& drawer) {
   if (pairs.dimensions == 0) return drawer.sample;
   const VU own = UnpairedSample(drawer.sample);
@@ -126,20 +127,20 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
       });
 }
 
-LANELIGHT_INLINE bool DrawsPlainly(const Wave& wave) {
+LANELIGHT_INLINE bool IsUnpaired(const Wave& wave) {
   return wave.run->pairs.dimensions == 0 && wave.path.branch == nullptr;
 }
 
 template <class Policy>
 LANELIGHT_INLINE void FillCamera(Wave& wave) {
-  DrawsPlainly(wave) ? FillCameraBatches<Policy, true>(wave)
-                     : FillCameraBatches<Policy, false>(wave);
+  IsUnpaired(wave) ? FillCameraBatches<Policy, true>(wave)
+                   : FillCameraBatches<Policy, false>(wave);
 }
 
 template <class Policy>
 LANELIGHT_INLINE void FillBounce(Wave& wave) {
-  DrawsPlainly(wave) ? FillBounceBatches<Policy, true>(wave)
-                     : FillBounceBatches<Policy, false>(wave);
+  IsUnpaired(wave) ? FillBounceBatches<Policy, true>(wave)
+                   : FillBounceBatches<Policy, false>(wave);
 }
 
 LANELIGHT_END_KERNELS

@@ -26,30 +26,30 @@ struct PointKey {
 /// Samples take turns at kReplicates groups (src/vocabulary/path/replicates.h). A group
 /// ends with the sampler's sequence, after 2^group_shift points; then as many new ones
 /// begin.
-LANELIGHT_INLINE GroupIndex GroupByTurns(const PointsParameters& points, VU sample) {
+LANELIGHT_INLINE GroupIndex GroupRoundRobin(const SamplerParameters& points, VU sample) {
   constexpr int kLog = kLogReplicates;
   const int shift = static_cast<int>(points.group_shift);
-  const VU turn = hn::ShiftRight<kLog>(sample);
-  const VU round = hn::ShiftRightSame(turn, shift);
+  const VU cycle = hn::ShiftRight<kLog>(sample);
+  const VU round = hn::ShiftRightSame(cycle, shift);
   const VU replicate = hn::And(sample, SplatU(kReplicates - 1));
   return {hn::Or(hn::ShiftLeft<kLog>(round), replicate),
-          hn::Sub(turn, hn::ShiftLeftSame(round, shift))};
+          hn::Sub(cycle, hn::ShiftLeftSame(round, shift))};
 }
 
 /// The part that most policies share (fill-inl.h).
-struct PointsByTurns {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters& points, VU sample) {
-    return GroupByTurns(points, sample);
+struct RoundRobinPoints {
+  static LANELIGHT_INLINE GroupIndex Group(const SamplerParameters& points, VU sample) {
+    return GroupRoundRobin(points, sample);
   }
 };
 
 /// The two samples of pair k, which is observation k, draw unpaired numbers from the same
 /// randomisation: sample 2 k + e with k = 4 t + r becomes 4 (2 t + e) + r.
 LANELIGHT_INLINE VU UnpairedSample(VU sample) {
-  const VU turn = hn::ShiftLeft<3>(hn::ShiftRight<3>(sample));
+  const VU cycle = hn::ShiftLeft<3>(hn::ShiftRight<3>(sample));
   const VU of_pair = hn::ShiftLeft<2>(hn::And(sample, SplatU(1)));
   const VU replicate = hn::And(hn::ShiftRight<1>(sample), SplatU(kReplicates - 1));
-  return hn::Or(hn::Or(turn, of_pair), replicate);
+  return hn::Or(hn::Or(cycle, of_pair), replicate);
 }
 
 /// `count` equal parts of a whole: floor((2^64 - 1) / count) = whole 2^32 + part.

@@ -57,8 +57,8 @@ LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
   return InStratum(kHaltonStrata, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
 }
 
-struct HaltonPoints : PointsByTurns {
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+struct HaltonPoints : RoundRobinPoints {
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});

@@ -10,10 +10,10 @@
 LANELIGHT_BEGIN_KERNELS
 
 struct IndependentPoints {
-  static LANELIGHT_INLINE GroupIndex Group(const PointsParameters&, VU sample) {
+  static LANELIGHT_INLINE GroupIndex Group(const SamplerParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 r = Pcg4d({pixel, at.group, key, seed});

@@ -21,8 +21,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-struct LatticePoints : PointsByTurns {
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+struct LatticePoints : RoundRobinPoints {
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});

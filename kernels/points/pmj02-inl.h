@@ -21,8 +21,8 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-struct Pmj02Points : PointsByTurns {
-  static LANELIGHT_INLINE void Point(const PointsParameters& points, const PointKey& of,
+struct Pmj02Points : RoundRobinPoints {
+  static LANELIGHT_INLINE void Point(const SamplerParameters& points, const PointKey& of,
                                      VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     static_assert((kPmj02Sequences & (kPmj02Sequences - 1)) == 0);

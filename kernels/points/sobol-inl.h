@@ -37,8 +37,8 @@ LANELIGHT_INLINE VU ReversedSobol1(VU i) {
   return hn::Xor(i, hn::And(hn::ShiftRight<1>(i), SplatU(0x55555555u)));
 }
 
-struct SobolPoints : PointsByTurns {
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+struct SobolPoints : RoundRobinPoints {
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});

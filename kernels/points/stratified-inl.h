@@ -29,14 +29,14 @@ LANELIGHT_INLINE VU OddBits(VU v) {
   return hn::And(hn::Or(v, hn::ShiftLeft<8>(v)), SplatU(0xffff0000u));
 }
 
-struct StratifiedPoints : PointsByTurns {
+struct StratifiedPoints : RoundRobinPoints {
   /// A scrambled van der Corput point in 2^-32.
   static LANELIGHT_INLINE VU Along(GroupIndex at, const U4& h) {
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));
     return ReverseBits32(LaineKarras(shuffled, h.y));
   }
 
-  static LANELIGHT_INLINE void Point(const PointsParameters&, const PointKey& of, VF* u0,
+  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
@@ -51,7 +51,7 @@ struct StratifiedPoints : PointsByTurns {
     *u1 = ToUnit(y);
   }
 
-  static LANELIGHT_INLINE VF Number(const PointsParameters&, const PointKey& of) {
+  static LANELIGHT_INLINE VF Number(const SamplerParameters&, const PointKey& of) {
     const auto& [pixel, at, key, seed] = of;
     return ToUnit(Along(at, Pcg4d({pixel, at.group, key, seed})));
   }

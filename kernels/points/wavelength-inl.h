@@ -40,10 +40,11 @@ LANELIGHT_INLINE VF WavelengthOn(const CircleWalk& walk, uint32_t seed) {
   return hn::Mul(ToUnit(hn::Xor(hn::ShiftLeft<1>(place), down)), Splat(1.0f / 3));
 }
 
-/// Places of samples among replicates, as GroupByTurns, without an end of the sequence.
+/// Places of samples among replicates, as GroupRoundRobin, without an end of the
+/// sequence.
 LANELIGHT_INLINE GroupIndex WavelengthGroup(const RunParameters& run, VU sample) {
   const VU own = run.pairs.dimensions == 0 ? sample : UnpairedSample(sample);
-  return GroupByTurns({.group_shift = 20}, own);
+  return GroupRoundRobin({.group_shift = 20}, own);
 }
 
 LANELIGHT_INLINE VF PixelWavelength(const RunParameters& run, VU pixel, VU sample) {

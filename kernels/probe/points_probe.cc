@@ -34,7 +34,7 @@ HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
 
 // With u1 = null, draws the numbers of a scalar dimension.
 template <class Policy>
-void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0,
+void ProbePolicy(const PointsQuery& q, const SamplerParameters& points, float* u0,
                  float* u1) {
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
     const GroupIndex at = Policy::Group(points, sample);
@@ -52,7 +52,7 @@ void ProbePolicy(const PointsQuery& q, const PointsParameters& points, float* u0
   });
 }
 
-void Probe(const PointsQuery& q, const PointsParameters& points, float* u0, float* u1) {
+void Probe(const PointsQuery& q, const SamplerParameters& points, float* u0, float* u1) {
   switch (q.points) {
 #define X(Type, key, name, ...) \
   case Points::k##name:         \
@@ -62,14 +62,14 @@ void Probe(const PointsQuery& q, const PointsParameters& points, float* u0, floa
   }
 }
 
-void ProbeTurns(const PointsParameters& points, uint32_t first, uint32_t count,
+void ProbeTurns(const SamplerParameters& points, uint32_t first, uint32_t count,
                 const GroupColumns& out) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   for (uint32_t i = 0; i < count; i += lanes) {
     const VU offset = hn::Min(hn::Iota(du, i), SplatU(count - 1));
     const VU sample = hn::Add(SplatU(first), offset);
-    const GroupIndex at = GroupByTurns(points, sample);
+    const GroupIndex at = GroupRoundRobin(points, sample);
     hn::StoreU(at.group, du, out.group + i);
     hn::StoreU(at.index, du, out.index + i);
     hn::StoreU(UnpairedSample(sample), du, out.unpaired + i);
@@ -97,11 +97,11 @@ HWY_EXPORT(ProbeTurns);
 HWY_EXPORT(ProbePermuted);
 
 void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1) {
-  ProbePoints(target, query, MakePointsParameters(query.points), u0, u1);
+  ProbePoints(target, query, MakeSamplerParameters(query.points), u0, u1);
 }
 
 void ProbePoints(SimdTarget target, const PointsQuery& query,
-                 const PointsParameters& parameters, float* u0, float* u1) {
+                 const SamplerParameters& parameters, float* u0, float* u1) {
   LANELIGHT_ON(target, Probe)(query, parameters, u0, u1);
 }
 
@@ -111,7 +111,7 @@ void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u) {
 
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
                  std::uint32_t count, const GroupColumns& out) {
-  PointsParameters points;
+  SamplerParameters points;
   points.group_shift = group_shift;
   LANELIGHT_ON(target, ProbeTurns)(points, first, count, out);
 }

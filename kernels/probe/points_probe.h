@@ -19,9 +19,9 @@ struct PointsQuery {
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
 void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1);
-/// Takes parameters instead of making them with MakePointsParameters(query.points).
+/// Takes parameters instead of making them with MakeSamplerParameters(query.points).
 void ProbePoints(SimdTarget target, const PointsQuery& query,
-                 const PointsParameters& parameters, float* u0, float* u1);
+                 const SamplerParameters& parameters, float* u0, float* u1);
 
 /// Writes the numbers of a scalar dimension.
 void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u);

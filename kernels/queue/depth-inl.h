@@ -12,7 +12,7 @@ LANELIGHT_BEGIN_KERNELS
 
 /// Maximum number of uncounted events inside of materials. It ends paths that are neither
 /// absorbed nor able to leave.
-inline constexpr int32_t kMostWalked = 1 << 16;
+inline constexpr int32_t kMaxUncountedEvents = 1 << 16;
 
 /// Returns the paths whose next event is inside of a material, or on its bounds from
 /// within, and does not count towards the maximum depth; only with kSubsurface.
@@ -22,17 +22,17 @@ LANELIGHT_INLINE MF WalksInside(const Wave& wave, const Slots& slots) {
   const RecordWords records(wave.media->media.data(), hn::Max(medium, hn::Zero(di)));
   const auto in_medium = hn::RebindMask(DF(), hn::Gt(medium, vacuum));
   const VI walked = Gather(wave.path.walked, slots);
-  const auto few = hn::RebindMask(DF(), hn::Lt(walked, hn::Set(di, kMostWalked)));
+  const auto few = hn::RebindMask(DF(), hn::Lt(walked, hn::Set(di, kMaxUncountedEvents)));
   return hn::And(hn::And(in_medium, few), records.IsSet(offsetof(MediumRecord, inside)));
 }
 
 /// Returns the paths that may scatter once more.
 LANELIGHT_INLINE MF MayScatter(const Wave& wave, const Slots& slots) {
-  const VI most = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
+  const VI max_depth = hn::Set(DI(), static_cast<int32_t>(wave.run->max_depth));
   const VI depth = Gather(wave.path.depth, slots);
-  if (wave.path.walked == nullptr) return hn::RebindMask(DF(), hn::Lt(depth, most));
+  if (wave.path.walked == nullptr) return hn::RebindMask(DF(), hn::Lt(depth, max_depth));
   const VI counted = hn::Sub(depth, Gather(wave.path.walked, slots));
-  const MF below = hn::RebindMask(DF(), hn::Lt(counted, most));
+  const MF below = hn::RebindMask(DF(), hn::Lt(counted, max_depth));
   return hn::Or(below, WalksInside(wave, slots));
 }
 

@@ -59,10 +59,11 @@ HWY_INLINE uint32_t ListReceivers(Block& block, const MaterialTable& materials,
   return valid;
 }
 
-// Roulette on second vertices, in proportion to what they send below Block::surely_kept:
-// dim ones cost as many shadow rays as bright ones. Any probability above 0 leaves the
-// estimator unbiased, whatever it depends on. One number decides for the block
-// (systematic sampling), so that the number of survivors is close to its expectation.
+// Roulette on second vertices, in proportion to what they send below
+// Block::certainly_kept: dim ones cost as many shadow rays as bright ones. Any
+// probability above 0 leaves the estimator unbiased, whatever it depends on. One number
+// decides for the block (systematic sampling), so that the number of survivors is close
+// to its expectation.
 struct SuffixRoulette {
   float whole, sum;  // sum of the probabilities below 1 so far, from u on
 
@@ -82,9 +83,9 @@ HWY_INLINE void ListSuffixes(const Wave& wave) {
   block.num_suffixes = 0;
   for (uint32_t i = 0; i < block.size; ++i) {
     const uint32_t r = block.records[i];
-    const float most = MostSent(wave, r);
-    if (!(most > 0)) continue;
-    const float q = HWY_MIN(1.0f, most / block.surely_kept);
+    const float maximum = MaxSent(wave, r);
+    if (!(maximum > 0)) continue;
+    const float q = HWY_MIN(1.0f, maximum / block.certainly_kept);
     if (!roulette.Keeps(q)) continue;
     SuffixRow& row = block.rows[block.num_suffixes];
     row = {r, block.num_suffixes++, 1 / q, SuffixPart::kEven};

@@ -65,7 +65,7 @@ HWY_INLINE void AddRow(const Wave& wave, uint32_t s) {
 // Restores the light that a sample had before its second vertex, since all light gathered
 // after that is shared. (Samples with glossy second vertices have their own light
 // already.)
-HWY_INLINE void TakeBack(const Wave& wave) {
+HWY_INLINE void RestoreLight(const Wave& wave) {
   const Block& block = *wave.block;
   const ReuseColumns& second = block.second;
   for (uint32_t i = 0; i < block.size; ++i) {
@@ -118,7 +118,7 @@ HWY_INLINE void ConnectBlock(Wave& wave) {
     for (uint32_t r = 0; r < block.num_receivers; ++r) sums[r] = 0;
   }
   for (uint32_t s = 0; s < block.num_rows; ++s) AddRow(wave, s);
-  TakeBack(wave);
+  RestoreLight(wave);
   // Padding repeats the last of its kind: each counts once.
   for (uint32_t r = 0; r < block.num_receivers; ++r) {
     if (r > 0 && block.receivers[r] == block.receivers[r - 1]) continue;

@@ -46,7 +46,7 @@ struct Gathered {
 
 // Values of a direction for the path itself.
 struct OwnValue {
-  V3 inverse, share;  // 1 / f, and f_s / f
+  V3 inverse, fraction;  // 1 / f, and f_s / f
   VF shared_pdf;
 
   template <class Bsdf>
@@ -55,7 +55,7 @@ struct OwnValue {
     const BsdfValue shared = EvalShared<Bsdf>(y.material, wo, wi);
     inverse = Map(all.f_cos, Inverse);
     const V3 ratio = Mul(shared.f_cos, inverse);
-    share = Map(ratio, AtMostOne);
+    fraction = Map(ratio, AtMostOne);
     shared_pdf = shared.pdf;
   }
 
@@ -67,7 +67,7 @@ struct OwnValue {
   HWY_INLINE static VF AtMostOne(VF v) { return hn::Min(v, Splat(1.0f)); }
 };
 
-HWY_INLINE V3 Rest(V3 share) { return Splat3(1, 1, 1) - share; }
+HWY_INLINE V3 Rest(V3 fraction) { return Splat3(1, 1, 1) - fraction; }
 
 HWY_INLINE void StoreShared(const Block& block, const Gathered& light,
                             const OwnValue& lit, const OwnValue& next,
@@ -77,7 +77,8 @@ HWY_INLINE void StoreShared(const Block& block, const Gathered& light,
   Scatter3(Mul(light.hit, next.inverse), c.hit_r, c.hit_g, c.hit_b, records);
   const V3 far = Mul(Mul(light.far, next.inverse), next.shared_pdf);
   Scatter3(far, c.far_r, c.far_g, c.far_b, records);
-  const V3 sent = Mul(light.lit, lit.share) + Mul(light.hit + light.far, next.share);
+  const V3 sent =
+      Mul(light.lit, lit.fraction) + Mul(light.hit + light.far, next.fraction);
   Scatter(hn::Max(sent.x, hn::Max(sent.y, sent.z)), c.sent, records);
 }
 
@@ -91,8 +92,8 @@ HWY_NOINLINE void SplitVector(Wave& wave, const Slots& records, VI at) {
   const OwnValue lit(y, wo, y.ToLight(records)), next(y, wo, y.ToNext(records));
   const Gathered light(wave, records, at);
   StoreShared(block, light, lit, next, records);
-  const V3 own = Mul(light.lit, Rest(lit.share)) +
-                 Mul(light.hit + light.far, Rest(next.share)) + light.mirrored;
+  const V3 own = Mul(light.lit, Rest(lit.fraction)) +
+                 Mul(light.hit + light.far, Rest(next.fraction)) + light.mirrored;
   const V3 before = Gather3(second.before_r, second.before_g, second.before_b, records);
   const V3 color = before + Mul(Gather3(c.beta_r, c.beta_g, c.beta_b, records), own);
   float* red = wave.buffer.samples + block.sample;

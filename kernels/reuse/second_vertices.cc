@@ -50,10 +50,10 @@ HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
                          const AlignedVector<float>& table) HWY_ATTR {
     return column != nullptr ? Gather(column, slots) : Lookup(table, material);
   };
-  const VF least =
+  const VF minimum =
       hn::Min(alpha(p.alpha_x, materials.alpha_x), alpha(p.alpha_y, materials.alpha_y));
   const MF wide = hn::Or(hn::RebindMask(DF(), hn::Ne(kind, metal)),
-                         hn::Ge(least, Splat(kLeastGlossyAlpha)));
+                         hn::Ge(minimum, Splat(kMinGlossyAlpha)));
   return hn::And(IsOfKinds(wave, slots, kGlossyKinds), wide);
 }
 
@@ -86,11 +86,11 @@ HWY_INLINE void KeepSecond(const Wave& wave, const Slots& slots, VI record) {
 // alone (128 x 128, 32 spp, blocks of 64) in dining-room, cornell-box and
 // veach-ajar: 1.27, 4.9 and 3.0 for 4; 1.33, 4.3 and 3.0 for 1; 1.17, 4.9 and 3.0 without
 // a limit.
-constexpr float kSuffixWorth = 4;
+constexpr float kSuffixBrightness = 4;
 
 HWY_INLINE void BeginSuffix(const PathColumns& p, const StoreSlots& slots) {
   const VF brightest = MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
-  const VF worth = hn::Min(hn::Mul(brightest, Splat(kSuffixWorth)), Splat(1.0f));
+  const VF worth = hn::Min(hn::Mul(brightest, Splat(kSuffixBrightness)), Splat(1.0f));
   Scatter3(Splat3(0, 0, 0), p.l_r, p.l_g, p.l_b, slots);
   Scatter3(Splat3(1, 1, 1), p.beta_r, p.beta_g, p.beta_b, slots);
   Scatter(worth, p.eta_scale, slots);

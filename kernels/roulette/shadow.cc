@@ -17,23 +17,25 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-HWY_INLINE VF ShadowSurvival(const ShadowWorth& worth, VI pixel, V3 carried) {
+HWY_INLINE VF ShadowSurvival(const ShadowThreshold& pixel_threshold, VI pixel,
+                             V3 carried) {
   const VI at = hn::Mul(pixel, hn::Set(DI(), 3));
-  const float* inverse = worth.inverse.data();
+  const float* inverse = pixel_threshold.inverse.data();
   const V3 ratio = Mul(carried, Gather3(inverse, inverse + 1, inverse + 2, at));
   // Squares may overflow to infinity, which survives.
-  return hn::Min(hn::Max(hn::Sqrt(Dot(ratio, ratio)), Splat(worth.floor)), Splat(1.0f));
+  return hn::Min(hn::Max(hn::Sqrt(Dot(ratio, ratio)), Splat(pixel_threshold.floor)),
+                 Splat(1.0f));
 }
 
 void ShadowRoulette(Wave& wave) {
   const PathColumns& p = wave.path;
-  const ShadowWorth& worth = wave.run->tables->shadow_worth;
-  if (worth.inverse.empty()) return;  // the training pass itself
+  const ShadowThreshold& pixel_threshold = wave.run->tables->shadow_threshold;
+  if (pixel_threshold.inverse.empty()) return;  // the training pass itself
   Queue& queue = wave.queue(QueueId::kShadow);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
   ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF valid) HWY_ATTR {
     const V3 carried = Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
-    const VF s = ShadowSurvival(worth, Gather(p.pixel, slots), carried);
+    const VF s = ShadowSurvival(pixel_threshold, Gather(p.pixel, slots), carried);
     const MF survives = hn::Lt(Gather(p.u_shadow, slots), s);
     Scatter3(Mul(carried, hn::Div(Splat(1.0f), s)), p.sh_r, p.sh_g, p.sh_b, slots);
     Push(survivors, slots, hn::And(valid, survives));

@@ -43,7 +43,7 @@ LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered)
 
 // Returns the brightness of the pixel about which moments are taken, from
 // PathValues::inverse_pixel (MomentsAbout in src/render/train/path_records.h).
-LANELIGHT_INLINE VF AboutWhat(const Wave& wave, const Slots& slots) {
+LANELIGHT_INLINE VF MomentCenter(const Wave& wave, const Slots& slots) {
   const float* inverse = wave.run->tables->path_values.inverse_pixel.data();
   const VI at = hn::Mul(Gather(wave.path.pixel, slots), hn::Set(DI(), 3));
   const V3 weights = Gather3(inverse, inverse + 1, inverse + 2, at);
@@ -102,7 +102,7 @@ void SinglePathEnd(Wave& wave) {
     // Values within rounding are taken as 0, and so is NaN from a path that carries
     // nothing.
     added = hn::IfThenElseZero(hn::Gt(added, hn::Mul(square, Splat(1e-5f))), added);
-    const VF off = hn::Sub(end, AboutWhat(wave, slots));
+    const VF off = hn::Sub(end, MomentCenter(wave, slots));
     const VF moment = hn::Mul(hn::MulAdd(off, off, added), Gather(p.copy_weight, slots));
     const MF ended = hn::Ge(Gather(p.decided_at, slots), zero);
     Scatter(gathered, plane, output);

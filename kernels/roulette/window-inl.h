@@ -5,16 +5,17 @@
 // giving the expected number of split paths r >= 0.
 //   estimator   k = floor(r + u) paths of weight 1/r: E = sum of k (x_i / r) = x, since
 //               E[k] = r and the paths are identically distributed
-//   unbiased    r > 0: it is kept in [kLeast, budget], and at the camera's own hit in
+//   unbiased    r > 0: it is kept in [kMinFactor, budget], and at the camera's own hit in
 //               [1, budget], so that what a pixel shows first is never lost
 //   variance    roulette adds E[x^2] (1/r - 1); splitting divides the variance of what
-//               follows by r. Survivors weigh at most 1 / kLeast times their parent
+//               follows by r. Survivors weigh at most 1 / kMinFactor times their parent
 //   cost        a hash and a compaction per vertex; copying the live columns per copy
-//   bound       a camera sample starts with a budget of kMostCopies, which its copies
+//   bound       a camera sample starts with a budget of kMaxSplitPaths, which its copies
 //               divide between them: copy c of k takes the names
 //               [branch + c b / k, branch + (c + 1) b / k) of its parent's b. So the
 //               result does not depend on how many slots happen to be free, names are
-//               unique, and live paths never need more than kMostCopies slots per sample
+//               unique, and live paths never need more than kMaxSplitPaths slots per
+//               sample
 #ifndef LANELIGHT_ROULETTE_WINDOW_INL_H_
 #define LANELIGHT_ROULETTE_WINDOW_INL_H_
 
@@ -26,7 +27,7 @@
 LANELIGHT_BEGIN_KERNELS
 
 /// The smallest r.
-inline constexpr float kLeast = 0.05f;
+inline constexpr float kMinFactor = 0.05f;
 
 LANELIGHT_INLINE VF DecisionNumber(const Wave& wave, const Slots& slots) {
   const PathColumns& p = wave.path;
@@ -63,8 +64,8 @@ LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parent
     uint32_t* column = lists.copied.columns[c];
     for (uint32_t i = 0; i < n; ++i) column[slots[i]] = column[parents[i]];
   }
-  for (uint32_t c = 0; c < lists.begun_by_copies.count; ++c) {
-    uint32_t* column = lists.begun_by_copies.columns[c];
+  for (uint32_t c = 0; c < lists.begun_by_split_paths.count; ++c) {
+    uint32_t* column = lists.begun_by_split_paths.columns[c];
     for (uint32_t i = 0; i < n; ++i) column[slots[i]] = lists.copy_values[c];
   }
 }
@@ -118,11 +119,12 @@ LANELIGHT_INLINE void PlayWindow(Wave& wave) {
   ForEachBatch(wave, queue, [&](const Slots& slots, MF valid) HWY_ATTR {
     const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
     const MF first = hn::RebindMask(DF(), hn::Eq(Gather(p.depth, slots), hn::Zero(DI())));
-    const VF least = hn::IfThenElse(first, Splat(1.0f), Splat(kLeast));
-    const VF most = hn::ConvertTo(DF(), Gather(p.budget, slots));
+    const VF minimum = hn::IfThenElse(first, Splat(1.0f), Splat(kMinFactor));
+    const VF maximum = hn::ConvertTo(DF(), Gather(p.budget, slots));
     const VF wanted = Policy::Factor(wave, slots, beta);
     // Also catches what is not a number.
-    const VF r = hn::IfThenElse(hn::Gt(wanted, least), hn::Min(wanted, most), least);
+    const VF r =
+        hn::IfThenElse(hn::Gt(wanted, minimum), hn::Min(wanted, maximum), minimum);
     const VF whole = hn::Floor(r);
     const MF more = hn::Lt(DecisionNumber(wave, slots), hn::Sub(r, whole));
     const VF k = hn::Add(whole, hn::IfThenElseZero(more, Splat(1.0f)));

@@ -1,11 +1,11 @@
 // light-candidates=resampled: weighs each candidate and decides whether it is kept
 // (kernels/lights/candidates.cc has the estimator).
 //
-// The weight of a candidate (`worth`) is the luminance that the shading stage would carry
-// along the shadow ray: throughput, material, cosine, radiance over density, and the MIS
-// weight with the density of the material alone. Cheaper bounds such as radiance times
-// cosine select light that glossy surfaces do not reflect. Coats over metal, whose value
-// is a random walk, use such a bound.
+// The weight of a candidate (`candidate_weight`) is the luminance that the shading stage
+// would carry along the shadow ray: throughput, material, cosine, radiance over density,
+// and the MIS weight with the density of the material alone. Cheaper bounds such as
+// radiance times cosine select light that glossy surfaces do not reflect. Coats over
+// metal, whose value is a random walk, use such a bound.
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/kinds-inl.h"
@@ -13,45 +13,46 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// A candidate replaces the kept one with probability worth / (sum of the worths so far),
-// so that finally each has been kept with probability worth / sum. One number serves all
-// choices: the remainder after a choice is stretched back to [0, 1).
+// A candidate replaces the kept one with probability candidate_weight / (sum of the
+// weights so far), so that finally each has been kept with probability candidate_weight /
+// sum. One number serves all choices: the remainder after a choice is stretched back to
+// [0, 1).
 struct Reservoir {
   VF sum, u;
 
-  // Returns whether the candidate is taken. `worth` is finite and at least 0; 0 is never
-  // taken, the first above 0 always is.
-  HWY_INLINE MF Take(VF worth) {
-    sum = hn::Add(sum, worth);
-    const MF some = hn::Gt(worth, hn::Zero(DF()));
-    const VF share = hn::IfThenElseZero(some, hn::Div(worth, sum));
-    const MF take = hn::Lt(u, share);
+  // Returns whether the candidate is taken. `candidate_weight` is finite and at least 0;
+  // 0 is never taken, the first above 0 always is.
+  HWY_INLINE MF Accept(VF candidate_weight) {
+    sum = hn::Add(sum, candidate_weight);
+    const MF some = hn::Gt(candidate_weight, hn::Zero(DF()));
+    const VF fraction = hn::IfThenElseZero(some, hn::Div(candidate_weight, sum));
+    const MF replaces = hn::Lt(u, fraction);
     const VF one = Splat(1.0f);
-    const VF part = hn::IfThenElse(take, share, hn::Sub(one, share));
-    const VF left = hn::Div(hn::IfThenElse(take, u, hn::Sub(u, share)), part);
+    const VF part = hn::IfThenElse(replaces, fraction, hn::Sub(one, fraction));
+    const VF left = hn::Div(hn::IfThenElse(replaces, u, hn::Sub(u, fraction)), part);
     u = hn::Min(left, Splat(0x1.fffffep-1f));
-    return take;
+    return replaces;
   }
 };
 
 // Worths are clamped here, so that no sum of them overflows.
-inline constexpr float kMostWorth = 1e36f;
+inline constexpr float kMaxCandidateWeight = 1e36f;
 
 HWY_INLINE VF Luminance(V3 c) {
   return hn::MulAdd(c.x, Splat(0.212671f),
                     hn::MulAdd(c.y, Splat(0.715160f), hn::Mul(c.z, Splat(0.072169f))));
 }
 
-// Stores in the lanes of `take`; the others keep their values.
-HWY_INLINE void Replace(MF take, VF value, float* column, const StoreSlots& slots) {
-  Scatter(hn::IfThenElse(take, value, Gather(column, slots)), column, slots);
+// Stores in the lanes of `replaces`; the others keep their values.
+HWY_INLINE void Replace(MF replaces, VF value, float* column, const StoreSlots& slots) {
+  Scatter(hn::IfThenElse(replaces, value, Gather(column, slots)), column, slots);
 }
 
-// Makes the light sample in ls_* the kept one in the lanes of `take`.
-HWY_INLINE void KeepSample(const PathColumns& p, MF take, VF worth,
+// Makes the light sample in ls_* the kept one in the lanes of `replaces`.
+HWY_INLINE void KeepSample(const PathColumns& p, MF replaces, VF candidate_weight,
                            const StoreSlots& slots) {
   const auto copy = [&](const float* from, float* to)
-                        HWY_ATTR { Replace(take, Gather(from, slots), to, slots); };
+                        HWY_ATTR { Replace(replaces, Gather(from, slots), to, slots); };
   copy(p.ls_x, p.kept_x), copy(p.ls_y, p.kept_y), copy(p.ls_z, p.kept_z);
   copy(p.ls_r, p.kept_r), copy(p.ls_g, p.kept_g), copy(p.ls_b, p.kept_b);
   copy(p.ls_distance, p.kept_distance);
@@ -60,7 +61,7 @@ HWY_INLINE void KeepSample(const PathColumns& p, MF take, VF worth,
     copy(reinterpret_cast<const float*>(p.ls_light),
          reinterpret_cast<float*>(p.kept_light));
   }
-  Replace(take, worth, p.kept_worth, slots);
+  Replace(replaces, candidate_weight, p.candidate_weight, slots);
 }
 
 // Advances numbers in [0, 1) on the grid of 24 bits by `step` of that grid modulo 1:
@@ -102,8 +103,8 @@ HWY_INLINE V3 Reflected(const SurfaceReader<Bsdf>& reader, const MisParameters& 
 }
 
 template <class Bsdf>
-HWY_INLINE VF Worth(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
-                    const Slots& slots) {
+HWY_INLINE VF CandidateWeight(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
+                              const Slots& slots) {
   const PathColumns& p = reader.wave.path;
   const ShadingFrame frame =
       reader.ReadFrame(Gather3(p.ng_x, p.ng_y, p.ng_z, slots), slots);
@@ -113,7 +114,7 @@ HWY_INLINE VF Worth(const SurfaceReader<Bsdf>& reader, const MisParameters& mis,
                        Gather3(p.ls_r, p.ls_g, p.ls_b, slots));
   const V3 carried = Mul(Reflected(reader, mis, wo, wi, slots), light);
   return hn::IfThenElseZero(CarriesLight(carried),
-                            hn::Min(Luminance(carried), Splat(kMostWorth)));
+                            hn::Min(Luminance(carried), Splat(kMaxCandidateWeight)));
 }
 
 template <class Bsdf, ShadeKind kKind>
@@ -125,10 +126,11 @@ HWY_NOINLINE void ConsiderKind(Wave& wave) {
       wave.run->features.Has(Feature::kMis) ? wave.run->mis : MisParameters{0, 0, 0};
   ForEachBatch(
       wave, wave.queue(ShadeQueue(kKind)), [&](const StoreSlots& slots, MF) HWY_ATTR {
-        Reservoir reservoir = {Gather(p.worth_sum, slots), Gather(p.u_candidate, slots)};
-        const VF worth = Worth(reader, mis, slots);
-        KeepSample(p, reservoir.Take(worth), worth, slots);
-        Scatter(reservoir.sum, p.worth_sum, slots);
+        Reservoir reservoir = {Gather(p.candidate_weight_sum, slots),
+                               Gather(p.u_candidate, slots)};
+        const VF candidate_weight = CandidateWeight(reader, mis, slots);
+        KeepSample(p, reservoir.Accept(candidate_weight), candidate_weight, slots);
+        Scatter(reservoir.sum, p.candidate_weight_sum, slots);
         Scatter(reservoir.u, p.u_candidate, slots);
         AdvanceCandidate(p, wave.run->candidates, slots);
       });
@@ -151,7 +153,7 @@ void Consider(Wave& wave){
 Stage ConsiderStage() {
   using namespace fields;
   const FieldSet numbers = {Field::u_select, Field::u_light_0, Field::u_light_1,
-                            Field::u_candidate, Field::worth_sum};
+                            Field::u_candidate, Field::candidate_weight_sum};
   return {.name = "light_consider",
           .meaning = "keeps the new candidate or the previous one",
           .input = QueueId::kLit,

@@ -31,8 +31,8 @@ HWY_INLINE MF OnMeshWithNormals(const Geometry& geometry, VI prim) {
   const auto triangle = hn::Lt(prim, hn::Set(di, end));
   const RecordWords record(geometry.triangles.data(), hn::IfThenElseZero(triangle, prim));
   const VI flags = record.I(offsetof(TriangleRecord, flags));
-  const VI given = hn::And(flags, hn::Set(di, static_cast<int32_t>(kMeshNormals)));
-  return hn::RebindMask(DF(), hn::And(triangle, hn::Ne(given, hn::Zero(di))));
+  const VI mesh_normals = hn::And(flags, hn::Set(di, static_cast<int32_t>(kMeshNormals)));
+  return hn::RebindMask(DF(), hn::And(triangle, hn::Ne(mesh_normals, hn::Zero(di))));
 }
 
 // -1 where the instance mirrors: n x dp/du is taken in the space of the mesh.
@@ -74,16 +74,16 @@ HWY_INLINE Slopes LoadSlopes(const Wave& wave, const StoreSlots& slots, VI textu
   const PathColumns& path = wave.path;
   const TextureTable& table = *wave.textures;
   const VF u = Gather(path.uv_u, slots), v = Gather(path.uv_v, slots);
-  const Footprint spread = LoadFootprint(path, slots);
-  const VF next_u = hn::Add(u, Step(spread.dudx, spread.dudy, u));
-  const VF next_v = hn::Add(v, Step(spread.dvdx, spread.dvdy, v));
+  const Footprint footprint = LoadFootprint(path, slots);
+  const VF next_u = hn::Add(u, Step(footprint.dudx, footprint.dudy, u));
+  const VF next_v = hn::Add(v, Step(footprint.dvdx, footprint.dvdy, v));
   const V3 p = Gather3(path.p_x, path.p_y, path.p_z, slots);
   const V3 n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
   const V3 tg = Gather3(path.tg_x, path.tg_y, path.tg_z, slots);
   const V3 tv = Gather3(path.tv_x, path.tv_y, path.tv_z, slots);
   const auto height = [&](VF at_u, VF at_v) HWY_ATTR {
     const V3 at = MulAdd(tg, hn::Sub(at_u, u), MulAdd(tv, hn::Sub(at_v, v), p));
-    FilteredPoint point = {at_u, at_v, at, n, spread, {}, {}};
+    FilteredPoint point = {at_u, at_v, at, n, footprint, {}, {}};
     point.SetSteps(tg, tv);
     return EvalFloats(table, texture, point, hn::Zero(DF()));
   };
@@ -113,15 +113,15 @@ void Bumps(Wave& wave) {
 }
 
 Stage BumpsStage() {
-  return {
-      .name = "bumps",
-      .meaning = "computes shading normals of displacement textures",
-      .input = QueueId::kSurface,
-      .role = StageRole::kTexture,
-      .needs = {Feature::kBumps, Feature::kScatters},
-      .reads = kMappedNormalReads | fields::kSpread | FieldSet{Field::prim, Field::inst},
-      .writes = kMappedNormalWrites,
-      .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
+  return {.name = "bumps",
+          .meaning = "computes shading normals of displacement textures",
+          .input = QueueId::kSurface,
+          .role = StageRole::kTexture,
+          .needs = {Feature::kBumps, Feature::kScatters},
+          .reads = kMappedNormalReads | fields::kFootprint |
+                   FieldSet{Field::prim, Field::inst},
+          .writes = kMappedNormalWrites,
+          .resolve = ByFeature<Feature::kInstances, Bumps<true>, Bumps<false>>};
 }
 
 // Normal maps as in pbrt-v4 (bilinear, repeated, no levels): texel c holds the shading

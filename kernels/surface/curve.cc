@@ -84,9 +84,9 @@ HWY_INLINE V3 RibbonNormals(const Geometry& geometry, VI index, const CurveLanes
   const VF angle = w[6], one = Splat(1.0f);
   const VF rest = hn::Sub(one, curve.u);
   const MF turns = hn::Gt(angle, hn::Zero(DF()));
-  const auto weight = [&](VF share) HWY_ATTR {
-    const VF part = hn::Mul(hn::Mul(share, angle), Splat(0.5f * kInvPi));
-    return hn::IfThenElse(turns, hn::Mul(SinCos2Pi(part).sin, w[7]), share);
+  const auto weight = [&](VF fraction) HWY_ATTR {
+    const VF part = hn::Mul(hn::Mul(fraction, angle), Splat(0.5f * kInvPi));
+    return hn::IfThenElse(turns, hn::Mul(SinCos2Pi(part).sin, w[7]), fraction);
   };
   const V3 n = MulAdd(V3{w[0], w[1], w[2]}, weight(rest),
                       Mul(V3{w[3], w[4], w[5]}, weight(curve.u)));

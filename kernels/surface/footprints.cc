@@ -45,8 +45,8 @@ void Footprints(Wave& wave) {
         // Steps move along the sight into the plane across n.
         const V3 x = InPlane(n, steps.sight, steps.x),
                  y = InPlane(n, steps.sight, steps.y);
-        StoreStep(axes, x, path.spread_0, path.spread_2, slots);
-        StoreStep(axes, y, path.spread_1, path.spread_3, slots);
+        StoreStep(axes, x, path.footprint_0, path.footprint_2, slots);
+        StoreStep(axes, y, path.footprint_1, path.footprint_3, slots);
       });
 }
 
@@ -58,7 +58,7 @@ Stage FootprintsStage() {
           .needs = {Feature::kTextureFootprints, Feature::kScatters},
           .reads = fields::kPoint | fields::kNormal | fields::kTangents |
                    FieldSet{Field::time},
-          .writes = fields::kSpread,
+          .writes = fields::kFootprint,
           .resolve = Always<Footprints>};
 }
 

@@ -4,7 +4,7 @@
 // facets that face away from the viewer, and reflections into the surface. pbrt-v4
 // follows both: paths enter the solid and are lost, which is black. Here
 // - a normal that faces away from the viewer is turned, in the plane of the two, to a
-//   grazing angle (cosine kLeastCosine): neighbours would hide such a facet of a real
+//   grazing angle (cosine kMinCosine): neighbours would hide such a facet of a real
 //   bump;
 // - for materials that only mirror or refract (metals, glass), a normal is turned so
 //   that the mirrored viewer is above the surface. The Iray renderer does so for all
@@ -30,7 +30,7 @@ inline constexpr FieldSet kMappedNormalWrites =
     fields::kTangent | FieldSet{Field::ns_x, Field::ns_y, Field::ns_z};
 
 /// Least cosine of the viewer to a normal, and of the mirrored viewer to the surface.
-inline constexpr float kLeastCosine = 1.0f / 64;
+inline constexpr float kMinCosine = 1.0f / 64;
 
 /// The hits whose material has an entry >= 0 in `textures`.
 HWY_INLINE const Queue& WithTexture(Wave& wave, const AlignedVector<int32_t>& textures) {
@@ -65,17 +65,17 @@ HWY_INLINE V3 Sided(V3 n, V3 ng, V3 before) {
 /// Turns `n`, a unit normal on the side of `ng`, as the top of this file says. `wo`
 /// points to the viewer and may be on either side.
 HWY_INLINE V3 KeepInView(V3 n, V3 ng, V3 wo, MF mirrors) {
-  const VF least = Splat(kLeastCosine);
+  const VF min_cosine = Splat(kMinCosine);
   wo = Mul(wo, hn::CopySign(Splat(1.0f), Dot(ng, wo)));
   const VF cosine = Dot(n, wo);
   const V3 across = MulAdd(wo, hn::Neg(cosine), n);
-  const float sine = 0.99987792f;  // sqrt(1 - kLeastCosine^2)
-  const V3 grazed =
-      MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))), Mul(wo, least));
-  n = IfThenElse(hn::Lt(cosine, least), grazed, n);
+  const float sine = 0.99987792f;  // sqrt(1 - kMinCosine^2)
+  const V3 grazed = MulAdd(across, hn::Mul(Splat(sine), Rsqrt(Dot(across, across))),
+                           Mul(wo, min_cosine));
+  n = IfThenElse(hn::Lt(cosine, min_cosine), grazed, n);
   // The mirrored viewer, lifted to the least height or to that of the viewer.
   const V3 mirrored = MulAdd(n, hn::Mul(Splat(2.0f), Dot(n, wo)), -wo);
-  const VF height = Dot(mirrored, ng), wanted = hn::Min(least, Dot(wo, ng));
+  const VF height = Dot(mirrored, ng), wanted = hn::Min(min_cosine, Dot(wo, ng));
   const V3 lifted = Normalize(MulAdd(ng, hn::Sub(wanted, height), mirrored));
   const MF low = hn::And(mirrors, hn::Lt(height, wanted));
   return IfThenElse(low, Normalize(lifted + wo), n);

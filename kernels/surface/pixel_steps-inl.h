@@ -22,8 +22,8 @@ struct PixelSteps {
 HWY_INLINE V3 Turned(V3 axis, V3 forward, V3 sight) {
   const VF cosine = Dot(forward, sight);
   const V3 sum = Mul(forward, hn::CopySign(Splat(1.0f), cosine)) + sight;
-  const VF share = hn::Div(Dot(axis, sight), hn::Add(Splat(1.0f), hn::Abs(cosine)));
-  return MulAdd(sum, hn::Neg(share), axis);
+  const VF fraction = hn::Div(Dot(axis, sight), hn::Add(Splat(1.0f), hn::Abs(cosine)));
+  return MulAdd(sum, hn::Neg(fraction), axis);
 }
 
 HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {

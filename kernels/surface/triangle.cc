@@ -116,8 +116,8 @@ struct UvDerivatives {
 
 // v mirrored on the plane across `normal`.
 HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
-  const VF share = hn::Div(Dot(v, normal), Dot(normal, normal));
-  return MulAdd(normal, hn::Mul(Splat(-2.0f), share), v);
+  const VF fraction = hn::Div(Dot(v, normal), Dot(normal, normal));
+  return MulAdd(normal, hn::Mul(Splat(-2.0f), fraction), v);
 }
 
 // Turns the tangents of bilinear patches with normals as their face's normal turns to the
@@ -126,7 +126,7 @@ HWY_INLINE V3 Mirrored(V3 v, V3 normal) {
 // Another").
 HWY_NOINLINE void TurnTangents(const Geometry& geometry, const TriangleLanes& tri,
                                V3 face, V3& tangent, V3& bitangent) {
-  const VI flag = hn::Set(DI(), static_cast<int32_t>(kTurnedTangents));
+  const VI flag = hn::Set(DI(), static_cast<int32_t>(kRotatedTangents));
   const MF turned = hn::RebindMask(DF(), hn::Eq(hn::And(tri.flags, flag), flag));
   if (hn::AllFalse(DF(), turned) || geometry.normals.empty()) return;
   const V3 ns = Normalize(VertexNormal(geometry, tri, face));

@@ -26,8 +26,8 @@ struct Footprint {
 };
 
 LANELIGHT_INLINE Footprint LoadFootprint(const PathColumns& path, const Slots& slots) {
-  return {Gather(path.spread_0, slots), Gather(path.spread_1, slots),
-          Gather(path.spread_2, slots), Gather(path.spread_3, slots)};
+  return {Gather(path.footprint_0, slots), Gather(path.footprint_1, slots),
+          Gather(path.footprint_2, slots), Gather(path.footprint_3, slots)};
 }
 
 /// A point for all textures, which are filtered; p and n as in PlacedPoint. The steps
@@ -36,17 +36,17 @@ struct FilteredPoint {
   static constexpr bool kHasPlace = true, kHasFootprint = true;
   VF u, v;
   V3 p, n;
-  Footprint spread;
+  Footprint footprint;
   V3 step_x, step_y;
 
   LANELIGHT_INLINE void SetSteps(V3 tg, V3 tv) {
-    step_x = MulAdd(tg, spread.dudx, Mul(tv, spread.dvdx));
-    step_y = MulAdd(tg, spread.dudy, Mul(tv, spread.dvdy));
+    step_x = MulAdd(tg, footprint.dudx, Mul(tv, footprint.dvdx));
+    step_y = MulAdd(tg, footprint.dudy, Mul(tv, footprint.dvdy));
   }
   LANELIGHT_INLINE FilteredPoint Only(MF mine) const {
     return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v),
             IfThenElseZero(mine, p),     n,
-            spread.Only(mine),           IfThenElseZero(mine, step_x),
+            footprint.Only(mine),        IfThenElseZero(mine, step_x),
             IfThenElseZero(mine, step_y)};
   }
 };
@@ -106,10 +106,10 @@ LANELIGHT_INLINE V3 EvalAlongLine(const TextureTable& table, const TextureNode& 
                         Splat(1.0f / static_cast<float>(image.width)));
   const VF dt = hn::Mul(hn::IfThenElse(along_x, d.t_x, d.t_y),
                         Splat(1.0f / static_cast<float>(image.height)));
-  const float most = hn::GetLane(hn::MaxOfLanes(df, steps));
+  const float maximum = hn::GetLane(hn::MaxOfLanes(df, steps));
   V3 sum = Splat3(0, 0, 0);
   VF weights = hn::Zero(df);
-  for (float k = 0; k < most; ++k) {
+  for (float k = 0; k < maximum; ++k) {
     const VF at = hn::Sub(hn::Div(Splat(2 * k + 1), steps), one);  // -1 .. 1
     const VF bell = hn::Sub(hn::Exp(df, hn::Neg(hn::Mul(two, hn::Mul(at, at)))),
                             Splat(0.13533528f));  // exp(-2)

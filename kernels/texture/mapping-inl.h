@@ -83,8 +83,8 @@ template <class Point>
 LANELIGHT_INLINE MapSteps StepsOf(const TextureNode& node, const Point& at) {
   if (node.mapping == MappingKind::kUv) {
     const VF su = Splat(node.su), sv = Splat(node.sv);
-    return {hn::Mul(at.spread.dudx, su), hn::Mul(at.spread.dvdx, sv),
-            hn::Mul(at.spread.dudy, su), hn::Mul(at.spread.dvdy, sv)};
+    return {hn::Mul(at.footprint.dudx, su), hn::Mul(at.footprint.dvdx, sv),
+            hn::Mul(at.footprint.dudy, su), hn::Mul(at.footprint.dvdy, sv)};
   }
   const auto turned = [&](V3 v) HWY_ATTR {
     const auto row = [&](int r) HWY_ATTR {

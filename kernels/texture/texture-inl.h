@@ -133,8 +133,8 @@ LANELIGHT_INLINE V3 EvalImage(const TextureTable& table, const TextureNode& node
 
 /// Alpha of a roughness, or of its root, as Integrator::regularize has it.
 LANELIGHT_INLINE VF RegularAlpha(VF roughness, bool remap) {
-  const VF given = hn::Max(roughness, Splat(0.0f));
-  const VF alpha = remap ? hn::Sqrt(given) : given;
+  const VF clamped = hn::Max(roughness, Splat(0.0f));
+  const VF alpha = remap ? hn::Sqrt(clamped) : clamped;
   const VF rougher = hn::Clamp(hn::Add(alpha, alpha), Splat(0.1f), Splat(0.3f));
   return hn::IfThenElse(hn::Lt(alpha, Splat(0.3f)), rougher, alpha);
 }

@@ -15,7 +15,7 @@ LANELIGHT_BEGIN_KERNELS
 // few of its lanes.
 class TexturedHits {
  public:
-  static constexpr uint32_t kMost = 2048;
+  static constexpr uint32_t kMaxHits = 2048;
 
   LANELIGHT_INLINE void Add(VI slots, VI ids, MF mask) {
     const uint32_t end = size_;
@@ -24,25 +24,26 @@ class TexturedHits {
   }
   LANELIGHT_INLINE bool empty() const { return size_ == 0; }
 
-  /// Moves the hits with the texture of the first one to `taken`; returns that texture.
-  LANELIGHT_INLINE int32_t Take(Queue& taken) {
+  /// Moves the hits with the texture of the first one to `selected`; returns that
+  /// texture.
+  LANELIGHT_INLINE int32_t SelectTexture(Queue& selected) {
     const DI di;
     const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(di));
     const int32_t first = ids_[0];
     uint32_t left = 0;
-    taken.size = 0;
+    selected.size = 0;
     for (uint32_t i = 0; i < size_; i += lanes) {
       // Appended slots lie before the end of this vector, so they have been read already.
       const VI slots = hn::LoadU(di, slots_ + i), ids = hn::LoadU(di, ids_ + i);
       const MF valid = hn::FirstN(DF(), size_ - i);
       const MF same = hn::RebindMask(DF(), hn::Eq(ids, hn::Set(di, first)));
       const MF others = hn::AndNot(same, valid);
-      Push(taken, slots, hn::And(same, valid));
+      Push(selected, slots, hn::And(same, valid));
       Append(slots, others, slots_, left);
       left += Append(ids, others, ids_, left);
     }
     size_ = left;
-    PadTail(taken);
+    PadTail(selected);
     return first;
   }
 
@@ -53,7 +54,7 @@ class TexturedHits {
     return static_cast<uint32_t>(hn::CountTrue(DF(), mask));
   }
 
-  static constexpr std::size_t kRoom = kMost + hn::MaxLanes(DI());
+  static constexpr std::size_t kRoom = kMaxHits + hn::MaxLanes(DI());
   HWY_ALIGN int32_t slots_[kRoom], ids_[kRoom];
   uint32_t size_ = 0;
 };
@@ -73,7 +74,7 @@ LANELIGHT_INLINE Point LoadPoint(const PathColumns& path, const Slots& slots,
     at.p = Gather3(path.p_x, path.p_y, path.p_z, slots);
     at.n = Gather3(path.ng_x, path.ng_y, path.ng_z, slots);
     if constexpr (Point::kHasFootprint) {
-      at.spread = LoadFootprint(path, slots);
+      at.footprint = LoadFootprint(path, slots);
       at.step_x = at.step_y = Splat3(0, 0, 0);
       if (places) {
         at.SetSteps(Gather3(path.tg_x, path.tg_y, path.tg_z, slots),
@@ -95,10 +96,10 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
   const TextureTable& table = *wave.textures;
   const Queue& queue = wave.queue(QueueId::kSurface);
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DI()));
-  HWY_ALIGN uint32_t room[TexturedHits::kMost + hn::MaxLanes(DI())];
-  Queue taken = {room, 0};
-  for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMost) {
-    const uint32_t end = HWY_MIN(queue.size, begin + TexturedHits::kMost);
+  HWY_ALIGN uint32_t room[TexturedHits::kMaxHits + hn::MaxLanes(DI())];
+  Queue selected = {room, 0};
+  for (uint32_t begin = 0; begin < queue.size; begin += TexturedHits::kMaxHits) {
+    const uint32_t end = HWY_MIN(queue.size, begin + TexturedHits::kMaxHits);
     TexturedHits hits;
     for (uint32_t i = begin; i < end; i += lanes) {
       const StoreSlots slots = SlotsAt(queue, i);
@@ -110,10 +111,10 @@ HWY_NOINLINE void EvalParameter(Wave& wave, const Parameter& parameter) {
       hits.Add(slots, ids, hn::And(textured, hn::FirstN(DF(), end - i)));
     }
     while (!hits.empty()) {
-      const int32_t texture = hits.Take(taken);
+      const int32_t texture = hits.SelectTexture(selected);
       const bool places = table.programs[texture].uses_place;
-      for (uint32_t i = 0; i < taken.size; i += lanes) {
-        const StoreSlots slots = SlotsAt(taken, i);
+      for (uint32_t i = 0; i < selected.size; i += lanes) {
+        const StoreSlots slots = SlotsAt(selected, i);
         const V3 value =
             EvalTexture(table, texture, LoadPoint<Point>(path, slots, places));
         parameter.StoreTextured(slots, Gather(path.material, slots), value);
@@ -185,11 +186,11 @@ struct CoatParameter {
   const AlignedVector<int32_t>& textures;
   const AlignedVector<float>& constants;
   float* column;
-  float least, most;
+  float minimum, maximum;
 
   LANELIGHT_INLINE VF Constant(VI material) const { return Lookup(constants, material); }
   LANELIGHT_INLINE void Store(const StoreSlots& slots, VI, VF value) const {
-    Scatter(hn::Min(hn::Max(value, Splat(least)), Splat(most)), column, slots);
+    Scatter(hn::Min(hn::Max(value, Splat(minimum)), Splat(maximum)), column, slots);
   }
   LANELIGHT_INLINE void StoreTextured(const StoreSlots& slots, VI material,
                                       V3 value) const {
@@ -226,8 +227,8 @@ void Textures(Wave& wave) {
     eval(ColorParameter{m, true, m.coat_albedo_texture, &m.coat_albedo_r,
                         &m.coat_albedo_g, &m.coat_albedo_b, path.coat_albedo_r,
                         path.coat_albedo_g, path.coat_albedo_b});
-    eval(CoatParameter{m.coat_g_texture, m.coat_g, path.coat_g, -kMostCoatAsymmetry,
-                       kMostCoatAsymmetry});
+    eval(CoatParameter{m.coat_g_texture, m.coat_g, path.coat_g, -kMaxCoatAsymmetry,
+                       kMaxCoatAsymmetry});
   }
   CountBatches(wave, wave.queue(QueueId::kSurface));
 }
@@ -239,7 +240,7 @@ Stage TextureStage() {
           .role = StageRole::kTexture,
           .needs = {Feature::kTextures},
           .reads = FieldSet{Field::material} | fields::kUv | fields::kPoint |
-                   fields::kNormal | fields::kSpread | fields::kTangents,
+                   fields::kNormal | fields::kFootprint | fields::kTangents,
           .writes = fields::kParameters,
           .resolve = [](const FeatureSet& features) -> StageFn {
             LL_CHECK(features.Has(Feature::kUv));

@@ -115,11 +115,11 @@ LANELIGHT_INLINE V3 FilmColor(const SpectrumTable& table, V3 value,
 inline HWY_NOINLINE V3 UpsampledReflectances(const SpectrumTable& table, V3 rgb,
                                              const Wavelengths& w) {
   const VF one = Splat(1.0f), half = Splat(0.5f), two = Splat(2.0f);
-  const VF least = Splat(float{kLeastUpsampled}), most = hn::Sub(one, least);
+  const VF minimum = Splat(float{kMinUpsampled}), maximum = hn::Sub(one, minimum);
   const VF middle = Splat(0.5f * (kUpsamplingNodes - 1));
   const VF scale = hn::Mul(middle, Splat(table.per_half_tangent));
   const auto coordinate = [&](VF v) HWY_ATTR {
-    const VF c = hn::Clamp(v, least, most);
+    const VF c = hn::Clamp(v, minimum, maximum);
     const VF root = hn::Sqrt(hn::Mul(c, hn::Sub(one, c)));
     const VF h = hn::Div(hn::MulSub(two, c, one), hn::MulAdd(two, root, one));
     return hn::Clamp(hn::MulAdd(h, scale, middle), Splat(0), hn::Mul(two, middle));

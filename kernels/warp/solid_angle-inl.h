@@ -20,7 +20,7 @@ LANELIGHT_BEGIN_KERNELS
 /// light of 3e-4 rad, straight on. The density of area samples varies over that light by
 /// 1e-3, and by a third where it is seen under a cosine of 0.01 (then 3e-3 rad wide):
 /// from there on rounding would take more away than the solid angle gives.
-inline constexpr float kLeastSolidAngle = 1e-7f;
+inline constexpr float kMinSolidAngle = 1e-7f;
 
 /// A triangle as its receiver sees it: unit vectors to the corners, and what its solid
 /// angle is made of. `det` is not negative.

@@ -88,20 +88,20 @@ std::string Texts(const std::vector<ImageComparison>& comparisons) {
 // Writes the page and the picture. False, with a message, if one could not be written.
 bool Save(const CompareCommandOptions& options, const std::vector<NamedImage>& tests,
           const NamedImage& reference, const std::vector<ImageComparison>& comparisons) {
-  Saver saver;
+  ResultWriter writer;
   if (!options.html.empty()) {
-    saver.SaveText(options.html, ComparisonPage(tests, reference, comparisons));
+    writer.SaveText(options.html, ComparisonPage(tests, reference, comparisons));
   }
-  if (options.png.empty()) return PrintProblems(saver.problems());
+  if (options.png.empty()) return PrintProblems(writer.problems());
   std::vector<SheetRow> rows;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     rows.push_back({tests[i], reference, comparisons[i]});
   }
   const ComparisonSheet sheet = SheetOf(rows);
   std::string path = options.png;
-  saver.Save(path, [&](const std::string& to) { WritePng(to, sheet.image); });
+  writer.Save(path, [&](const std::string& to) { WritePng(to, sheet.image); });
   if (!options.json) Print(fmt::format("{}: {}\n", path, SheetText(sheet)));
-  return PrintProblems(saver.problems());
+  return PrintProblems(writer.problems());
 }
 
 int ComparisonCode(const CompareCommandOptions& options,

@@ -87,7 +87,7 @@ std::string ComparisonText(const ImageComparison& c) {
   std::string text = MeasuresText(c.metrics);
   if (c.flip) text += FlipText(*c.flip);
   text += FactRow("agreement", AgreementText(c.agreement));
-  if (!c.agreement.doubt.empty()) text += FactRow("", c.agreement.doubt);
+  if (!c.agreement.caveat.empty()) text += FactRow("", c.agreement.caveat);
   return text + FactRow("verdict", c.verdict);
 }
 

@@ -35,7 +35,7 @@ std::string WithoutControls(const std::string& text) {
   return out;
 }
 
-constexpr std::size_t kUsualColumns = 80, kLeastColumns = 20;
+constexpr std::size_t kDefaultColumns = 80, kMinColumns = 20;
 
 int DescriptorOf(Stream stream) {
   return stream == Stream::kOutput ? STDOUT_FILENO : STDERR_FILENO;
@@ -46,15 +46,15 @@ std::string_view VariableOf(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-const char* CodeOf(Ink ink) {
+const char* CodeOf(TextStyle ink) {
   switch (ink) {
-    case Ink::kBold:
+    case TextStyle::kBold:
       return "\x1b[1m";
-    case Ink::kDim:
+    case TextStyle::kDim:
       return "\x1b[2m";
-    case Ink::kRed:
+    case TextStyle::kRed:
       return "\x1b[31m";
-    case Ink::kYellow:
+    case TextStyle::kYellow:
       return "\x1b[33m";
   }
   return "";
@@ -64,10 +64,11 @@ const char* CodeOf(Ink ink) {
 std::string PaintedMessage(const std::string& line) {
   struct Kind {
     const char* word;
-    Ink ink;
+    TextStyle ink;
   };
-  for (const Kind& kind : {Kind{"error:", Ink::kRed}, Kind{"warning:", Ink::kYellow},
-                           Kind{"note:", Ink::kDim}}) {
+  for (const Kind& kind :
+       {Kind{"error:", TextStyle::kRed}, Kind{"warning:", TextStyle::kYellow},
+        Kind{"note:", TextStyle::kDim}}) {
     const std::size_t at = line.find(kind.word);
     // Behind a place, "scene.pbrt:3:1: ", and not in the middle of a sentence.
     if (at == line.npos || (at > 0 && !line.substr(0, at).ends_with(": "))) continue;
@@ -120,21 +121,21 @@ std::size_t TerminalColumns(Stream stream) {
   if (columns == 0 && ioctl(DescriptorOf(stream), TIOCGWINSZ, &size) == 0) {
     columns = size.ws_col;
   }
-  return std::max(columns > 0 ? columns : kUsualColumns, kLeastColumns);
+  return std::max(columns > 0 ? columns : kDefaultColumns, kMinColumns);
 }
 
 bool IsTerminal(Stream stream) {
   return isatty(DescriptorOf(stream)) != 0 && VariableOf("TERM") != "dumb";
 }
 
-std::string Painted(Ink ink, const std::string& text, Stream stream) {
+std::string Painted(TextStyle ink, const std::string& text, Stream stream) {
   if (!IsTerminal(stream) || !VariableOf("NO_COLOR").empty()) return text;
   return CodeOf(ink) + text + "\x1b[0m";
 }
 
 std::string SummaryRow(const std::string& label, const std::string& text) {
   std::string row = LabelledRow(label, text, TerminalColumns(Stream::kOutput));
-  return Painted(Ink::kDim, label, Stream::kOutput) + row.substr(label.size());
+  return Painted(TextStyle::kDim, label, Stream::kOutput) + row.substr(label.size());
 }
 
 std::size_t ReadersColumns() {

@@ -31,11 +31,11 @@ std::size_t TerminalColumns(Stream stream);
 /// "dumb").
 bool IsTerminal(Stream stream);
 
-enum class Ink { kBold, kDim, kRed, kYellow };
+enum class TextStyle { kBold, kDim, kRed, kYellow };
 
 /// Returns the text in that ink where the stream is such a terminal and NO_COLOR
 /// (no-color.org) is not set.
-std::string Painted(Ink ink, const std::string& text, Stream stream);
+std::string Painted(TextStyle ink, const std::string& text, Stream stream);
 
 /// Returns a row of a summary for standard output: a painted label, and wrapped text.
 std::string SummaryRow(const std::string& label, const std::string& text);

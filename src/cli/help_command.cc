@@ -48,9 +48,9 @@ class FittedFormatter : public CLI::Formatter {
  private:
   // Beside the names of flags; what there is no room for is broken by the terminal.
   std::string Fitted(const std::string& text) const {
-    constexpr std::size_t kLeast = 20;
+    constexpr std::size_t kMinTextColumns = 20;
     const std::size_t columns = ReadersColumns(), names = get_column_width();
-    return Wrapped(text, std::max(columns, names + kLeast) - names);
+    return Wrapped(text, std::max(columns, names + kMinTextColumns) - names);
   }
 };
 

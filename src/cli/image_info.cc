@@ -115,7 +115,7 @@ std::string SizeText(const Json& part) {
 
 std::string ErrorRowText(const Json& error) {
   if (error.is_null()) return "it says none";
-  const auto percent = [](const Json& share) { return 100 * share.get<double>(); };
+  const auto percent = [](const Json& fraction) { return 100 * fraction.get<double>(); };
   if (error.at("high").is_null()) {
     return fmt::format("{:.3g} %, at least {:.3g} %: {}", percent(error.at("value")),
                        error.at("low").is_null() ? 0 : percent(error.at("low")),

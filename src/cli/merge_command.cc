@@ -39,11 +39,11 @@ void CheckComplete(const MergedRender& merged, bool partial) {
     throw InputError(MissingText(merged) +
                      ": add the missing parts, or use --partial for an incomplete image");
   }
-  if (merged.least == merged.most) return;
+  if (merged.minimum == merged.maximum) return;
   throw InputError(
       fmt::format("pixels have {} to {} samples, since parts were interrupted: resume "
                   "these, or use --partial for an incomplete image",
-                  merged.least, merged.most));
+                  merged.minimum, merged.maximum));
 }
 
 int Merge(const MergeOptions& options) {

@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-constexpr int kMostParts = 1 << 20;
+constexpr int kMaxParts = 1 << 20;
 
 }  // namespace
 
@@ -112,13 +112,13 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
 
 Part ParsePart(const std::string& text) {
   const std::vector<int> v = ParseNumbers<int>(text, '/');
-  if (v.size() == 2 && v[0] >= 1 && v[0] <= v[1] && v[1] <= kMostParts) {
+  if (v.size() == 2 && v[0] >= 1 && v[0] <= v[1] && v[1] <= kMaxParts) {
     return {v[0], v[1]};
   }
   throw CLI::ValidationError(
       "--part",
       fmt::format("{} is not I/N with I from 1 to N, and N at most {}, e.g. 3/16",
-                  ShownValue(text), kMostParts));
+                  ShownValue(text), kMaxParts));
 }
 
 void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {

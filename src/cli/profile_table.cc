@@ -67,7 +67,7 @@ std::vector<std::string> CostCells(const ProfileRow& row) {
   const StageProfile& c = row.counts;
   std::vector<std::string> cells(11);
   cells[0] = c.name;
-  cells[1] = fmt::format("{:.1f}%", 100 * row.share);
+  cells[1] = fmt::format("{:.1f}%", 100 * row.fraction);
   if (c.calls == 0) return cells;
   cells[2] = Ns(row.NsPerItem());
   cells[3] = TotalText(double(c.items));

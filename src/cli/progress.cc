@@ -107,7 +107,7 @@ void ProgressPrinter::Update(const RenderProgress& progress) {
   Draw(progress);
 }
 
-void ProgressPrinter::Say(const std::string& text, bool always) {
+void ProgressPrinter::PrintMessage(const std::string& text, bool always) {
   const std::lock_guard lock(mutex_);
   if (style_ == ProgressStyle::kLines && always) WriteError(text + "\n");
   if (style_ != ProgressStyle::kBar) return;
@@ -150,7 +150,7 @@ void WorkProgress::Erase() {
   drawn_ = false;
 }
 
-void WorkProgress::Say(const std::string& line) {
+void WorkProgress::PrintMessage(const std::string& line) {
   const std::lock_guard lock(mutex_);
   Erase();
   PrintError(line);

@@ -46,7 +46,7 @@ class ProgressPrinter {
   void Update(const RenderProgress& progress);
   /// Shows a text in place of the bar, before rendering; without a terminal a plain line
   /// if `always`.
-  void Say(const std::string& text, bool always);
+  void PrintMessage(const std::string& text, bool always);
   /// Calls print(), which writes lines in place of the bar.
   void Interrupt(const std::function<void()>& print);
   /// Ends the line of the bar.
@@ -84,7 +84,7 @@ class WorkProgress {
   /// This and what follows may be called from any thread.
   void Update(const WorkStep& step);
   /// A line of its own, above the bar.
-  void Say(const std::string& line);
+  void PrintMessage(const std::string& line);
   void Finish();
 
  private:

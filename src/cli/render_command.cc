@@ -47,8 +47,8 @@ int Render(const RenderCommandOptions& options, RankGroup& group) {
   settings.decision = DecisionFor(options, group);
   if (!group.leads()) return Serve(options, settings, group);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
-  progress.Say("reading " + options.scene.scene + " and building its BVH",
-               /*always=*/false);
+  progress.PrintMessage("reading " + options.scene.scene + " and building its BVH",
+                        /*always=*/false);
   const Job job = PrepareJob(options.scene.scene, settings);
   progress.Interrupt([&] {
     if (!options.outputs.quiet) PrintNotes(job);

@@ -37,7 +37,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                  ? fmt::format(
                        "error: no number of samples can show that the target is reached; "
                        "stopped after {:.0f} per pixel, {:.0f} times the estimate: {}",
-                       spp, kHopeless, error)
+                       spp, kHopelessFactor, error)
                  : fmt::format(
                        "error: the target was not reached before the end by {}; error {}",
                        limit, error));
@@ -47,7 +47,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
 // Says where the result of a render is that left pixels without a sample.
 void PrintPartial(const RenderReport& report, const Job& job,
                   const RenderOutputs& options) {
-  const std::string& asked = options.targets.exr;
+  const std::string& requested = options.targets.exr;
   std::string text;
   if (report.unsampled_pixels == job.window.pixels()) {
     text = "error: the render was stopped before its first sample: no image is written";
@@ -60,8 +60,8 @@ void PrintPartial(const RenderReport& report, const Job& job,
                         job.plan.options.max_depth);
   }
   std::error_code ignored;
-  if (!asked.empty() && fs::exists(asked, ignored)) {
-    text += "; '" + asked + "' is as it was";
+  if (!requested.empty() && fs::exists(requested, ignored)) {
+    text += "; '" + requested + "' is as it was";
   }
   PrintError(text);
 }
@@ -144,9 +144,9 @@ bool SaveOrPrint(const std::string& path, const std::string& text) {
     Print(text);
     return true;
   }
-  Saver saver;
-  saver.SaveText(path, text);
-  return PrintProblems(saver.problems());
+  ResultWriter writer;
+  writer.SaveText(path, text);
+  return PrintProblems(writer.problems());
 }
 
 int PrintRendering(const Rendering& rendering, const Job& job,
@@ -186,9 +186,10 @@ RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& st
   RenderHooks hooks;
   if (progress.Shows()) {
     hooks.on_progress = [&](const RenderProgress& p) { progress.Update(p); };
-    hooks.tells_error = true;
+    hooks.reports_error = true;
     hooks.on_training = [&] {
-      progress.Say("trial run: choosing a strategy for this scene", /*always=*/true);
+      progress.PrintMessage("trial run: choosing a strategy for this scene",
+                            /*always=*/true);
     };
   }
   hooks.on_rendered = [&] { progress.Finish(); };

@@ -34,7 +34,7 @@ std::string WithReason(std::string text, const ErrorEstimate& e) {
   return text;
 }
 
-constexpr std::size_t kMostKinds = 8;
+constexpr std::size_t kMaxKinds = 8;
 
 // The message without what differs from one shape to the next: its numbers, also those in
 // names ("mesh_0012").
@@ -98,7 +98,7 @@ std::vector<std::string> NoteLines(const std::vector<Note>& notes) {
   std::vector<std::string> lines;
   std::size_t more = 0;
   for (const NoteKind& kind : ordered) {
-    if (lines.size() == kMostKinds) {
+    if (lines.size() == kMaxKinds) {
       more += kind.count;
       continue;
     }

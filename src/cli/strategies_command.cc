@@ -16,7 +16,7 @@ namespace lanelight {
 namespace {
 
 // Returns an indented text below the name of a choice.
-std::string Said(const std::string& text) { return FactRow("", text, 5); }
+std::string MeaningRow(const std::string& text) { return FactRow("", text, 5); }
 
 std::string ChoicesText() {
   std::string text, axis;
@@ -25,15 +25,15 @@ std::string ChoicesText() {
       axis = c.axis;
       text += fmt::format("{}{}=\n", text.empty() ? "" : "\n", axis);
     }
-    text +=
-        fmt::format("  {}{}\n", c.name, c.arguments) + Said(c.meaning) + Said(c.formula);
-    if (*c.source != '\0') text += Said(fmt::format("[{}]", c.source));
+    text += fmt::format("  {}{}\n", c.name, c.arguments) + MeaningRow(c.meaning) +
+            MeaningRow(c.formula);
+    if (*c.source != '\0') text += MeaningRow(fmt::format("[{}]", c.source));
   }
   return text + "\nc=\n  optimal|NUMBER\n" +
-         Said(
+         MeaningRow(
              "coefficient of the control variate: estimated per pixel and channel "
              "(default), or given") +
-         Said(
+         MeaningRow(
              "F = f - c (h - E[h]); the paper's equation 7 writes f + c (h - E[h]), so "
              "its c = 1 is c=-1 here");
 }

@@ -33,7 +33,7 @@ std::string Measured(const JudgedPoint& judged) {
   return fmt::format("{:.{}g} ±{:.1g}", p.measured, std::clamp(digits, 2, 9), half);
 }
 
-std::string Deviate(const JudgedPoint& judged) {
+std::string DeviationText(const JudgedPoint& judged) {
   if (!judged.point.refused.empty() || !judged.crash.empty()) return "-";
   const double z = judged.verdict.z;
   if (std::isinf(z)) return "inf";
@@ -86,7 +86,7 @@ std::string Row(const CaseResult& result, std::size_t width) {
       result.worst < 0 ? nullptr : &result.points[std::size_t(result.worst)];
   return fmt::format(fmt::runtime(kCaseRow), result.about.name, width,
                      worst ? Significant(worst->point.expected, 5) : "-",
-                     worst ? Measured(*worst) : "-", worst ? Deviate(*worst) : "-",
+                     worst ? Measured(*worst) : "-", worst ? DeviationText(*worst) : "-",
                      invalid, DurationText(seconds), RaysPerSample(result),
                      OutcomeText(result), Breaks(result));
 }
@@ -104,17 +104,18 @@ std::string Where(const Case& about, const JudgedPoint& judged) {
 
 // The first few points that make a case fail.
 std::string Failures(const CaseResult& result) {
-  constexpr int kMost = 4;
+  constexpr int kMaxShown = 4;
   if (result.outcome != Outcome::kFailed) return "";
   if (result.promised == 0) return "    " + result.why + "\n";
   std::string text;
   int shown = 0;
   for (const JudgedPoint& judged : result.points) {
     if (!judged.promised || judged.verdict.good()) continue;
-    if (++shown > kMost) continue;
+    if (++shown > kMaxShown) continue;
     text += fmt::format("    {}: {}\n", Where(result.about, judged), judged.verdict.why);
   }
-  if (shown > kMost) text += fmt::format("    and {} more points\n", shown - kMost);
+  if (shown > kMaxShown)
+    text += fmt::format("    and {} more points\n", shown - kMaxShown);
   return text;
 }
 

@@ -53,7 +53,7 @@ int RunStudyCommand(StudyCommandOptions& options) {
       options.study.settings.threads);
   StudyHooks hooks;
   hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
-  hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
+  hooks.on_problem = [&](const std::string& text) { progress.PrintMessage(text); };
   hooks.stop = &interrupt.stop();
   const std::vector<SceneStudy> studies = Study(options.study, hooks);
   progress.Finish();

@@ -72,7 +72,7 @@ std::string Wrap(const std::string& text) {
 }
 
 // "points=sobol, scene: the same as default on this scene, not rendered again".
-std::string Twins(const SceneRuns& runs) {
+std::string EquivalentStrategies(const SceneRuns& runs) {
   std::string text;
   for (std::size_t i = 0; i < runs.strategies.size(); ++i) {
     std::string names;
@@ -106,7 +106,7 @@ std::string StudySummary(const SceneStudy& study, const StudyOptions& options) {
   }
   text += "\n";
   text += RankingTable(study);
-  text += Twins(runs);
+  text += EquivalentStrategies(runs);
   for (const StrategyRuns& s : runs.strategies) {
     if (s.status == RunStatus::kOk || s.status == RunStatus::kSame) continue;
     text += Wrap(

@@ -54,7 +54,7 @@ std::string ImageRow(const RenderReport& report, const PixelRect& window) {
 
 std::string ErrorRow(const ErrorEstimate& error) {
   return SummaryRow(
-      "error", Painted(Ink::kBold, PercentText(error), Stream::kOutput) +
+      "error", Painted(TextStyle::kBold, PercentText(error), Stream::kOutput) +
                    (error.available && error.why != kNoLight ? ", 95 % confidence" : ""));
 }
 
@@ -99,9 +99,9 @@ std::string NextRow(const RenderReport& report, const Job& job,
 // Names the choices of the strategy that differ from the default.
 std::string StrategyRow(const RunResult& r, const Job& job) {
   const Strategy in_force = StrategyInForce(r, job);
-  Strategy usual;
-  usual.decide = in_force.decide;
-  const std::string changes = ChoicesNotIn(ToText(usual), ToText(in_force));
+  Strategy defaults;
+  defaults.decide = in_force.decide;
+  const std::string changes = ChoicesNotIn(ToText(defaults), ToText(in_force));
   if (changes.empty()) return "";
   const char* by =
       r.training.changes.empty() ? "" : " (chosen by a short trial run; details with -v)";
@@ -193,7 +193,8 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
 std::string DiffersRow(const std::vector<Note>& notes) {
   const std::string text = ImageChangesText(notes);
   if (text.empty()) return text;
-  return "\n" + Painted(Ink::kYellow, "differs", Stream::kOutput) + "    " + text + "\n";
+  return "\n" + Painted(TextStyle::kYellow, "differs", Stream::kOutput) + "    " + text +
+         "\n";
 }
 
 std::string TransportText(const Job& job) {

@@ -96,7 +96,7 @@ int RunSweepCommand(SweepCommandOptions& options) {
       "more to abort)\n");
   SweepHooks hooks;
   hooks.on_progress = [&](const SweepProgress& p) { progress.Update(StepOf(p)); };
-  hooks.on_problem = [&](const std::string& text) { progress.Say(text); };
+  hooks.on_problem = [&](const std::string& text) { progress.PrintMessage(text); };
   hooks.stop = &interrupt.stop();
   const SweepOutcome outcome = RunSweep(sweep, options.sweep, hooks);
   progress.Finish();

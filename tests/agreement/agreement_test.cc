@@ -138,11 +138,12 @@ TEST_CASE("wavefront agrees with the reference on every material", "[agreement]"
   CheckMaterials(4096, 1500, 0.15);
 }
 
-TEST_CASE("wavefront agrees on every material, to a few per cent", "[agreement][slow]") {
+TEST_CASE("wavefront agrees with the reference on every material within a few per cent",
+          "[agreement][slow]") {
   CheckMaterials(65536, 24000, 0.04);
 }
 
-TEST_CASE("wavefront agrees with the reference in a room", "[agreement]") {
+TEST_CASE("wavefront agrees with the reference in a closed room", "[agreement]") {
   CheckAgreement(SmallRoom(12, 4), 8192, 1000, 0.07);
 }
 
@@ -166,7 +167,7 @@ TEST_CASE("wavefront agrees with the reference on every target", "[agreement]") 
   CheckAgreementOnTargets(SmallRoom(8, 3), 512, 1000);
 }
 
-TEST_CASE("the agreement tests would find a bias", "[agreement]") {
+TEST_CASE("the agreement tests detect a planted bias", "[agreement]") {
   const SceneDescription scene = SmallRoom(12, 4);
   const auto reference =
       Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 800)));

@@ -55,11 +55,11 @@ std::string Lattice(const std::string& mapping) {
 
 }  // namespace
 
-TEST_CASE("cut-outs by places agree with the reference", "[agreement]") {
+TEST_CASE("alpha textures by position agree with the reference", "[agreement]") {
   CheckAgreement(Sieves(), 8192, 2000, 0.05);
 }
 
-TEST_CASE("cut-outs by places: other cells would be found", "[agreement]") {
+TEST_CASE("alpha textures by position: another cell size is detected", "[agreement]") {
   const SceneDescription scene = Sieves();
   const auto right = RenderWavefront(scene, 4096);
   for (const std::size_t texture : {0u, 1u}) {
@@ -69,7 +69,8 @@ TEST_CASE("cut-outs by places: other cells would be found", "[agreement]") {
   }
 }
 
-TEST_CASE("a planar mapping along the coordinates makes the same holes", "[alpha]") {
+TEST_CASE("a planar mapping along the texture coordinates gives the same alpha",
+          "[alpha]") {
   const Rendered uv = RenderText(
       Lattice("\"string mapping\" \"uv\" \"float uscale\" 3 \"float vscale\" 3"));
   const Rendered planar =
@@ -87,7 +88,7 @@ TEST_CASE("a planar mapping along the coordinates makes the same holes", "[alpha
   CHECK(open < 24 * 24 * 9 / 10);
 }
 
-TEST_CASE("cut-outs by places are refused in instances", "[alpha]") {
+TEST_CASE("alpha textures by position are refused in instances", "[alpha]") {
   CHECK_THROWS_WITH(RenderText(R"(
     Camera "perspective"
     WorldBegin

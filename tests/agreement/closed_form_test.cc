@@ -54,7 +54,7 @@ TEST_CASE("wavefront: white furnace of every diffuse model", "[closed_form]") {
   }
 }
 
-TEST_CASE("wavefront: lossless materials vanish in the furnace", "[closed_form]") {
+TEST_CASE("wavefront: lossless materials are invisible in the furnace", "[closed_form]") {
   Material glass, thin, leaf, diamond;
   glass.kind = diamond.kind = MaterialKind::kDielectric;
   diamond.interface_eta = 2.4;
@@ -144,7 +144,7 @@ TEST_CASE("wavefront: a slab of glass splits and displaces a beam", "[closed_for
                   Constant(0), 1e300);
 }
 
-TEST_CASE("wavefront: a clear coat keeps its energy", "[closed_form]") {
+TEST_CASE("wavefront: a clear coat conserves energy", "[closed_form]") {
   // An orthographic view straight down on a coated plane. Ten events in the coat are five
   // bounces off its bottom.
   for (int events : {10, 400}) {

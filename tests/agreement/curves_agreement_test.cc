@@ -124,7 +124,7 @@ TEST_CASE("wavefront agrees on stretched curves", "[agreement][curves]") {
   CheckCurves(hairs, 8192, 2000);
 }
 
-TEST_CASE("a stretched curve is as wide as its object's space says", "[curves]") {
+TEST_CASE("the width of a stretched curve is measured in object space", "[curves]") {
   // Along x, seen from z = 5: in object space, a ray of slope s passes the middle line at
   // a distance of 5 (s / 3) / sqrt(1 + (s / 3)^2). This is at most half the width.
   SceneBuilder b(1, 1);
@@ -145,8 +145,7 @@ TEST_CASE("a stretched curve is as wide as its object's space says", "[curves]")
   CHECK(result.detectable_bias < 0.01);
 }
 
-TEST_CASE("a curve that is all but flattened is rendered or refused",
-          "[agreement][curves]") {
+TEST_CASE("a nearly flattened curve is rendered or refused", "[agreement][curves]") {
   SceneDescription scene = Hairs();
   for (const auto& [flat, fails] : {std::pair{1e-4, false}, std::pair{1e-25, true}}) {
     for (Shape& shape : scene.shapes) {
@@ -176,7 +175,7 @@ TEST_CASE("strategies agree on strands of hair", "[agreement][curves]") {
   }
 }
 
-TEST_CASE("a curve that ends elsewhere would be seen", "[agreement][curves]") {
+TEST_CASE("a curve with another end point is detected", "[agreement][curves]") {
   const SceneDescription scene = TypesOfCurves();
   SceneDescription longer = TypesOfCurves();
   for (Shape& shape : longer.shapes) {
@@ -190,7 +189,8 @@ TEST_CASE("a curve that ends elsewhere would be seen", "[agreement][curves]") {
   CHECK_FALSE(result.same);
 }
 
-TEST_CASE("scenes without curves have nothing of them", "[agreement][curves]") {
+TEST_CASE("scenes without curves have no curve stages or columns",
+          "[agreement][curves]") {
   const CompiledScene room = CompileScene(SmallRoom(8, 3));
   CHECK(room.accel.curve_blocks.size() == 0);
   CHECK(room.accel.curves.root == kEmptyRef);

@@ -36,14 +36,15 @@ TEST_CASE("forcediffuse: every material agrees with the reference", "[agreement]
   }
 }
 
-TEST_CASE("forcediffuse: textures, mixes and relief are looked up before",
+TEST_CASE("forcediffuse: textures, mixes and bump maps are evaluated first",
           "[agreement]") {
   SceneDescription scene = ParseSceneText(kForcedScene, "test.pbrt", ".");
   scene.film.width = scene.film.height = 8;
   CheckAgreement(scene, 8192, 3000, 0.05);
 }
 
-TEST_CASE("forcediffuse: a metal keeps its colour and loses its mirror", "[agreement]") {
+TEST_CASE("forcediffuse: a metal keeps its colour and loses its specular reflection",
+          "[agreement]") {
   const SceneDescription scene = [] {
     SceneBuilder b(6, 6);
     b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
@@ -66,7 +67,7 @@ TEST_CASE("forcediffuse: a metal keeps its colour and loses its mirror", "[agree
   CHECK_FALSE(HasStage(PlanOf(scene), "shade_diffuse"));
 }
 
-TEST_CASE("forcediffuse: one kind of material is left", "[plan]") {
+TEST_CASE("forcediffuse: only one kind of material remains", "[plan]") {
   SceneDescription scene = ParseSceneText(kForcedScene, "test.pbrt", ".");
   const Plan forced = PlanOf(scene);
   CHECK(HasStage(forced, "force_diffuse"));

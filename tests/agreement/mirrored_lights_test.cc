@@ -29,7 +29,7 @@ constexpr Vec3d kOutside = {0, -6, 3}, kInside = {0, -0.6, 0.3};
 
 }  // namespace
 
-TEST_CASE("mirrored lights shine on the side that pbrt shows", "[lights][agreement]") {
+TEST_CASE("mirrored lights emit on the same side as in pbrt", "[lights][agreement]") {
   for (const bool mirrored : {false, true}) {
     for (const bool reversed : {false, true}) {
       for (const bool cut : {false, true}) {

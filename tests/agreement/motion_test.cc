@@ -97,7 +97,7 @@ constexpr const char* kStrategies[] = {"points=independent", "points=sobol",
 
 }  // namespace
 
-TEST_CASE("a sector that turns covers each direction for its share",
+TEST_CASE("a rotating sector covers each direction for the expected fraction of the time",
           "[agreement][motion]") {
   const int size = 8;
   // Seen against z: x to the left (pbrt's cameras are left-handed).
@@ -113,7 +113,7 @@ TEST_CASE("a sector that turns covers each direction for its share",
   }
 }
 
-TEST_CASE("a shadow that moves is dark for its share", "[agreement][motion]") {
+TEST_CASE("a moving shadow darkens by the fraction of the time", "[agreement][motion]") {
   const int size = 8;
   const auto exact = PixelMeans([&](double fx, double fy) {
     const double x = -Across(fx, size), y = -Across(fy, size);
@@ -124,7 +124,8 @@ TEST_CASE("a shadow that moves is dark for its share", "[agreement][motion]") {
   }
 }
 
-TEST_CASE("a shutter that is open for longer sees things stand", "[agreement][motion]") {
+TEST_CASE("objects stand still after their end time while the shutter is open",
+          "[agreement][motion]") {
   const int size = 8;
   SceneDescription scene = PassingShadow(size);
   scene.camera.time_first = -1;
@@ -153,7 +154,7 @@ SceneBuilder Edge(int size) {
 
 }  // namespace
 
-TEST_CASE("a camera that moves along makes an edge a ramp", "[agreement][motion]") {
+TEST_CASE("a translating camera blurs an edge into a ramp", "[agreement][motion]") {
   const int size = 16;
   SceneBuilder b = Edge(size);
   b.Orthographic({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.25);
@@ -170,7 +171,7 @@ TEST_CASE("a camera that moves along makes an edge a ramp", "[agreement][motion]
   for (const char* strategy : kStrategies) CheckMeans(b.Build(), exact, strategy);
 }
 
-TEST_CASE("a camera that turns sees an edge at an angle for its share",
+TEST_CASE("a rotating camera sees an edge for the expected fraction of the time",
           "[agreement][motion]") {
   const int size = 16;
   SceneBuilder b = Edge(size);
@@ -213,7 +214,7 @@ SceneDescription LidOverPlate() {
 
 }  // namespace
 
-TEST_CASE("shadow rays are of the time of their paths", "[agreement][motion]") {
+TEST_CASE("shadow rays have the time of their path", "[agreement][motion]") {
   const auto image = RenderWavefront(LidOverPlate(), 1024);
   double lit = 0;
   for (const Rgb& mean : image.mean) lit += mean.x;
@@ -282,15 +283,16 @@ void CheckTwin(const SceneDescription& scene) {
 
 }  // namespace
 
-TEST_CASE("wavefront agrees on things that move", "[agreement][motion]") {
+TEST_CASE("wavefront agrees on moving objects", "[agreement][motion]") {
   CheckTwin(Everything(false));
 }
 
-TEST_CASE("wavefront agrees on things and a camera that move", "[agreement][motion]") {
+TEST_CASE("wavefront agrees on moving objects and a moving camera",
+          "[agreement][motion]") {
   CheckTwin(Everything(true));
 }
 
-TEST_CASE("things that stand would be seen", "[agreement][motion]") {
+TEST_CASE("leaving out the motion is detected", "[agreement][motion]") {
   SceneDescription still = Everything(false);
   for (Instance& instance : still.instances) instance.end = nullptr;
   CHECK_FALSE(stat::CompareMeans(RenderWavefront(Everything(false), 2048),
@@ -298,7 +300,7 @@ TEST_CASE("things that stand would be seen", "[agreement][motion]") {
                   .same);
 }
 
-TEST_CASE("strategies agree on things that move", "[agreement][motion]") {
+TEST_CASE("strategies agree on moving objects", "[agreement][motion]") {
   const SceneDescription scene = Everything(true);
   const auto plain = RenderWavefront(scene, 8192);
   for (const char* strategy :
@@ -312,7 +314,7 @@ TEST_CASE("strategies agree on things that move", "[agreement][motion]") {
   }
 }
 
-TEST_CASE("images of motion are the same bits for any threads and wavefront",
+TEST_CASE("images with motion are bit-identical for any threads and wavefront size",
           "[agreement][motion]") {
   TestRender base;
   base.spp = 12;
@@ -333,7 +335,7 @@ TEST_CASE("images of motion are the same bits for any threads and wavefront",
   CHECK_FALSE(Identical(RenderDescription(scene, seeded).film, reference.film));
 }
 
-TEST_CASE("motion is there where something moves, and only there",
+TEST_CASE("only scenes with motion have motion stages and columns",
           "[agreement][motion]") {
   const FeatureSet any = {Feature::kMotion, Feature::kMovingInstances,
                           Feature::kMovingCamera};

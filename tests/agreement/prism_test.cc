@@ -92,17 +92,17 @@ Rgb ByLaw(double cut) {
   constexpr double kStep = 0.02;
   Rgb sum, all;
   for (double nm = kFirstCarriedNm; nm < kLastCarriedNm - 0.5 * kStep; nm += kStep) {
-    const Rgb share = WhiteShare(nm) * kStep;
-    all += share;
+    const Rgb fraction = WhiteFraction(nm) * kStep;
+    all += fraction;
     const Arrival at = Through(index(nm));
-    if (at.height > cut) sum += share * (kRadiance * at.passes);
+    if (at.height > cut) sum += fraction * (kRadiance * at.passes);
   }
   return {sum.x / all.x, sum.y / all.y, sum.z / all.z};
 }
 
 }  // namespace
 
-TEST_CASE("prism: colours part by Snell's law", "[spectral]") {
+TEST_CASE("prism: colours are refracted by Snell's law", "[spectral]") {
   const Spectrum index = *SpectrumOfName("glass-F11");
   // Blue is bent more, towards the base.
   REQUIRE(Through(index(450)).height < Through(index(650)).height - 0.05);
@@ -126,7 +126,7 @@ TEST_CASE("prism: colours part by Snell's law", "[spectral]") {
   }
 }
 
-TEST_CASE("prism: RGB has one index for all", "[spectral]") {
+TEST_CASE("prism: RGB rendering uses one index of refraction", "[spectral]") {
   const Spectrum index = *SpectrumOfName("glass-F11");
   SceneDescription scene = PrismScene(Through(index(587.6)).height - 0.01);
   scene.integrator.transport = Transport::kRgb;

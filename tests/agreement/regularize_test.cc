@@ -69,7 +69,7 @@ TEST_CASE("regularize: strategies agree with each other", "[agreement]") {
   }
 }
 
-TEST_CASE("regularize: the reference would find that it is left out", "[agreement]") {
+TEST_CASE("regularize: leaving it out is detected", "[agreement]") {
   const SceneDescription regular = Polished(true), plain = Polished(false);
   const auto result = stat::CompareMeans(RenderWavefront(plain, 1 << 15),
                                          RenderWavefront(regular, 1 << 15),
@@ -78,7 +78,7 @@ TEST_CASE("regularize: the reference would find that it is left out", "[agreemen
   CHECK_FALSE(result.same);
 }
 
-TEST_CASE("regularize: scenes that do not ask have nothing of it", "[agreement][plan]") {
+TEST_CASE("regularize: scenes without it have no stages for it", "[agreement][plan]") {
   const Plan regular = RegularPlanOf(Polished(true)),
              plain = RegularPlanOf(Polished(false));
   CHECK(HasRegularStage(regular));

@@ -29,9 +29,10 @@ inline double LargestDifference(const stat::ImageEstimate& a,
 }
 
 // Returns the film's colour of light in units of D65.
-inline Rgb Seen(const Spectrum& light) {
+inline Rgb FilmRgb(const Spectrum& light) {
   Rgb sum;
-  for (double nm = 380.125; nm < 780; nm += 0.25) sum += WhiteShare(nm) * light(nm) / 4;
+  for (double nm = 380.125; nm < 780; nm += 0.25)
+    sum += WhiteFraction(nm) * light(nm) / 4;
   return sum;
 }
 

@@ -90,13 +90,14 @@ SceneDescription Patch(const ColorValue& reflectance, const ColorValue& light) {
 // Colour of light that a surface has changed, for light of luminance 1.
 Rgb ColorUnder(const Spectrum& light, const Spectrum& reflectance) {
   const Spectrum d65 = DaylightD65();
-  const Rgb lit = Seen([&](double nm) { return light(nm) * reflectance(nm) / d65(nm); });
-  return lit / Luminance(Seen([&](double nm) { return light(nm) / d65(nm); }));
+  const Rgb lit =
+      FilmRgb([&](double nm) { return light(nm) * reflectance(nm) / d65(nm); });
+  return lit / Luminance(FilmRgb([&](double nm) { return light(nm) / d65(nm); }));
 }
 
 }  // namespace
 
-TEST_CASE("spectral: what is grey is as in RGB", "[spectral]") {
+TEST_CASE("spectral: grey scenes equal those in RGB", "[spectral]") {
   const SceneDescription room = SmallRoom(16, 4);
   SceneDescription grey = room;
   for (Material& m : grey.materials) {
@@ -134,18 +135,18 @@ TEST_CASE("spectral: metamers match under one lamp only", "[spectral]") {
   const Spectrum bump = [](double nm) { return std::cos(nm / 22); };
   ColorMatrix m;
   for (int c = 0; c < 3; ++c) {
-    for (int k = 0; k < 3; ++k) m.row[c][k] = Seen(waves[k])[c];
+    for (int k = 0; k < 3; ++k) m.row[c][k] = FilmRgb(waves[k])[c];
   }
-  const Vec3d share = Inverse(m) * Seen(bump);
+  const Vec3d fraction = Inverse(m) * FilmRgb(bump);
   const Spectrum hidden = [&](double nm) {
-    return bump(nm) - share.x * waves[0](nm) - share.y * waves[1](nm) -
-           share.z * waves[2](nm);
+    return bump(nm) - fraction.x * waves[0](nm) - fraction.y * waves[1](nm) -
+           fraction.z * waves[2](nm);
   };
-  double most = 0;
-  for (int nm = 380; nm <= 780; ++nm) most = std::max(most, std::abs(hidden(nm)));
+  double maximum = 0;
+  for (int nm = 380; nm <= 780; ++nm) maximum = std::max(maximum, std::abs(hidden(nm)));
   const Spectrum plain = [](double) { return 0.5; };
-  const Spectrum other = [&](double nm) { return 0.5 + 0.45 * hidden(nm) / most; };
-  CHECK(Length(Seen(plain) - Seen(other)) < 1e-9);
+  const Spectrum other = [&](double nm) { return 0.5 + 0.45 * hidden(nm) / maximum; };
+  CHECK(Length(FilmRgb(plain) - FilmRgb(other)) < 1e-9);
   const Spectrum lamp = *SpectrumOfName("stdillum-A");
   Rgb color;
   REQUIRE(NamedSpectrum("stdillum-A", SpectrumUse::kIlluminant, &color));
@@ -234,7 +235,7 @@ TEST_CASE("spectral: measured materials agree with the scalar tracer", "[spectra
   CHECK(shared.same);
 }
 
-TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {
+TEST_CASE("spectral: dispersive glass conserves energy", "[spectral]") {
   for (double roughness : {0.0, 0.3}) {
     Material glass;
     glass.kind = MaterialKind::kDielectric;
@@ -255,7 +256,7 @@ TEST_CASE("spectral: glass that disperses loses no light", "[spectral]") {
   }
 }
 
-TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
+TEST_CASE("spectral: a thin sheet also disperses", "[spectral]") {
   Material sheet;
   sheet.kind = MaterialKind::kThinDielectric;
   sheet.dispersion = Own(*SpectrumOfName("glass-F11"));
@@ -265,7 +266,8 @@ TEST_CASE("spectral: a thin sheet disperses as well", "[spectral]") {
   for (int c = 0; c < 3; ++c) CHECK(mean[c] == Approx(1).margin(0.015));
 }
 
-TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spectral]") {
+TEST_CASE("spectral: every strategy that supports wavelengths is unbiased",
+          "[spectral]") {
   const SceneDescription room = Spectral(ColorfulRoom());
   const auto reference = RenderWavefront(room, 8192);
   const char* const strategies[] = {"directions=bsdf",
@@ -290,7 +292,7 @@ TEST_CASE("spectral: every strategy that takes wavelengths is unbiased", "[spect
   }
 }
 
-TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
+TEST_CASE("spectral: images agree on every SIMD target", "[spectral]") {
   const SceneDescription room = Spectral(ColorfulRoom());
   const auto reference = RenderWavefront(room, 256);
   for (const std::string& target : AvailableTargets()) {
@@ -304,7 +306,7 @@ TEST_CASE("spectral: the same on every SIMD target", "[spectral]") {
 }
 
 // A sky whose colour differs by triple has no edges that the camera sees.
-TEST_CASE("spectral: edges of lights are where they are in RGB", "[spectral]") {
+TEST_CASE("spectral: edges of lights are found as in RGB", "[spectral]") {
   SceneBuilder b(16, 16);
   b.Depth(1).Perspective({0, -4, 0}, {0, 0, 0}, {0, 0, 1}, 40);
   b.AddSphere({0, 0, 0}, 0.5, b.AddDiffuse(Grey(0)));
@@ -317,7 +319,7 @@ TEST_CASE("spectral: edges of lights are where they are in RGB", "[spectral]") {
   CHECK(rays(Spectral(scene)) == rays(scene));
 }
 
-TEST_CASE("spectral: albedo of first hits is the colour that is seen", "[spectral]") {
+TEST_CASE("spectral: the albedo output is the visible colour", "[spectral]") {
   TestRender options;
   options.spp = 1024;
   options.auxiliary = Auxiliary::kAov;

@@ -39,7 +39,7 @@ SceneDescription Lamps(CameraKind kind, const Transform& world_from_camera) {
 
 }  // namespace
 
-TEST_CASE("what moves with a camera looks the same under any transform",
+TEST_CASE("a scene transformed with its camera renders the same image",
           "[generate][agreement]") {
   const Transform::Matrix shear{
       {{1, 0.4, 0, 0.3}, {0, 1, -0.3, 1}, {0.2, 0, 1, 0}, {0, 0, 0, 1}}};

@@ -170,7 +170,7 @@ void CheckVaried(MaterialKind kind, bool has_reflectance, double tolerance) {
 
 }  // namespace
 
-TEST_CASE("a texture of one value renders as the constant", "[textured]") {
+TEST_CASE("a texture with a single value renders like the constant", "[textured]") {
   for (const TexturedCase& c : Cases()) {
     const Rgb constant = MeanOf(Plate(c.material, 6)), textured = MeanOf(Textured(c));
     INFO(c.name << ": " << textured.x << ", " << constant.x);
@@ -178,7 +178,7 @@ TEST_CASE("a texture of one value renders as the constant", "[textured]") {
   }
 }
 
-TEST_CASE("another value in a texture would be seen", "[textured]") {
+TEST_CASE("another value in a texture is detected", "[textured]") {
   for (const TexturedCase& c : Cases()) {
     SceneDescription other = Textured(c);
     for (Texture& t : other.textures) t.tex1.constant = t.tex2.constant *= 3;
@@ -200,7 +200,7 @@ TEST_CASE("textured coats agree with the reference", "[textured]") {
   CheckVaried(MaterialKind::kCoatedConductor, true, kFloatTolerance);
 }
 
-TEST_CASE("a white coat of any texture neither gains nor loses light", "[textured]") {
+TEST_CASE("a white textured coat conserves energy", "[textured]") {
   // In a furnace it shows what the constant coat shows, at and between the nodes of its
   // tables; the constant coat's losses are tested in tests/kernels/shade/limits_test.cc.
   const auto check = [](double roughness, double thickness, Member member) {
@@ -220,7 +220,7 @@ TEST_CASE("a white coat of any texture neither gains nor loses light", "[texture
   for (double thickness : {0.01, 0.09}) check(0, thickness, Thickness);
 }
 
-TEST_CASE("textures of places agree with the reference in a render", "[textured]") {
+TEST_CASE("textures by position agree with the reference in a render", "[textured]") {
   Material m = Base(MaterialKind::kDiffuse);
   SceneDescription scene = Plate(m, 6);
   Texture marble;
@@ -256,7 +256,7 @@ TEST_CASE("textures of places agree with the reference in a render", "[textured]
   CHECK(result.detectable_bias < 0.1);
 }
 
-TEST_CASE("columns of textured layers live with their features alone", "[textured]") {
+TEST_CASE("columns of textured layers exist with their features only", "[textured]") {
   const auto plan_of = [](const SceneDescription& scene) {
     return MakePlan(PrepareScene(scene, {}), {});
   };

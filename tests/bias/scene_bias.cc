@@ -72,13 +72,14 @@ std::vector<std::string> EveryChoice() {
 // What trial runs choose, and the combinations in turn.
 std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
                                   std::size_t scenes) {
-  constexpr std::size_t kMostEach = 2;
+  constexpr std::size_t kMaxPerScene = 2;
   const std::size_t each =
-      std::min(kMostEach, (Combinations().size() + scenes - 1) / scenes);
-  constexpr const char* kInTurn[] = {"roulette=throughput:0:2:4", "roulette=adjoint",
-                                     "reuse=block:32:compact", "directions=light"};
-  std::vector<std::string> strategies = {"reuse=block",
-                                         kInTurn[index % std::size(kInTurn)]};
+      std::min(kMaxPerScene, (Combinations().size() + scenes - 1) / scenes);
+  constexpr const char* kExtraStrategies[] = {
+      "roulette=throughput:0:2:4", "roulette=adjoint", "reuse=block:32:compact",
+      "directions=light"};
+  std::vector<std::string> strategies = {
+      "reuse=block", kExtraStrategies[index % std::size(kExtraStrategies)]};
   for (std::size_t k = 0; k < each; ++k) {
     const std::size_t row = (index * each + k) % Combinations().size();
     strategies.push_back(
@@ -91,14 +92,14 @@ std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
 
 void BiasPower::Add(const std::string& strategy, const BiasVerdict& verdict) {
   for (const std::string& choice : ChoicesOf(strategy)) {
-    auto& [tile, image] = least_.try_emplace(choice, 1e9, 1e9).first->second;
+    auto& [tile, image] = minimum_.try_emplace(choice, 1e9, 1e9).first->second;
     tile = std::min(tile, verdict.tile_power);
     image = std::min(image, verdict.image_power);
   }
 }
 
 void BiasPower::Check(double tile, double image) const {
-  for (const auto& [choice, power] : least_) {
+  for (const auto& [choice, power] : minimum_) {
     INFO(choice << ": a bias of " << 100 * power.first << " % of a tile, or of "
                 << 100 * power.second << " % of the image, would be found");
     CHECK((power.first < tile || power.second < image));
@@ -118,7 +119,7 @@ BiasPower CheckSceneBias(const std::vector<std::filesystem::path>& files,
       if (!Accepts(test.scene(), strategy) || IsBlind(files[i].string(), strategy))
         continue;
       const BiasVerdict verdict = test.Compare(strategy);
-      if (verdict.identical || !verdict.IsTelling()) continue;
+      if (verdict.identical || !verdict.HasPower()) continue;
       INFO(files[i] << ", " << strategy << ": " << verdict.worst);
       CHECK_FALSE(verdict.biased);
       power.Add(strategy, verdict);

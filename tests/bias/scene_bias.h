@@ -27,10 +27,10 @@ class BiasPower {
   /// Requires a bias of `tile` in the median tile, or of `image` in the image's mean, to
   /// be found for every choice that was rendered.
   void Check(double tile, double image) const;
-  std::size_t choices() const { return least_.size(); }
+  std::size_t choices() const { return minimum_.size(); }
 
  private:
-  std::map<std::string, std::pair<double, double>> least_;  // tile, image
+  std::map<std::string, std::pair<double, double>> minimum_;  // tile, image
 };
 
 /// Compares strategies with the scene's own, without a trial run, on every file; requires

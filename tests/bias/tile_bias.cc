@@ -70,7 +70,7 @@ std::vector<stat::MeanEstimate> DifferencesOf(const std::vector<Place>& places,
 
 // A rare bright sample that no seed has met in a tile has fallen into a neighbour: the
 // variance is at least the mean of those around.
-void SpreadVariances(int columns, std::vector<stat::MeanEstimate>& tests) {
+void SetVariances(int columns, std::vector<stat::MeanEstimate>& tests) {
   const std::size_t tiles = tests.size() / 3 - 1;
   const int rows = static_cast<int>(tiles) / columns;
   const std::vector<stat::MeanEstimate> own = tests;
@@ -169,7 +169,7 @@ std::vector<BiasTest::Finding> BiasTest::Round(
   ++verdict.rounds;
   const std::vector<Place> places = PlacesOf(images[0].width, images[0].height, tile_);
   std::vector<stat::MeanEstimate> tests = DifferencesOf(places, images, bases, Weights());
-  SpreadVariances((images[0].width + tile_ - 1) / tile_, tests);
+  SetVariances((images[0].width + tile_ - 1) / tile_, tests);
   const double level = rounds_[round].level;
   if (round == 0) {
     verdict.tests = static_cast<int>(tests.size());
@@ -184,14 +184,14 @@ std::vector<BiasTest::Finding> BiasTest::Round(
       asked.push_back({t, tests[t].mean > 0});
   }
   std::vector<Finding> found;
-  double least = 2;
+  double minimum = 2;
   for (const Finding& one : asked) {
     const stat::MeanEstimate& d = tests[one.test];
     if ((d.mean > 0) != one.brighter) continue;
     const double p = PValue(d);
     if (p < level) found.push_back(one);
-    if (p >= least) continue;
-    least = p;
+    if (p >= minimum) continue;
+    minimum = p;
     const Place& place = places[one.test / 3];
     verdict.worst = fmt::format(
         "[{},{})x[{},{}) channel {}: {:+.3f} % +- {:.3f} %, p {:.2g}", place.x0, place.x1,

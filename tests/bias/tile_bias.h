@@ -50,7 +50,7 @@ struct BiasVerdict {
   /// Returns whether the first round has any power. If not, rare bright samples carry the
   /// light, most renders miss them, and more samples would accuse the one that misses
   /// more.
-  bool IsTelling() const { return image_power < 0.03 && tile_power < 0.2; }
+  bool HasPower() const { return image_power < 0.03 && tile_power < 0.2; }
 };
 
 /// Compares strategies with a base strategy on one scene.
@@ -99,7 +99,7 @@ BiasVerdict BiasTest::CompareImages(Render&& render) {
       return verdict;
     }
     findings = Round(r, render(SeedsOf(r)), findings, verdict);
-    if (findings->empty() || !verdict.IsTelling()) return verdict;
+    if (findings->empty() || !verdict.HasPower()) return verdict;
   }
   verdict.biased = true;
   return verdict;

@@ -28,7 +28,7 @@ const nlohmann::json& Find(const nlohmann::json& advice, const std::string& chan
 
 }  // namespace
 
-TEST_CASE("advise renders with what it advises and reports why", "[cli]") {
+TEST_CASE("advise renders with the advised strategy and reports the reason", "[cli]") {
   TempDirectory directory;
   const std::string exr = directory / "out.exr", json = directory / "out.json";
   const ProcessResult r =
@@ -80,7 +80,7 @@ TEST_CASE("advise without an image prints the command that renders", "[cli]") {
   CHECK(report.at("advice").at("candidates").size() >= 5);
 }
 
-TEST_CASE("the command that advise prints has the flags that it was given", "[cli]") {
+TEST_CASE("the command that advise prints repeats the given flags", "[cli]") {
   TempDirectory directory;
   const std::string scene = directory / "it's a sphere.pbrt";
   std::filesystem::rename(WriteSphereScene(directory), scene);
@@ -118,7 +118,7 @@ TEST_CASE("the command that advise prints has the flags that it was given", "[cl
                       "--copied-triangles 0 --threads 1\n"));
 }
 
-TEST_CASE("advise refuses flags that make no sense", "[cli]") {
+TEST_CASE("advise refuses flags without effect", "[cli]") {
   CHECK(RunLanelight({"advise", kBox}).exit_code == kExitUsage);
   CHECK(RunLanelight({"advise", kBox, "--time", "0"}).exit_code == kExitUsage);
   const ProcessResult png = RunLanelight({"advise", kBox, "--time", "1", "--png"});

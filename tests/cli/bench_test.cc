@@ -37,7 +37,7 @@ std::string Scaled(const std::string& path, double factor, const std::string& to
 
 }  // namespace
 
-TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
+TEST_CASE("bench prints rates and writes JSON", "[cli]") {
   const TempDirectory directory;
   const ProcessResult r = Bench(
       directory, {"--json", directory / "b.json", "--csv", directory / "b.csv",
@@ -63,7 +63,7 @@ TEST_CASE("bench prints rates, and writes what can be posted", "[cli]") {
   CHECK_THAT(text, Contains("| scene | target |") && Contains("|---|---|---:|"));
 }
 
-TEST_CASE("bench says what is slower than before, by its exit code too", "[cli]") {
+TEST_CASE("bench reports slower rows, also by its exit code", "[cli]") {
   const TempDirectory directory;
   const std::string path = directory / "b.json";
   REQUIRE(Bench(directory, {"--json", path}).exit_code == kExitGood);
@@ -91,7 +91,7 @@ TEST_CASE("bench says what is slower than before, by its exit code too", "[cli]"
   CHECK_THAT(other.out, Contains("refused: "));
 }
 
-TEST_CASE("bench refuses what it cannot read or do", "[cli]") {
+TEST_CASE("bench refuses invalid input", "[cli]") {
   const TempDirectory directory;
   const std::string broken = WriteText(directory / "broken.json", "{\"rows\": 1}");
   const ProcessResult r = Bench(directory, {"--against", broken});

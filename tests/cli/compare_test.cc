@@ -57,8 +57,7 @@ TEST_CASE("several images are compared with the last", "[cli]") {
              Contains("\nFLIP ") && Contains("\nverdict "));
 }
 
-TEST_CASE("how far images differ beyond their noise is said in percent of the values",
-          "[cli]") {
+TEST_CASE("compare reports differences beyond noise in percent", "[cli]") {
   TempDirectory directory;
   const auto write = [&](const char* name, float value) {
     std::vector<ExrPlane> planes;
@@ -106,7 +105,7 @@ TEST_CASE("compare writes a page and a picture", "[cli]") {
   CHECK(RunLanelight({"compare", a, b, "--ppd", "0"}).exit_code == kExitUsage);
 }
 
-TEST_CASE("info says what an image says of itself", "[cli]") {
+TEST_CASE("info prints the metadata of an image", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "out.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", exr, "--seed", "7", "--crop", "4,2,20,18",

@@ -30,7 +30,7 @@ Reported Render(const TempDirectory& directory, const std::string& strategy) {
 
 }  // namespace
 
-TEST_CASE("the report tells what a control variate reached", "[cli]") {
+TEST_CASE("the report states the effect of a control variate", "[cli]") {
   const TempDirectory directory;
   const Reported none = Render(directory, "control=none");
   REQUIRE(none.process.exit_code == kExitGood);

@@ -38,18 +38,18 @@ AttributeBegin
 AttributeEnd
 )";
 
-std::vector<float> RenderWith(const std::string& scene, const std::string& most) {
+std::vector<float> RenderWith(const std::string& scene, const std::string& max_copies) {
   const TempDirectory directory;
   const ProcessResult r =
       RunLanelight({"render", scene, "-o", directory / "a.exr", "--resolution", "40x30",
-                    "--spp", "16", "--copied-triangles", most, "--quiet"});
+                    "--spp", "16", "--copied-triangles", max_copies, "--quiet"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   const Image image = ReadExr(directory / "a.exr");
   return {image.pixels.begin(), image.pixels.end()};
 }
 
-TEST_CASE("copies of instances give the image of the instances", "[cli]") {
+TEST_CASE("copied instances render the same image as instances", "[cli]") {
   const TempDirectory directory;
   const std::string scene = WriteText(directory / "strips.pbrt", kScene);
   const std::vector<float> kept = RenderWith(scene, "0"), copied = RenderWith(scene, "9");

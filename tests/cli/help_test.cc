@@ -120,13 +120,13 @@ TEST_CASE("help fits the terminal", "[cli]") {
   }
 }
 
-TEST_CASE("words that are not understood are told in their order", "[cli]") {
+TEST_CASE("unknown arguments are reported in order", "[cli]") {
   const ProcessResult r = RunLanelight({"render", "a.pbrt", "--sp", "3"});
   CHECK(r.exit_code == kExitUsage);
   CHECK_THAT(r.err, Contains("not expected: --sp 3\n") && Contains("mean --spp?"));
 }
 
-TEST_CASE("help for no command names those there are", "[cli]") {
+TEST_CASE("help for an unknown command lists all commands", "[cli]") {
   const ProcessResult unknown = RunLanelight({"help", "rendr"});
   CHECK(unknown.exit_code == kExitUsage);
   CHECK(unknown.out.empty());
@@ -137,7 +137,7 @@ TEST_CASE("help for no command names those there are", "[cli]") {
   CHECK(RunLanelight({"help", "render", "merge"}).exit_code == kExitUsage);
 }
 
-TEST_CASE("every flag with a value says what happens without it", "[cli]") {
+TEST_CASE("every flag with a value documents its default", "[cli]") {
   std::size_t entries = 0;
   for (const std::string& command : Commands()) {
     INFO(command);
@@ -148,7 +148,7 @@ TEST_CASE("every flag with a value says what happens without it", "[cli]") {
   CHECK(entries > 180);
 }
 
-TEST_CASE("a flag that does not say it is found", "[cli]") {
+TEST_CASE("a flag without a documented default is detected", "[cli]") {
   const std::string help =
       "Usage: x\n\nPositionals:\n  SCENE REQUIRED              Scene\n"
       "  CASE TEXT ...               Cases\n\nOptions:\n"

@@ -158,7 +158,7 @@ TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {
   }
 }
 
-TEST_CASE("images of a sweep that do not fit on the disk are kept elsewhere", "[cli]") {
+TEST_CASE("images of a sweep that do not fit on the disk are saved elsewhere", "[cli]") {
   TempDirectory directory, elsewhere;
   const std::string scene = WriteSphereScene(directory), out = directory / "out";
   const std::string sweep = WriteText(directory / "sweep.toml",

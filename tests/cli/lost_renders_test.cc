@@ -99,7 +99,7 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   CHECK(RunLanelight({"render", scene, "-o", film}).exit_code == kExitGood);
 }
 
-TEST_CASE("no folder of results takes in a file that is read", "[cli]") {
+TEST_CASE("no results folder may contain an input file", "[cli]") {
   TempDirectory directory;
   const std::string scene = directory / "box.pbrt", out = directory / "out";
   fs::rename(WriteSceneOfFiles(directory), scene);
@@ -130,7 +130,7 @@ TEST_CASE("no folder of results takes in a file that is read", "[cli]") {
   refused({"study", out + "/box/box.pbrt", "--out", out, "--resume"}, "box.pbrt");
 }
 
-TEST_CASE("outputs that cannot be, or are one file, are seen before the work", "[cli]") {
+TEST_CASE("impossible or duplicate outputs are refused before rendering", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSceneOfFiles(directory), state = directory / "a.state";
   const std::string exr = directory / "a.exr", none = directory / "none/a";
@@ -169,7 +169,7 @@ TEST_CASE("outputs that cannot be, or are one file, are seen before the work", "
              Contains("Permission denied"));
 }
 
-TEST_CASE("a scene whose film names the output can be gone on with", "[cli]") {
+TEST_CASE("a scene whose film names the output can be resumed", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSceneOfFiles(directory), film = directory / "film.exr";
   const std::string state = directory / "film.state";
@@ -183,7 +183,7 @@ TEST_CASE("a scene whose film names the output can be gone on with", "[cli]") {
   CHECK(r.exit_code == kExitGood);
 }
 
-TEST_CASE("a state is spared by all outputs but the next state", "[cli]") {
+TEST_CASE("only the next checkpoint may overwrite a checkpoint", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), state = directory / "a.state";
   const std::string exr = directory / "a.exr";
@@ -201,7 +201,7 @@ TEST_CASE("a state is spared by all outputs but the next state", "[cli]") {
   }
 }
 
-TEST_CASE("a name that is too long is seen before the render", "[cli]") {
+TEST_CASE("a name that is too long is refused before rendering", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const std::string name = directory / (std::string(250, 'n') + ".exr");
@@ -213,7 +213,7 @@ TEST_CASE("a name that is too long is seen before the render", "[cli]") {
   CHECK(fs::exists(name));
 }
 
-TEST_CASE("signals that end programs leave an image", "[cli]") {
+TEST_CASE("terminating signals leave an image", "[cli]") {
   for (const int number : {SIGHUP, SIGTERM, SIGXCPU}) {
     INFO(number);
     TempDirectory directory;
@@ -264,7 +264,7 @@ TEST_CASE("a small stack is enough", "[cli]") {
   }
 }
 
-TEST_CASE("running out of memory says how much there is", "[cli]") {
+TEST_CASE("running out of memory reports the available memory", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "i.exr";
   ProcessOptions options;

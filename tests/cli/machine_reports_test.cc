@@ -43,7 +43,7 @@ TEST_CASE("reports name the machine", "[cli]") {
   }
 }
 
-TEST_CASE("what people read names the machine", "[cli]") {
+TEST_CASE("printed texts and pages name the machine", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), image = directory / "out.exr";
   const std::string text = MachineText(ThisMachine());

@@ -35,7 +35,7 @@ constexpr const char* kDropped = "left out 1 degenerate triangles of 2";
 
 }  // namespace
 
-TEST_CASE("dropped triangles and dead lights are said on standard error", "[cli]") {
+TEST_CASE("dropped triangles and dead lights are reported on standard error", "[cli]") {
   TempDirectory directory;
   const std::string scene = BrokenMeshes(directory), json = directory / "r.json";
   const ProcessResult r =
@@ -77,7 +77,7 @@ constexpr const char* kDiffers =
     "the image differs from the scene file: skipped: "
     "an area light cannot move";
 
-TEST_CASE("an image that is not what the file asks for has an exit code", "[cli]") {
+TEST_CASE("an image that deviates from the scene file has its own exit code", "[cli]") {
   TempDirectory directory;
   const std::string scene = MotionScene(directory), json = directory / "r.json";
   const ProcessResult r = RunLanelight(
@@ -100,7 +100,7 @@ TEST_CASE("an image that is not what the file asks for has an exit code", "[cli]
   CHECK_THAT(plan.out, Contains(kDiffers));
 }
 
-TEST_CASE("a study and a sweep say that images are not what the file asks for", "[cli]") {
+TEST_CASE("a study and a sweep report deviations from the scene file", "[cli]") {
   TempDirectory directory;
   const std::string scene = MotionScene(directory), out = directory / "study";
   const ProcessResult study =
@@ -118,7 +118,7 @@ TEST_CASE("a study and a sweep say that images are not what the file asks for", 
   CHECK_THAT(sweep.err, Contains("the images of 2 cells are not what"));
 }
 
-TEST_CASE("warnings stand before notes and are called so", "[cli]") {
+TEST_CASE("warnings are labelled and precede notes", "[cli]") {
   TempDirectory directory;
   std::ofstream(directory / "w.pbrt")
       << std::ifstream(BrokenMeshes(directory)).rdbuf() << "AttributeEnd\n";

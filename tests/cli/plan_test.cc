@@ -48,7 +48,7 @@ TEST_CASE("plan prints what runs; with -v omitted stages and fields with reasons
                           Contains("omitted fields (") && Contains("no triangle"));
 }
 
-TEST_CASE("what a scene lacks is said without articles", "[cli]") {
+TEST_CASE("missing features of a scene are listed without articles", "[cli]") {
   for (int i = 0; i < static_cast<int>(Feature::kCount); ++i) {
     const std::string text = WithoutFeature(static_cast<Feature>(i));
     INFO(text);
@@ -101,7 +101,7 @@ TEST_CASE("depth and auxiliary output change the plan", "[cli]") {
          Has(features({"--gbuffer", "world"}), "Gbuffer")));
 }
 
-TEST_CASE("compare measures and judges", "[cli]") {
+TEST_CASE("compare prints metrics and a verdict", "[cli]") {
   TempDirectory directory;
   const std::string a = WriteFlat(directory / "a.exr", 1, 0.01f);
   const std::string b = WriteFlat(directory / "b.exr", 1.1f, 0.01f);

@@ -82,10 +82,10 @@ TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
     if (line.rfind("scene", 0) != 0) CHECK(line.size() <= 100);
     if (line.rfind("total", 0) == 0) break;
     if (table) {
-      const double share = std::stod(line.substr(line.find('%') - 6, 6));
-      CHECK(share <= last);
-      last = share;
-      sum += share;
+      const double fraction = std::stod(line.substr(line.find('%') - 6, 6));
+      CHECK(fraction <= last);
+      last = fraction;
+      sum += fraction;
       ++rows;
     }
     table |= line.rfind("stage ", 0) == 0;
@@ -94,7 +94,7 @@ TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
   CHECK(sum == Approx(100).margin(0.05 * rows));  // each rounded to a tenth
 }
 
-TEST_CASE("the JSON of a profile says the same, with more digits", "[cli]") {
+TEST_CASE("the JSON of a profile has the same values with more digits", "[cli]") {
   TempDirectory directory;
   const std::string json = directory / "p.json";
   Profile(WriteSphereScene(directory),
@@ -106,10 +106,10 @@ TEST_CASE("the JSON of a profile says the same, with more digits", "[cli]") {
   CHECK(p.at("threads") == 2);
   CHECK(p.at("seed") == 3);
   CHECK(p.at("stopped_early") == false);
-  double shares = 0, seconds = 0;
+  double fractions = 0, seconds = 0;
   for (const Json& row : p.at("rows")) {
     INFO(row);
-    shares += row.at("share").get<double>();
+    fractions += row.at("share").get<double>();
     seconds += row.at("seconds").get<double>();
     if (row.at("kind") != "stage") continue;
     CHECK(row.at("calls") > 0);
@@ -124,7 +124,7 @@ TEST_CASE("the JSON of a profile says the same, with more digits", "[cli]") {
         row.at("bytes_per_second").get<double>() ==
         Approx(bytes * row.at("items").get<double>() / row.at("seconds").get<double>()));
   }
-  CHECK(shares == Approx(1));
+  CHECK(fractions == Approx(1));
   CHECK(seconds == Approx(p.at("seconds").at("threads").get<double>()));
   CHECK(p.at("seconds").at("threads").get<double>() >=
         0.999 * p.at("seconds").at("cpu").get<double>());
@@ -140,7 +140,7 @@ TEST_CASE("the JSON of a profile says the same, with more digits", "[cli]") {
   CHECK(p.at("trace").at("events") == 0);
 }
 
-TEST_CASE("profile runs the strategy that render runs with the same arguments", "[cli]") {
+TEST_CASE("profile and render choose the same strategy for equal arguments", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const std::string profile = directory / "p.json", render = directory / "r.json";
@@ -218,7 +218,7 @@ TEST_CASE("a trace has one track per thread, without overlaps", "[cli]") {
   }
 }
 
-TEST_CASE("a full trace buffer says what is missing", "[cli]") {
+TEST_CASE("a full trace buffer reports the dropped events", "[cli]") {
   TempDirectory directory;
   const std::string trace = directory / "t.json", json = directory / "p.json";
   const ProcessResult r = Profile(
@@ -235,7 +235,7 @@ TEST_CASE("a full trace buffer says what is missing", "[cli]") {
              Contains(std::to_string(dropped)));
 }
 
-TEST_CASE("a disk that fills up loses the trace, not the table", "[cli]") {
+TEST_CASE("a full disk loses the trace, not the table", "[cli]") {
   TempDirectory directory, temporary;
   ProcessOptions options;
   options.temp_directory = temporary.path();
@@ -250,7 +250,7 @@ TEST_CASE("a disk that fills up loses the trace, not the table", "[cli]") {
   CHECK(temporary.Files().empty());
 }
 
-TEST_CASE("Ctrl-C keeps what a profile has measured", "[cli]") {
+TEST_CASE("Ctrl-C keeps the profile measured so far", "[cli]") {
   TempDirectory directory;
   const std::string json = directory / "p.json";
   ProcessOptions interrupt;

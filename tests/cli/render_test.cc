@@ -79,7 +79,7 @@ TEST_CASE("a render writes an image, a PNG and a report", "[cli]") {
   }
 }
 
-TEST_CASE("overrides replace what the scene says", "[cli]") {
+TEST_CASE("command-line overrides replace the scene's settings", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), json = directory / "r.json";
   const ProcessResult r = RunLanelight({"render",       scene,
@@ -136,7 +136,7 @@ TEST_CASE("a crop equals that part of the whole image", "[cli]") {
   CHECK_THAT(outside.err, Contains("leaves the image of 32x24"));
 }
 
-TEST_CASE("the same seed gives the same pixels, another seed others", "[cli]") {
+TEST_CASE("equal seeds give equal pixels, other seeds different ones", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const auto render = [&](const std::string& name, std::vector<std::string> more) {
@@ -167,7 +167,7 @@ TEST_CASE("auxiliary planes are written on request", "[cli]") {
   CHECK(image.At(16, 12, normal) == Approx(-1).epsilon(0.02));
 }
 
-TEST_CASE("a result that cannot be written is kept elsewhere", "[cli]") {
+TEST_CASE("a result that cannot be written is saved elsewhere", "[cli]") {
   TempDirectory directory, temporary;
   const std::string scene = WriteSphereScene(directory), out = directory / "gone/o.exr";
   fs::create_directory(directory / "gone");
@@ -186,7 +186,7 @@ TEST_CASE("a result that cannot be written is kept elsewhere", "[cli]") {
   CHECK(ReadExr(kept).width == 32);
 }
 
-TEST_CASE("a full disk everywhere is reported, and nothing half written stays", "[cli]") {
+TEST_CASE("a full disk is reported and no partial file remains", "[cli]") {
   TempDirectory directory, temporary;
   const std::string scene = WriteSphereScene(directory), out = directory / "o.exr";
   WriteText(out, "the old file");
@@ -216,7 +216,9 @@ TEST_CASE("absurd sizes are refused with numbers", "[cli]") {
   CHECK_THAT(r.err, Contains("65536x65536") && Contains("GiB"));
 }
 
-TEST_CASE("a long render decides by a pilot, says so, and goes on with it", "[cli]") {
+TEST_CASE(
+    "a long render chooses a strategy by a trial run, reports it and resumes with it",
+    "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), json = directory / "r.json";
   const std::string state = directory / "r.state";

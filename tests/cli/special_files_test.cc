@@ -66,7 +66,7 @@ constexpr Reader kReaders[] = {
 
 }  // namespace
 
-TEST_CASE("a scene and what it reads are files", "[cli][special_files]") {
+TEST_CASE("scenes and their inputs must be regular files", "[cli][special_files]") {
   const TempDirectory directory;
   WriteText(directory / "lens.dat", "20 5 1.5 10\n-20 10 0 10\n");
   for (const Kind& kind : kKinds) {
@@ -87,7 +87,8 @@ TEST_CASE("a scene and what it reads are files", "[cli][special_files]") {
   }
 }
 
-TEST_CASE("images, states and sweeps are files", "[cli][special_files]") {
+TEST_CASE("images, checkpoints and sweeps must be regular files",
+          "[cli][special_files]") {
   const TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), image = directory / "image.exr";
   REQUIRE(RunLanelight({"render", scene, "-o", image, "--quiet"}).exit_code == kExitGood);

@@ -43,7 +43,7 @@ TEST_CASE("lanelight strategies lists every choice and preset", "[cli]") {
   CHECK(list.at("presets").size() == AllPresets().size());
 }
 
-TEST_CASE("the default of decide says where it is which", "[cli]") {
+TEST_CASE("the default of decide is documented for each command", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteScene(directory, kSky);
   const auto plan = [&](const char* spp) {
@@ -75,7 +75,7 @@ TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
              Contains("no light that is sampled"));
 }
 
-TEST_CASE("a strategy that the scene cannot have is refused with what would do",
+TEST_CASE("a strategy that the scene does not support is refused with a remedy",
           "[cli]") {
   TempDirectory directory;
   const std::string out = directory / "r.exr";

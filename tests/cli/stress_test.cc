@@ -23,7 +23,8 @@ Json Parsed(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("stress --list says what is extreme and what must be true", "[cli][stress]") {
+TEST_CASE("stress --list prints the extreme parameter and the expected property",
+          "[cli][stress]") {
   const ProcessResult r = RunLanelight({"stress", "--list"});
   CHECK(r.exit_code == kExitGood);
   CHECK(r.err.empty());
@@ -33,7 +34,7 @@ TEST_CASE("stress --list says what is extreme and what must be true", "[cli][str
   CHECK_THAT(one.out, Contains("unit-of-length") && Contains("1 case"));
 }
 
-TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
+TEST_CASE("stress: an unknown name is reported with the nearest one", "[cli][stress]") {
   const ProcessResult r = RunLanelight({"stress", "unit-of-lenght"});
   CHECK(r.exit_code == kExitUsage);
   CHECK_THAT(r.err, Contains("did you mean \"unit-of-length\"?") && Contains("--list"));
@@ -43,7 +44,7 @@ TEST_CASE("stress: a wrong name gets the nearest one", "[cli][stress]") {
   CHECK(RunLanelight({"stress", "--seed", "1e3"}).exit_code == kExitUsage);
 }
 
-TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {
+TEST_CASE("stress: a case prints its row and writes its files", "[cli][stress]") {
   TempDirectory directory;
   const std::string out = directory / "stress", json = directory / "one.json";
   const ProcessResult r = RunLanelight(
@@ -67,7 +68,7 @@ TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {
   CHECK(first == "<!doctype html>");
 }
 
-TEST_CASE("stress --json - prints nothing else", "[cli][stress]") {
+TEST_CASE("stress --json - prints only JSON", "[cli][stress]") {
   const ProcessResult r =
       RunLanelight({"stress", "unit-of-length", "--json", "-", "--quiet"});
   CHECK(r.exit_code == kExitGood);
@@ -75,7 +76,7 @@ TEST_CASE("stress --json - prints nothing else", "[cli][stress]") {
   CHECK(Json::parse(r.out).at("kind") == "lanelight-stress");
 }
 
-TEST_CASE("stress: what cannot be written is an error", "[cli][stress]") {
+TEST_CASE("stress: unwritable outputs are errors", "[cli][stress]") {
   for (const char* flag : {"--out", "--json"}) {
     const ProcessResult r =
         RunLanelight({"stress", "unit-of-length", flag, "/dev/null/x"});
@@ -85,7 +86,7 @@ TEST_CASE("stress: what cannot be written is an error", "[cli][stress]") {
   }
 }
 
-TEST_CASE("stress: an interruption keeps what was measured", "[cli][stress]") {
+TEST_CASE("stress: an interruption keeps finished measurements", "[cli][stress]") {
   TempDirectory directory;
   ProcessOptions interrupt;
   interrupt.trigger = "stress: 1 of";

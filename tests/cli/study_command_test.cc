@@ -37,7 +37,7 @@ std::vector<std::string> With(std::vector<std::string> arguments,
 
 }  // namespace
 
-TEST_CASE("study: a killed study goes on where it was", "[cli]") {
+TEST_CASE("study: a killed study resumes", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const ProcessResult r = RunLanelight(StudyOf(scene, directory / "whole"));
@@ -70,7 +70,7 @@ TEST_CASE("study: a killed study goes on where it was", "[cli]") {
   }
 }
 
-TEST_CASE("study: two processes make one study", "[cli]") {
+TEST_CASE("study: two processes share one study", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   REQUIRE(RunLanelight(StudyOf(scene, directory / "whole")).exit_code == kExitGood);
@@ -108,7 +108,7 @@ TEST_CASE("study: Ctrl-C reports what is finished", "[cli]") {
   CHECK(json["scenes"][0]["ranking"].size() == 3);
 }
 
-TEST_CASE("study: bad input says what would be right", "[cli]") {
+TEST_CASE("study: invalid input is reported with a remedy", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   const std::string out = directory / "out";
@@ -139,7 +139,7 @@ TEST_CASE("study: bad input says what would be right", "[cli]") {
   CHECK_THAT(missing.err, Contains("no.pbrt") && !Contains("error: error:"));
 }
 
-TEST_CASE("study: a full disk loses nothing that is finished", "[cli]") {
+TEST_CASE("study: a full disk keeps finished renders", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory);
   std::vector<std::string> arguments =

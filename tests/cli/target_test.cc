@@ -38,7 +38,7 @@ Outcome Render(std::vector<std::string> flags) {
 
 }  // namespace
 
-TEST_CASE("a target that is reached", "[cli]") {
+TEST_CASE("a reached error target exits with 0", "[cli]") {
   const Outcome o = Render({"--target-relmse", "0.001"});
   CHECK(o.process.exit_code == kExitGood);
   CHECK(o.report.at("stop_reason") == "target");
@@ -71,7 +71,8 @@ TEST_CASE("a target that is not reached exits with 5, and the image is there", "
   CHECK_THAT(quiet.process.err, Contains("target was not reached"));
 }
 
-TEST_CASE("a target that no number of samples can show ends the render", "[cli]") {
+TEST_CASE("an error target that no number of samples can verify ends the render",
+          "[cli]") {
   // A lamp too small to be hit: samples cannot show what the image lacks.
   TempDirectory directory;
   const std::string scene = directory / "dot.pbrt", json = directory / "dot.json";
@@ -115,7 +116,7 @@ TEST_CASE("an interrupted render misses its target", "[cli]") {
   CHECK(ReadExr(exr).width == 640);
 }
 
-TEST_CASE("a time budget is named where it ends a render", "[cli]") {
+TEST_CASE("a render that ends by its time budget says so", "[cli]") {
   const Outcome o = Render({"--time", "0.1"});
   CHECK(o.process.exit_code == kExitGood);
   CHECK(o.report.at("stop_reason") == "time");

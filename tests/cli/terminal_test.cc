@@ -47,7 +47,7 @@ nlohmann::json SettingsOf(const std::vector<std::string>& flags) {
 
 }  // namespace
 
-TEST_CASE("the last screen says what counts, and -v the rest", "[cli]") {
+TEST_CASE("the summary prints the main results, -v the details", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "out.exr";
   const ProcessResult r = RunLanelight({"render", scene, "-o", exr, "--spp", "16"});
@@ -71,7 +71,7 @@ TEST_CASE("the last screen says what counts, and -v the rest", "[cli]") {
         kExitUsage);
 }
 
-TEST_CASE("what is told fits the terminal, without colours in a pipe", "[cli]") {
+TEST_CASE("output fits the terminal, without colours in a pipe", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "out.exr";
   const std::vector<std::string> render = {"render", scene, "-o", "out.exr",
@@ -90,10 +90,10 @@ TEST_CASE("what is told fits the terminal, without colours in a pipe", "[cli]") 
   CHECK(r.err.find('\r') == std::string::npos);
   const std::vector<std::string> bench = {
       "bench", scene, "--spp", "1", "--time", "100ms", "--threads", "1", "--within", "1"};
-  const ProcessResult usual = RunLanelight(bench, InColumns(""));
-  REQUIRE(usual.exit_code == kExitGood);
-  CHECK(WidestLine(usual.out) <= 80);
-  CHECK_THAT(usual.out, Contains("bytes/path") && Contains("repeats"));
+  const ProcessResult default_width = RunLanelight(bench, InColumns(""));
+  REQUIRE(default_width.exit_code == kExitGood);
+  CHECK(WidestLine(default_width.out) <= 80);
+  CHECK_THAT(default_width.out, Contains("bytes/path") && Contains("repeats"));
   const ProcessResult wide = RunLanelight(bench, InColumns("200"));
   CHECK(WidestLine(wide.out) > 80);
 }
@@ -164,7 +164,7 @@ TEST_CASE("amounts have units", "[cli]") {
   }
 }
 
-TEST_CASE("notes of one kind are one line", "[cli]") {
+TEST_CASE("notes of the same kind are printed in one line", "[cli]") {
   TempDirectory directory;
   std::string text = R"(Camera "perspective" "float fov" 40
 Film "rgb" "integer xresolution" 8 "integer yresolution" 8
@@ -183,7 +183,7 @@ LightSource "point" "point3 from" [ 0 3 0 ]
   CHECK(r.err.find("left out", r.err.find("left out") + 1) == std::string::npos);
 }
 
-TEST_CASE("states of another strategy are told by what differs", "[cli]") {
+TEST_CASE("a checkpoint of another strategy is refused with the differences", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), state = directory / "s.state";
   REQUIRE(RunLanelight({"render", scene, "-o", directory / "a.exr", "--checkpoint", state,
@@ -199,7 +199,7 @@ TEST_CASE("states of another strategy are told by what differs", "[cli]") {
   CHECK(r.err.find("directions=") == std::string::npos);
 }
 
-TEST_CASE("the strategy that is told is the one that renders", "[cli]") {
+TEST_CASE("the printed strategy is the one that renders", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "a.exr";
   const ProcessResult given =

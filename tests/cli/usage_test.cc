@@ -28,7 +28,7 @@ TEST_CASE("help and version go to standard output and succeed", "[cli]") {
   }
 }
 
-TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
+TEST_CASE("wrong flags exit with 2 and a message", "[cli]") {
   struct Case {
     std::vector<std::string> arguments;
     std::string message;
@@ -104,7 +104,7 @@ TEST_CASE("wrong flags exit with 2 and say what is wrong", "[cli]") {
   }
 }
 
-TEST_CASE("a SIMD target that is not built says how to get it", "[cli]") {
+TEST_CASE("a SIMD target that is not built is refused with a remedy", "[cli]") {
   const std::vector<std::string> available = AvailableTargets();
   for (const std::string name : {"AVX3", "AVX2", "SSE4"}) {
     if (std::find(available.begin(), available.end(), name) != available.end()) continue;
@@ -139,7 +139,7 @@ TEST_CASE("info prints the target, threads and libraries", "[cli]") {
   CHECK_THAT(forced.out, Contains("target         " + worst));
 }
 
-TEST_CASE("a reader that goes away is no error", "[cli]") {
+TEST_CASE("a closed pipe is not an error", "[cli]") {
   ProcessOptions closed;
   closed.close_stdout_reader = true;
   const ProcessResult r = RunLanelight({"info"}, closed);

@@ -14,7 +14,7 @@ namespace lanelight::stress {
 /// tolerance and five standard errors at most. With all points of these files a test
 /// fails in fewer than 1 of 1000 seeds without a fault.
 template <class Measure>
-void Hold(const std::vector<double>& values, const Measure& measure) {
+void CheckPoints(const std::vector<double>& values, const Measure& measure) {
   for (const double value : values) {
     for (const Point& p : measure(value, Effort{})) {
       CAPTURE(value, p.series, p.expected, p.measured, p.standard_error, p.tolerance);
@@ -25,8 +25,8 @@ void Hold(const std::vector<double>& values, const Measure& measure) {
 }
 /// The same of what has no parameter.
 template <class Measure>
-void Hold(const Measure& measure) {
-  Hold({std::numeric_limits<double>::quiet_NaN()}, measure);
+void CheckPoints(const Measure& measure) {
+  CheckPoints({std::numeric_limits<double>::quiet_NaN()}, measure);
 }
 
 }  // namespace lanelight::stress

@@ -193,35 +193,35 @@ std::vector<Point> StretchedSphere(double stretch, const Effort& effort) {
 
 // mitsuba2 #171 (1 to 1e7), mitsuba3 #1962 (1e-3), embree #416 (6e11).
 TEST_CASE("extremes: a lamp over a floor in units of 1e-15 to 1e15") {
-  Hold(Decades(-15, 15, 5), LampOverFloor);
+  CheckPoints(Decades(-15, 15, 5), LampOverFloor);
 }
 // pbrt-v4 #186 (1e4 to 1e6).
 TEST_CASE("extremes: rays end on flat patches of sides 1 to 1e12, and leave them") {
-  Hold(Decades(0, 12, 2), Patches);
+  CheckPoints(Decades(0, 12, 2), Patches);
 }
 TEST_CASE("extremes: scenes without a shape that can be hit show the sky") {
-  Hold(Empty);
+  CheckPoints(Empty);
 }
 TEST_CASE("extremes: 1 to 100 000 instances are hit, and left") {
-  Hold(Decades(0, 5), Count);
+  CheckPoints(Decades(0, 5), Count);
 }
 TEST_CASE("extremes: nested transforms that undo a scale of 1e-6 to 1e6") {
-  Hold(Decades(-6, 6, 2), NestedScale);
+  CheckPoints(Decades(-6, 6, 2), NestedScale);
 }
 TEST_CASE("extremes: an instance 1e-6 times the size of another") {
-  Hold(Decades(-6, 0), TinyInstance);
+  CheckPoints(Decades(-6, 0), TinyInstance);
 }
 TEST_CASE("extremes: instances sheared, stretched and flattened up to 1e6 times") {
-  Hold(Decades(0, 6), Sheared);
+  CheckPoints(Decades(0, 6), Sheared);
 }
-TEST_CASE("extremes: a lamp shines to its own side however it is mirrored") {
-  Hold(Mirrored);
+TEST_CASE("extremes: a lamp emits to its own side under any mirroring") {
+  CheckPoints(Mirrored);
 }
 TEST_CASE("extremes: two lights side by side are one light, in both orders") {
-  Hold(CoplanarLights);
+  CheckPoints(CoplanarLights);
 }
 TEST_CASE("extremes: a sphere stretched by 1e-7 is round within 1e-5") {
-  Hold({1 - 1e-7, 1, 1 + 1e-6}, StretchedSphere);
+  CheckPoints({1 - 1e-7, 1, 1 + 1e-6}, StretchedSphere);
 }
 
 }  // namespace lanelight::stress

@@ -28,7 +28,8 @@ TEST_CASE("reference: estimators agree on every material", "[reference]") {
   }
 }
 
-TEST_CASE("reference: estimators agree in a room, and 5 % would be seen", "[reference]") {
+TEST_CASE("reference: estimators agree in a room, and a bias of 5 % is detected",
+          "[reference]") {
   const SceneDescription scene = SmallRoom(8, 3, 0.95);
   const auto result = CompareEstimators(scene, 4000);
   INFO(result.ToString());

@@ -46,9 +46,9 @@ void Geometry::AddShape(const Shape& shape, const Transform& world_from_group) {
   out.radius = shape.radius;
   out.inner_radius = shape.inner_radius;
   out.height = shape.height;
-  const double most = shape.kind == ShapeKind::kCylinder ? kInfinity : shape.radius;
-  out.z_min = std::max(shape.z_min, -most);
-  out.z_max = std::min(shape.z_max, most);
+  const double maximum = shape.kind == ShapeKind::kCylinder ? kInfinity : shape.radius;
+  out.z_min = std::max(shape.z_min, -maximum);
+  out.z_max = std::min(shape.z_max, maximum);
   out.phi_max = shape.phi_max / 360 * (2 * std::numbers::pi);
   primitives_.push_back(out);
 }

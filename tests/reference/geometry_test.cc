@@ -47,7 +47,7 @@ TEST_CASE("reference: every shape is hit where it should be", "[reference]") {
   CHECK(geometry.Intersect(ahead, 8.9, random).primitive == kNone);
 }
 
-TEST_CASE("reference: a ray does not meet again the point it left", "[reference]") {
+TEST_CASE("reference: a ray does not hit its origin again", "[reference]") {
   test::SceneBuilder b(1, 1);
   const Index m = b.AddDiffuse(test::Grey(0.5));
   b.AddSphere({1e6, 0, 0}, 1e-3, m);

@@ -26,7 +26,7 @@ double YOfPhi(double phi) {
 
 struct Cell {
   int i;
-  double share;
+  double fraction;
 };
 Cell CellOf(double u, int size) {
   const double scaled = u * (size - 1);
@@ -37,9 +37,9 @@ Cell CellOf(double u, int size) {
 double Bilinear(const double* v, int width, int height, double x, double y) {
   const Cell cx = CellOf(x, width), cy = CellOf(y, height);
   const double* at = v + cy.i * width + cx.i;
-  const double low = at[0] + cx.share * (at[1] - at[0]);
-  const double high = at[width] + cx.share * (at[width + 1] - at[width]);
-  return low + cy.share * (high - low);
+  const double low = at[0] + cx.fraction * (at[1] - at[0]);
+  const double high = at[width] + cx.fraction * (at[width + 1] - at[width]);
+  return low + cy.fraction * (high - low);
 }
 
 // Trapezoids over values at 0, 1, ..., up to `end`.
@@ -158,20 +158,20 @@ Rgb EvaluateMeasuredCos(const MeasuredReflectance& m, Vec3d known, Vec3d other) 
     }
   }
   Density visible = {m.vndf.width, m.vndf.height, {}};
-  for (const auto& [slice, share] : slices) {
+  for (const auto& [slice, fraction] : slices) {
     const Density one = Normalised(m.vndf.width, m.vndf.height, Slice(m.vndf, slice));
     visible.values.resize(one.values.size());
     for (std::size_t i = 0; i < one.values.size(); ++i) {
-      visible.values[i] += share * one.values[i];
+      visible.values[i] += fraction * one.values[i];
     }
   }
   const Density::Point s = visible.Shares(x, y);
   Rgb sum;
-  for (const auto& [slice, share] : slices) {
+  for (const auto& [slice, fraction] : slices) {
     for (int c = 0; c < 3; ++c) {
       const auto values = Slice(m.reflectance, 3 * slice + static_cast<std::size_t>(c));
-      sum[c] += share * Bilinear(values.data(), m.reflectance.width, m.reflectance.height,
-                                 s.x, s.y);
+      sum[c] += fraction * Bilinear(values.data(), m.reflectance.width,
+                                    m.reflectance.height, s.x, s.y);
     }
   }
   const double d = Bilinear(Slice(m.ndf, 0).data(), m.ndf.width, m.ndf.height, x, y);

@@ -37,18 +37,18 @@ double Blend(Vec3d at, const Value& value) {
   return sum;
 }
 
-// `share` of the box. A single number is a grid of one voxel.
-double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d share,
+// `fraction` of the box. A single number is a grid of one voxel.
+double Interpolated(const Medium& m, const std::vector<float>& values, Vec3d fraction,
                     int channels, int channel) {
   constexpr int kSingle[3] = {1, 1, 1};
   const int* const size = values.size() == 1 ? kSingle : m.grid_size;
-  const Vec3d at = {share.x * size[0] - 0.5, share.y * size[1] - 0.5,
-                    share.z * size[2] - 0.5};
+  const Vec3d at = {fraction.x * size[0] - 0.5, fraction.y * size[1] - 0.5,
+                    fraction.z * size[2] - 0.5};
   return Blend(at, [&](Vec3d i) { return Voxel(size, values, i, channels, channel); });
 }
 
 // Returns the position of a point of the medium's space in its box.
-Vec3d ShareOfBox(const Medium& m, Vec3d p) {
+Vec3d FractionOfBox(const Medium& m, Vec3d p) {
   const Vec3d local = p - m.box_min, size = m.box_max - m.box_min;
   return {local.x / size.x, local.y / size.y, local.z / size.z};
 }
@@ -78,9 +78,10 @@ double CloudAt(const Medium& m, Vec3d p) {
 Rgb EmissionAt(const Medium& m, Vec3d world) {
   Rgb emission = m.emission;
   if (m.kind == MediumKind::kHomogeneous || emission == Rgb{}) return emission;
-  const Vec3d p = m.world_from_medium.Inverse().Point(world), share = ShareOfBox(m, p);
+  const Vec3d p = m.world_from_medium.Inverse().Point(world),
+              fraction = FractionOfBox(m, p);
   const auto read = [&](const std::vector<float>& values, int channels, int channel) {
-    return Interpolated(m, values, share, channels, channel);
+    return Interpolated(m, values, fraction, channels, channel);
   };
   if (!m.emission_grid.empty()) {
     const auto& e = m.emission_grid;
@@ -118,20 +119,21 @@ double LargestExtinction(const Medium& m, int channel) {
 
 Coefficients MediumAt(const Medium& m, Vec3d p) {
   if (m.kind == MediumKind::kHomogeneous) return {m.sigma_a, m.sigma_s, {}};
-  const Vec3d own = m.world_from_medium.Inverse().Point(p), share = ShareOfBox(m, own);
-  if (share.x < 0 || share.x > 1 || share.y < 0 || share.y > 1 || share.z < 0 ||
-      share.z > 1) {
+  const Vec3d own = m.world_from_medium.Inverse().Point(p),
+              fraction = FractionOfBox(m, own);
+  if (fraction.x < 0 || fraction.x > 1 || fraction.y < 0 || fraction.y > 1 ||
+      fraction.z < 0 || fraction.z > 1) {
     return {};
   }
   if (m.kind == MediumKind::kRgbGrid) {
     double v[6];
-    for (int c = 0; c < 6; ++c) v[c] = Interpolated(m, m.grid, share, 6, c);
+    for (int c = 0; c < 6; ++c) v[c] = Interpolated(m, m.grid, fraction, 6, c);
     return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {}};
   }
   const double density = m.kind == MediumKind::kCloud ? CloudAt(m, own)
                          : m.kind == MediumKind::kNanoVdb
                              ? SparseAt(*m.sparse_density, own)
-                             : Interpolated(m, m.grid, share, 1, 0);
+                             : Interpolated(m, m.grid, fraction, 1, 0);
   return {m.sigma_a * density, m.sigma_s * density, {}};
 }
 

@@ -10,7 +10,7 @@
 #include "tests/reference/frame.h"
 #include "tests/reference/material.h"
 #include "tests/reference/media.h"
-#include "tests/reference/relief.h"
+#include "tests/reference/bump_maps.h"
 #include "tests/reference/snapshot.h"
 
 namespace lanelight {
@@ -125,8 +125,8 @@ Rgb Tracer::Trace(Ray ray) const {
     if (!inside && depth++ == max_depth) return sum;
     LocalMaterial material = EvaluateMaterial(scene, index, at, options.texture, random);
     if (regular) Regularize(material);
-    const SurfacePoint shaded = WithRelief(scene, *material.source, at, -ray.d,
-                                           options.texture, options.normal_map);
+    const SurfacePoint shaded = WithBumpMaps(scene, *material.source, at, -ray.d,
+                                             options.texture, options.normal_map);
     const TangentFrame frame = MakeFrame(shaded.ns, shaded.dpdu);
     const Vec3d wo = frame.ToLocal(-ray.d);
     if (scene.integrator.force_diffuse) material = MadeDiffuse(material, wo, random);
@@ -163,8 +163,9 @@ Rgb OnFilm(const Film& film, Rgb radiance) {
   const double x = 0.4124 * v.x + 0.3576 * v.y + 0.1805 * v.z;
   const double y = 0.2126 * v.x + 0.7152 * v.y + 0.0722 * v.z;
   const double z = 0.0193 * v.x + 0.1192 * v.y + 0.9505 * v.z;
-  const double most = std::max({x, y, z});
-  if (most > film.response.max_component) v = v * (film.response.max_component / most);
+  const double maximum = std::max({x, y, z});
+  if (maximum > film.response.max_component)
+    v = v * (film.response.max_component / maximum);
   const Vec3d* m = film.response.matrix.row;
   return {m[0].x * v.x + m[0].y * v.y + m[0].z * v.z,
           m[1].x * v.x + m[1].y * v.y + m[1].z * v.z,

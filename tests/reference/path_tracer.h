@@ -11,7 +11,7 @@
 #include "src/scene/description/description.h"
 #include "tests/reference/geometry.h"
 #include "tests/reference/lights.h"
-#include "tests/reference/relief.h"
+#include "tests/reference/bump_maps.h"
 
 namespace lanelight {
 

@@ -58,7 +58,7 @@ struct ReuseTwin {
   Rgb Gather(const Ray& ray, int depth) const;
   bool Sees(const Vertex& x, const Vertex& y) const;
   Path Trace(const Ray& ray) const;
-  double SurelyKept(const std::vector<Path>& paths) const;
+  double CertainlyKept(const std::vector<Path>& paths) const;
   Pair Evaluate(const Arrival& x, const Vertex& y) const;
   bool Counts(const Arrival& x, const Path& owner) const;
   void Share(const Path& owner, const std::vector<const Path*>& block,
@@ -66,7 +66,7 @@ struct ReuseTwin {
   void Connect(const std::vector<const Path*>& block, std::vector<Rgb>& light) const;
 };
 
-double MostOf(Rgb c) { return std::max({c.x, c.y, c.z}); }
+double MaxChannel(Rgb c) { return std::max({c.x, c.y, c.z}); }
 
 // The next surface, by the law of reflection where it is a mirror.
 std::optional<Arrival> ReuseTwin::Meet(Ray ray) const {
@@ -117,7 +117,7 @@ Path ReuseTwin::Trace(const Ray& ray) const {
   const int left = scene.integrator.max_depth - x.events;  // events at x and later
   // Up to what the ray leaving x meets: emission seen, also by x, and delta lights at x.
   path.own = Gather(ray, std::min(x.events + 1, scene.integrator.max_depth));
-  if (left < 1 || MostOf(x.beta * x.vertex.albedo) == 0) return path;
+  if (left < 1 || MaxChannel(x.beta * x.vertex.albedo) == 0) return path;
   const Vec3d local = SampleDiffuse(Scattering::kLambertian, random);
   const Ray next = {x.vertex.p, Normalize(MakeFrame(x.vertex.n).ToWorld(local)),
                     x.vertex.primitive};
@@ -136,10 +136,10 @@ Path ReuseTwin::Trace(const Ray& ray) const {
 }
 
 // c for which the sum of min(1, sent / c) is the share that is kept of those that send.
-double ReuseTwin::SurelyKept(const std::vector<Path>& paths) const {
+double ReuseTwin::CertainlyKept(const std::vector<Path>& paths) const {
   std::vector<double> sent;
   for (const Path& path : paths) {
-    if (MostOf(path.sent) > 0) sent.push_back(MostOf(path.sent));
+    if (MaxChannel(path.sent) > 0) sent.push_back(MaxChannel(path.sent));
   }
   if (sent.empty()) return 1;
   const double wanted = options.kept * double(sent.size());
@@ -168,7 +168,7 @@ Pair ReuseTwin::Evaluate(const Arrival& x, const Vertex& y) const {
 
 // Returns whether the path of x might have found a second vertex of the owner's depth.
 bool ReuseTwin::Counts(const Arrival& x, const Path& owner) const {
-  const bool black = MostOf(x.beta * x.vertex.albedo) == 0;
+  const bool black = MaxChannel(x.beta * x.vertex.albedo) == 0;
   const bool other_depth = x.events != owner.first->events;
   return (!black || options.counts_black) &&
          (!other_depth || options.counts_other_depths);
@@ -232,8 +232,8 @@ std::vector<Rgb> SampleOfPixels(const ReuseTwin& twin, const CameraRays& camera)
     const double y = i / film.width + twin.random.Uniform();
     paths.push_back(twin.Trace(camera.Sample(x, y, twin.random).ray));
   }
-  const double surely = twin.SurelyKept(paths);
-  for (Path& path : paths) path.q = std::min(1.0, MostOf(path.sent) / surely);
+  const double surely = twin.CertainlyKept(paths);
+  for (Path& path : paths) path.q = std::min(1.0, MaxChannel(path.sent) / surely);
   const std::vector<int> order = Shuffled(static_cast<int>(paths.size()), twin.random);
   std::vector<Rgb> sample(paths.size());
   for (std::size_t begin = 0; begin < paths.size(); begin += twin.options.block) {

@@ -34,7 +34,7 @@ void CheckConstant(const std::string& name, int size, std::uint64_t spp, double 
 
 }  // namespace
 
-TEST_CASE("own scenes: furnace and closed rooms keep the balance", "[scenes]") {
+TEST_CASE("own scenes: furnace and closed rooms conserve energy", "[scenes]") {
   CheckConstant("furnace", 24, 256, 1, 0.02);
   CheckConstant("closed-room", 16, 256, 2, 0.02);
   CheckConstant("white-balance", 16, 64, 1, 0.02);
@@ -62,7 +62,7 @@ TEST_CASE("own scenes: a light of 1e-5 of the scene", "[scenes]") {
   CHECK(result.detectable_bias < 0.01);
 }
 
-TEST_CASE("own scenes: twelve decades arrive exactly", "[scenes]") {
+TEST_CASE("own scenes: twelve decades of radiance are exact", "[scenes]") {
   const auto image = RenderWavefront(LoadScene("stiff/twelve-decades", 260, 20), 4);
   for (int k = 0; k <= 12; ++k) {
     const double exact = std::pow(10, k - 6);

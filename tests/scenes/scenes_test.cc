@@ -37,7 +37,7 @@ std::string ReadText(const fs::path& path) {
 
 }  // namespace
 
-TEST_CASE("own scenes: the header states purpose, needs and closed form", "[scenes]") {
+TEST_CASE("own scenes: headers state purpose, features and closed form", "[scenes]") {
   const auto scenes = OwnScenes();
   CHECK(scenes.size() >= 28);
   for (const fs::path& path : scenes) {
@@ -71,7 +71,7 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
   }
 }
 
-TEST_CASE("own scenes: what the headers promise is there", "[scenes]") {
+TEST_CASE("own scenes: features stated in headers are used", "[scenes]") {
   const fs::path root = fs::path(LANELIGHT_SOURCE_DIR) / "scenes";
   const auto features = [&](const char* name) {
     return PrepareScene(ParseScene((root / name).string())).compiled->features;
@@ -217,7 +217,7 @@ TEST_CASE("own scenes: the generated herd is one mesh, 250 times", "[scenes]") {
   fs::remove_all(folder);
 }
 
-TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
+TEST_CASE("own scenes: images equal the output of scenes/parts/maps", "[scenes]") {
   if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
   const fs::path folder = fs::temp_directory_path() / "lanelight_maps_test";
@@ -231,7 +231,7 @@ TEST_CASE("own scenes: images are what scenes/parts/maps writes", "[scenes]") {
   fs::remove_all(folder);
 }
 
-TEST_CASE("own scenes: turned parts are what scenes/parts/turn writes", "[scenes]") {
+TEST_CASE("own scenes: turned parts equal the output of scenes/parts/turn", "[scenes]") {
   if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
   const fs::path folder = fs::temp_directory_path() / "lanelight_turn_test";
@@ -249,7 +249,7 @@ TEST_CASE("own scenes: turned parts are what scenes/parts/turn writes", "[scenes
   fs::remove_all(folder);
 }
 
-TEST_CASE("own scenes: hair is what scenes/parts/comb writes", "[scenes]") {
+TEST_CASE("own scenes: hair equals the output of scenes/parts/comb", "[scenes]") {
   if (!HasPython()) return;
   const fs::path parts = fs::path(LANELIGHT_SOURCE_DIR) / "scenes" / "parts";
   const fs::path folder = fs::temp_directory_path() / "lanelight_comb_test";

@@ -7,7 +7,7 @@
 
 namespace lanelight::test {
 
-TEST_CASE("own scenes: with wavelengths all samples are valid", "[scenes][spectral]") {
+TEST_CASE("own scenes: all samples are valid in spectral mode", "[scenes][spectral]") {
   namespace fs = std::filesystem;
   int scenes = 0;
   for (const auto& entry :

@@ -136,7 +136,7 @@ TEST_CASE("a folder includes only folders below it", "[layers]") {
   CHECK(files > 300);
 }
 
-TEST_CASE("an include of a folder above is found", "[layers]") {
+TEST_CASE("an include of a higher folder is detected", "[layers]") {
   CHECK(UpwardIncludes("src/render/job/job.h",
                        "#include \"src/render/estimate/target.h\"\n") == "");
   CHECK(

@@ -17,9 +17,9 @@ TickScale::TickScale() : time_(std::chrono::steady_clock::now()), ticks_(Ticks()
 
 double TickScale::SecondsPerTick() const {
   using std::chrono::steady_clock;
-  constexpr std::chrono::microseconds kLeast(100);
+  constexpr std::chrono::microseconds kMinTime(100);
   auto now = steady_clock::now();
-  while (now - time_ < kLeast) now = steady_clock::now();
+  while (now - time_ < kMinTime) now = steady_clock::now();
   const std::uint64_t ticks = Ticks();
   const std::chrono::duration<double> seconds = now - time_;
   return seconds.count() / static_cast<double>(ticks - ticks_);

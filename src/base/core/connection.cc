@@ -62,13 +62,14 @@ std::optional<Endpoint> EndpointType::Read(const std::string& text) const {
     return {};  // an address of IPv6, whose last part may be a port or not
   }
   const auto number =
-      port.empty() ? usual_port : ParseNumber<std::uint16_t>(port).value_or(0);
+      port.empty() ? default_port : ParseNumber<std::uint16_t>(port).value_or(0);
   if (host.empty() || number == 0) return {};
   return Endpoint{host, number};
 }
 
 std::string EndpointType::Right(const std::string&) const {
-  return fmt::format("HOST:PORT, e.g. localhost:{} or [::1]:{}", usual_port, usual_port);
+  return fmt::format("HOST:PORT, e.g. localhost:{} or [::1]:{}", default_port,
+                     default_port);
 }
 
 std::unique_ptr<Connection> Connection::Open(const Endpoint& endpoint, double seconds,
@@ -114,7 +115,7 @@ Connection::Sent Connection::Send(std::string_view bytes) {
   return Sent::kAll;
 }
 
-void Connection::Hurry(double seconds) { deadline_ = Now() + seconds; }
+void Connection::SetDeadline(double seconds) { deadline_ = Now() + seconds; }
 
 bool Connection::IsOver() const { return Now() > deadline_; }
 

@@ -21,10 +21,10 @@ struct Endpoint {
   std::string Text() const;
 };
 
-/// "HOST:PORT", or a host alone with `usual_port`; an IPv6 address in brackets. As in
+/// "HOST:PORT", or a host alone with `default_port`; an IPv6 address in brackets. As in
 /// src/base/core/value_types.h.
 struct EndpointType {
-  std::uint16_t usual_port;
+  std::uint16_t default_port;
 
   std::optional<Endpoint> Read(const std::string& text) const;
   std::string Write(const Endpoint& endpoint) const { return endpoint.Text(); }
@@ -39,11 +39,11 @@ class Connection {
                                           std::string& why);
 
   enum class Sent { kAll, kFailed, kGaveUp };
-  /// Sends all, without a time limit until Hurry() is called. kFailed: the connection is
-  /// lost; Reason() then says why.
+  /// Sends all, without a time limit until SetDeadline() is called. kFailed: the
+  /// connection is lost; Reason() then says why.
   Sent Send(std::string_view bytes);
   /// Limits sending to `seconds` from now on. Called once, from any thread.
-  void Hurry(double seconds);
+  void SetDeadline(double seconds);
   std::string Reason() const;
 
  private:

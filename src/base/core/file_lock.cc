@@ -52,43 +52,43 @@ bool KnowsNoLocks(int error) {
 
 }  // namespace
 
-HeldLock::HeldLock(HeldLock&& other) noexcept
+ScopedLock::ScopedLock(ScopedLock&& other) noexcept
     : file_(std::exchange(other.file_, nullptr)), byte_(other.byte_) {}
 
-HeldLock& HeldLock::operator=(HeldLock&& other) noexcept {
+ScopedLock& ScopedLock::operator=(ScopedLock&& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(byte_, other.byte_);
   return *this;
 }
 
 // Need not succeed: closing the file frees the lock too.
-HeldLock::~HeldLock() {
+ScopedLock::~ScopedLock() {
   if (file_ != nullptr) SetLock(file_->fd_.get(), F_UNLCK, byte_);
 }
 
 LockFile::LockFile(const std::string& path)
     : path_(path), fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (fd_.get() < 0) Fail(path_, "cannot open");
-  const HeldLock probe(this, ByteOf("is there locking?"));
+  const ScopedLock probe(this, ByteOf("is there locking?"));
   locking_ = SetLock(fd_.get(), F_WRLCK, probe.byte_) == 0 || !KnowsNoLocks(errno);
 }
 
-std::optional<HeldLock> LockFile::Take(const std::string& name) const {
-  if (!locking_) return HeldLock(nullptr, 0);
+std::optional<ScopedLock> LockFile::Take(const std::string& name) const {
+  if (!locking_) return ScopedLock(nullptr, 0);
   const std::uint64_t byte = ByteOf(name);
-  if (SetLock(fd_.get(), F_WRLCK, byte) == 0) return HeldLock(this, byte);
+  if (SetLock(fd_.get(), F_WRLCK, byte) == 0) return ScopedLock(this, byte);
   if (errno == EAGAIN || errno == EACCES) return std::nullopt;
   Fail(path_, "cannot lock");
 }
 
 // F_OFD_SETLKW would not end at signals that restart system calls.
-std::optional<HeldLock> LockFile::Wait(const std::string& name,
-                                       const std::function<bool(double)>& go_on) const {
+std::optional<ScopedLock> LockFile::Wait(
+    const std::string& name, const std::function<bool(double)>& keep_waiting) const {
   const auto start = std::chrono::steady_clock::now();
   for (LockSeconds pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
     if (auto lock = Take(name)) return lock;
     const LockSeconds waited = std::chrono::steady_clock::now() - start;
-    if (!go_on(waited.count())) return std::nullopt;
+    if (!keep_waiting(waited.count())) return std::nullopt;
     std::this_thread::sleep_for(pause);
   }
 }

@@ -14,15 +14,15 @@ namespace lanelight {
 class LockFile;
 
 /// Holds a lock while it lives; the file must outlive it.
-class HeldLock {
+class ScopedLock {
  public:
-  HeldLock(HeldLock&& other) noexcept;
-  HeldLock& operator=(HeldLock&& other) noexcept;
-  ~HeldLock();
+  ScopedLock(ScopedLock&& other) noexcept;
+  ScopedLock& operator=(ScopedLock&& other) noexcept;
+  ~ScopedLock();
 
  private:
   friend class LockFile;
-  HeldLock(const LockFile* file, std::uint64_t byte) : file_(file), byte_(byte) {}
+  ScopedLock(const LockFile* file, std::uint64_t byte) : file_(file), byte_(byte) {}
   const LockFile* file_;  // null: nothing to free
   std::uint64_t byte_;
 };
@@ -40,10 +40,10 @@ class LockFile {
   /// Takes a lock; empty if it is taken. Never waits. A lock is one byte of the file, by
   /// the hash of its name; two names share a byte with a probability of 2^-62. Throws
   /// InputError if the file system fails.
-  std::optional<HeldLock> Take(const std::string& name) const;
-  /// Tries again, with pauses, while go_on(seconds waited so far) holds.
-  std::optional<HeldLock> Wait(const std::string& name,
-                               const std::function<bool(double)>& go_on) const;
+  std::optional<ScopedLock> Take(const std::string& name) const;
+  /// Tries again, with pauses, while keep_waiting(seconds waited so far) holds.
+  std::optional<ScopedLock> Wait(const std::string& name,
+                                 const std::function<bool(double)>& keep_waiting) const;
 
   const std::string& path() const { return path_; }
   /// False once the path names another file, or none: locks of this one then do not
@@ -55,7 +55,7 @@ class LockFile {
   std::string Note() const;
 
  private:
-  friend class HeldLock;
+  friend class ScopedLock;
   std::string path_;
   FileDescriptor fd_;
   bool locking_ = true;

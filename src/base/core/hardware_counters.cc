@@ -28,7 +28,7 @@ int Open(const CounterEvent& event, int leader) {
       syscall(SYS_perf_event_open, &attributes, 0, -1, leader, PERF_FLAG_FD_CLOEXEC));
 }
 
-std::string Paranoia() {
+std::string PerfEventParanoidText() {
   std::ifstream file("/proc/sys/kernel/perf_event_paranoid");
   int level = 0;
   return file >> level ? fmt::format(" (here it is {})", level) : "";
@@ -79,7 +79,8 @@ std::string WhyNoCounters(int error) {
     case EACCES:
     case EPERM:
       return reason + "; needs /proc/sys/kernel/perf_event_paranoid of 2 or less" +
-             Paranoia() + ", or CAP_PERFMON, and a seccomp filter that lets it through";
+             PerfEventParanoidText() +
+             ", or CAP_PERFMON, and a seccomp filter that lets it through";
     case ENOENT:
     case ENODEV:
     case EOPNOTSUPP:

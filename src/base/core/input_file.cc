@@ -75,13 +75,13 @@ class Inflater {
     stream_.next_out = reinterpret_cast<Bytef*>(out.data() + size);
     stream_.avail_out = static_cast<uInt>(room);
     const int result = inflate(&stream_, Z_NO_FLUSH);
-    const std::size_t taken = in - stream_.avail_in;
-    rest_.remove_prefix(taken);
+    const std::size_t consumed = in - stream_.avail_in;
+    rest_.remove_prefix(consumed);
     if (result == Z_STREAM_END) {
       ended_ = rest_.find_first_not_of('\0') == rest_.npos;  // zeros pad what tapes hold
       if (!ended_) LL_CHECK(inflateReset(&stream_) == Z_OK);
-    } else if (result == Z_BUF_ERROR ||
-               (result == Z_OK && rest_.empty() && taken == 0 && stream_.avail_out > 0)) {
+    } else if (result == Z_BUF_ERROR || (result == Z_OK && rest_.empty() &&
+                                         consumed == 0 && stream_.avail_out > 0)) {
       throw InputError("the compressed data is truncated");
     } else if (result != Z_OK) {
       throw InputError("the compressed data is damaged ({})",
@@ -135,8 +135,8 @@ bool IsGzip(std::string_view path, std::string_view content) {
 }
 
 std::size_t MaxUnpackedSize(std::size_t packed) {
-  const std::size_t most = 4096 * kMiB;
-  return packed > most / 100 ? most : std::max(100 * packed, 256 * kMiB);
+  const std::size_t max_bytes = 4096 * kMiB;
+  return packed > max_bytes / 100 ? max_bytes : std::max(100 * packed, 256 * kMiB);
 }
 
 std::string Gunzip(std::string_view packed, std::size_t max_size) {

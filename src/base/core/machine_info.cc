@@ -53,8 +53,8 @@ std::optional<std::uint64_t> MemoryOfMachine() {
 }
 
 template <class T>
-void TakeLess(std::optional<T>& least, const std::optional<T>& other) {
-  if (other) least = least ? std::min(*least, *other) : *other;
+void SetMin(std::optional<T>& minimum, const std::optional<T>& other) {
+  if (other) minimum = minimum ? std::min(*minimum, *other) : *other;
 }
 
 // Returns the group of version 2, whose line is "0::/system.slice/x"; "" without one.
@@ -77,14 +77,14 @@ GroupLimits LimitsIn(const std::filesystem::path& folder) {
   return limits;
 }
 
-MachineInfo LookAtMachine() {
+MachineInfo ReadMachineInfo() {
   const GroupLimits limits = LimitsOfGroup("/sys/fs/cgroup", OwnGroup());
   MachineInfo machine;
   machine.processor = ProcessorIn(FileText("/proc/cpuinfo"));
   machine.cores = CoresAllowed();
   machine.quota = limits.quota;
   machine.memory_bytes = MemoryOfMachine();
-  TakeLess(machine.memory_bytes, limits.memory_bytes);
+  SetMin(machine.memory_bytes, limits.memory_bytes);
   machine.load = load_at_start;
   return machine;
 }
@@ -108,7 +108,7 @@ std::string TextWithoutLoad(const MachineInfo& machine) {
 }  // namespace
 
 const MachineInfo& ThisMachine() {
-  static const MachineInfo machine = LookAtMachine();
+  static const MachineInfo machine = ReadMachineInfo();
   return machine;
 }
 
@@ -164,15 +164,15 @@ std::optional<std::string> ProcessorIn(std::string_view cpuinfo) {
 }
 
 GroupLimits LimitsOfGroup(const std::filesystem::path& top, const std::string& group) {
-  GroupLimits least = LimitsIn(top);
+  GroupLimits minimum = LimitsIn(top);
   std::filesystem::path folder = top;
   for (const auto& part : std::filesystem::path(group).relative_path()) {
     folder /= part;
     const GroupLimits limits = LimitsIn(folder);
-    TakeLess(least.quota, limits.quota);
-    TakeLess(least.memory_bytes, limits.memory_bytes);
+    SetMin(minimum.quota, limits.quota);
+    SetMin(minimum.memory_bytes, limits.memory_bytes);
   }
-  return least;
+  return minimum;
 }
 
 }  // namespace lanelight

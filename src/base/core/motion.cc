@@ -77,7 +77,7 @@ Matrix3 Turn(Vec3d k, double angle) {
 
 // Axis and angle of a rotation. Half a turn has no direction: its axis then has a
 // positive largest component.
-void FindTurn(const Matrix3& r, Vec3d* axis, double* angle) {
+void FindRotation(const Matrix3& r, Vec3d* axis, double* angle) {
   // The axis times twice the sine of the angle, and twice the cosine.
   const Vec3d w = {r[2].y - r[1].z, r[0].z - r[2].x, r[1].x - r[0].y};
   const double cosine2 = r[0].x + r[1].y + r[2].z - 1, sine2 = Length(w);
@@ -128,8 +128,8 @@ Motion::Motion(const Transform& start, const Transform& end) : linear(LinearOf(s
   way = end.Point({0, 0, 0}) - from;
   const Matrix3 last = LinearOf(end);
   if (last == linear) return;
-  const Matrix3 turn = Times(RotationOf(last), Transposed(RotationOf(linear)));
-  FindTurn(turn, &axis, &angle);
+  const Matrix3 rotation = Times(RotationOf(last), Transposed(RotationOf(linear)));
+  FindRotation(rotation, &axis, &angle);
   // What is turned at the end, so that R(1) (linear + change) = last.
   change = Sum(Times(Transposed(Turn(axis, angle)), last), -1, linear);
   if (NormOf(change) < kRounding * NormOf(linear)) change = {};

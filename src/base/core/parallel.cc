@@ -16,29 +16,29 @@
 namespace lanelight {
 namespace {
 
-// Tells the thread sanitizer, which cannot see into oneTBB, that actions before Give()
-// happen before those after Take(). Empty in other builds.
-class Handover {
+// Tells the thread sanitizer, which cannot see into oneTBB, that actions before Release()
+// happen before those after Acquire(). Empty in other builds.
+class SanitizerFence {
  public:
 #ifdef LANELIGHT_THREAD_SANITIZER
-  void Give() { __tsan_release(this); }
-  void Take() { __tsan_acquire(this); }
+  void Release() { __tsan_release(this); }
+  void Acquire() { __tsan_acquire(this); }
 #else
-  void Give() {}
-  void Take() {}
+  void Release() {}
+  void Acquire() {}
 #endif
 };
 
 struct ParallelCall {
-  Handover start, end;
-  ParallelCall() { start.Give(); }
-  ~ParallelCall() { end.Take(); }
+  SanitizerFence start, end;
+  ParallelCall() { start.Release(); }
+  ~ParallelCall() { end.Acquire(); }
 
   // Encloses a body, also one that throws.
   struct Body {
     ParallelCall& call;
-    explicit Body(ParallelCall& c) : call(c) { call.start.Take(); }
-    ~Body() { call.end.Give(); }
+    explicit Body(ParallelCall& c) : call(c) { call.start.Acquire(); }
+    ~Body() { call.end.Release(); }
   };
 };
 
@@ -55,9 +55,9 @@ ThreadLimit::ThreadLimit(int threads)
                         : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
 
-int ThreadCount(int asked) {
+int ThreadCount(int requested) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return asked > 0 ? asked : static_cast<int>(cores);
+  return requested > 0 ? requested : static_cast<int>(cores);
 }
 
 int MaxThreads() {

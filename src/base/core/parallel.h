@@ -22,8 +22,8 @@ class ThreadLimit {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Threads for a limit of `asked`; 0: all cores.
-int ThreadCount(int asked);
+/// Threads for a limit of `requested`; 0: all cores.
+int ThreadCount(int requested);
 /// Threads the functions below will use at most.
 int MaxThreads();
 

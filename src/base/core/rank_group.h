@@ -50,10 +50,10 @@ class RankGroup {
   virtual std::vector<int> AllGather(int number) { return {number}; }
   /// Collective: the leader's bytes are put into those of the workers.
   virtual void Broadcast(std::span<char>) {}
-  /// Collective: `take` is called on the leader, for one worker after the other.
-  using Take = std::function<void(int rank, std::string_view bytes)>;
-  virtual void Gather(std::string_view, const Take&) {}
-  /// Collective: the sum over all ranks, also of those that have failed. `gives_up` is
+  /// Collective: `receive` is called on the leader, for one worker after the other.
+  using Receiver = std::function<void(int rank, std::string_view bytes)>;
+  virtual void Gather(std::string_view, const Receiver&) {}
+  /// Collective: the sum over all ranks, also of those that have failed. `should_stop` is
   /// asked while others are waited for; if it says so, there is no sum, and nothing
   /// collective may follow.
   virtual std::optional<RankStatus> Sum(const RankStatus& own,
@@ -61,7 +61,7 @@ class RankGroup {
     return own;
   }
   /// Called by two ranks, each of the other: sends bytes and returns theirs, or nothing
-  /// where gives_up said so, as in Sum.
+  /// where should_stop said so, as in Sum.
   virtual std::optional<std::string> Swap(int, std::string bytes,
                                           const std::function<bool()>&) {
     return bytes;

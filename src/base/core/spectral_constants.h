@@ -14,7 +14,7 @@ inline constexpr int kFirstCarriedNm = 380, kLastCarriedNm = 780;
 /// Nodes per axis of UpsamplingTable, and how far its colours keep from 0 and 1
 /// (src/base/image/upsampling.h).
 inline constexpr int kUpsamplingNodes = 17;
-inline constexpr double kLeastUpsampled = 2e-4;
+inline constexpr double kMinUpsampled = 2e-4;
 
 /// Nodes per axis of the tables of CoatFits (src/scene/compile/coat.h).
 inline constexpr int kCoatFitNodes = 9;

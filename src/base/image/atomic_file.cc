@@ -85,10 +85,10 @@ bool IsTemporaryOf(const std::string& name, const std::string& start) {
 
 std::string LinkTarget(const std::string& path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // as the system has it
+  constexpr int kMaxLinks = 40;  // as the system has it
   fs::path place = path;
   std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i) {
+  for (int i = 0; i < kMaxLinks && fs::is_symlink(place, error); ++i) {
     const fs::path target = fs::read_symlink(place, error);
     if (error) break;
     place = place.parent_path() / target;  // that of an absolute path is itself
@@ -98,11 +98,11 @@ std::string LinkTarget(const std::string& path) {
 
 std::string TemporaryStart(const std::string& path) {
   // Most file systems limit names to 255 bytes; some require whole characters.
-  constexpr std::size_t kMost = 220;
+  constexpr std::size_t kMaxNameLength = 220;
   const std::size_t slash = path.rfind('/');
   const std::size_t name = slash == path.npos ? 0 : slash + 1;
-  if (path.size() - name <= kMost) return path;
-  std::size_t end = name + kMost;
+  if (path.size() - name <= kMaxNameLength) return path;
+  std::size_t end = name + kMaxNameLength;
   while (end > name && (static_cast<unsigned char>(path[end]) & 0xc0) == 0x80) --end;
   return path.substr(0, end);
 }

@@ -68,7 +68,7 @@ ColorMatrix SrgbFrom(const ColorSpace& space);
 /// Of the daylight of this temperature (CIE 15:2004, 4000 to 25000 K), and below of a
 /// black body, as pbrt-v4.
 Chromaticity WhiteOfTemperature(double kelvin);
-inline constexpr double kLeastWhiteKelvin = 2000, kMostWhiteKelvin = 25000;
+inline constexpr double kMinWhiteKelvin = 2000, kMaxWhiteKelvin = 25000;
 
 /// XYZ under one white to XYZ that looks alike under another, by the Bradford transform
 /// (Lam 1985; ICC.1:2010, annex E).

@@ -100,18 +100,18 @@ constexpr const char* kCompressions[] = {"none",  "RLE", "ZIPS", "ZIP",  "PIZ",
 constexpr const char* kPixelTypes[] = {"uint", "half", "float"};
 
 // Attributes of every header, or shown in other ways.
-const std::set<std::string> kUsual = {"channels",
-                                      "compression",
-                                      "dataWindow",
-                                      "displayWindow",
-                                      "lineOrder",
-                                      "pixelAspectRatio",
-                                      "screenWindowCenter",
-                                      "screenWindowWidth",
-                                      "name",
-                                      "type",
-                                      "version",
-                                      "chunkCount"};
+const std::set<std::string> kStandardAttributes = {"channels",
+                                                   "compression",
+                                                   "dataWindow",
+                                                   "displayWindow",
+                                                   "lineOrder",
+                                                   "pixelAspectRatio",
+                                                   "screenWindowCenter",
+                                                   "screenWindowWidth",
+                                                   "name",
+                                                   "type",
+                                                   "version",
+                                                   "chunkCount"};
 
 template <std::size_t N>
 std::string NameIn(const char* const (&names)[N], int index) {
@@ -150,10 +150,11 @@ ExrPart PartOf(const Imf::Header& header) {
             });
   out.attributes = ExrAttributes(header);
   std::erase_if(out.attributes, [](const auto& entry) {
-    return kUsual.count(entry.first) > 0 && entry.first != "version";
+    return kStandardAttributes.count(entry.first) > 0 && entry.first != "version";
   });
   for (auto it = header.begin(); it != header.end(); ++it) {
-    if (kUsual.count(it.name()) > 0 || out.attributes.count(it.name()) > 0) continue;
+    if (kStandardAttributes.count(it.name()) > 0 || out.attributes.count(it.name()) > 0)
+      continue;
     out.other_attributes.push_back(
         fmt::format("{} ({})", it.name(), it.attribute().typeName()));
   }

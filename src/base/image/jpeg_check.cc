@@ -14,14 +14,14 @@ class JpegWalk {
       : path_(path), content_(content) {}
 
   void Run() {
-    constexpr int kMostScans = 500;  // encoders write about ten
+    constexpr int kMaxScans = 500;  // encoders write about ten
     int scans = 0;
     for (int marker = Next(); marker != kJpegEnd; marker = Next()) {
       const std::size_t size = static_cast<std::size_t>(Byte(at_) << 8 | Byte(at_ + 1));
       if (marker == kJpegTables) CheckTables(at_ + 2, at_ + size);
       at_ += size;
-      if (marker != kJpegScan || ++scans <= kMostScans) continue;
-      throw InputError("{}: the image has more than {} scans", path_, kMostScans);
+      if (marker != kJpegScan || ++scans <= kMaxScans) continue;
+      throw InputError("{}: the image has more than {} scans", path_, kMaxScans);
     }
   }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kAngleSlack = 1e-3;
 // Conversion takes time quadratic in the number of wavelengths; the database has 195.
-constexpr std::size_t kMostNodes = 4096;
+constexpr std::size_t kMaxNodes = 4096;
 
 // Linear sRGB under D65 of values at wavelengths, linear between these: turns the
 // wavelengths of each slice into three channels.
@@ -113,10 +113,10 @@ class Reader {
     const std::vector<float> floats =
         file_.Floats(name, -static_cast<float>(kLargestInTensor), false);
     std::vector<double> nodes(floats.begin(), floats.end());
-    if (field.shape.size() != 1 || nodes.empty() || nodes.size() > kMostNodes) {
+    if (field.shape.size() != 1 || nodes.empty() || nodes.size() > kMaxNodes) {
       FailAtByte(field.place,
                  "field \"{}\" has the shape [{}]; expected [count], at most {}", name,
-                 fmt::join(field.shape, ", "), kMostNodes);
+                 fmt::join(field.shape, ", "), kMaxNodes);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (i > 0 && !(nodes[i] > nodes[i - 1])) {

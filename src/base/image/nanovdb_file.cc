@@ -22,7 +22,7 @@ namespace {
 namespace io = nanovdb::io;
 
 // Most bytes from one compressed byte: 1032 for zip, 255 for blosc's LZ4.
-constexpr std::uint64_t kMostExpansion = 1032;
+constexpr std::uint64_t kMaxExpansion = 1032;
 // Bytes of a grid that blosc compresses at a time.
 constexpr std::uint64_t kBloscChunk = std::uint64_t{1} << 30;
 
@@ -132,7 +132,7 @@ void Unblosc(Reader& reader, GridBytes* bytes) {
 GridBytes MakeRoom(const Reader& reader, io::Codec codec, std::uint64_t size) {
   if (codec == io::Codec::NONE) {
     reader.Need(size, "a grid");
-  } else if (size / kMostExpansion > reader.left()) {
+  } else if (size / kMaxExpansion > reader.left()) {
     reader.Fail(reader.place(),
                 "a grid of {} bytes, which the {} that follow cannot become", size,
                 reader.left());

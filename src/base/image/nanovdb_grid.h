@@ -25,9 +25,9 @@ class TypedGrid final : public SparseGrid {
   explicit TypedGrid(GridBytes bytes) : data_(std::move(bytes)) {
     bytes_ = data_.size();
     SetPlace();
-    constexpr int kLeast = std::numeric_limits<int>::min();
-    constexpr int kMost = std::numeric_limits<int>::max();
-    const Range all = RangeIn({{kLeast, kLeast, kLeast}, {kMost, kMost, kMost}});
+    constexpr int kMin = std::numeric_limits<int>::min();
+    constexpr int kMax = std::numeric_limits<int>::max();
+    const Range all = RangeIn({{kMin, kMin, kMin}, {kMax, kMax, kMax}});
     smallest_ = all.first, largest_ = all.second;
   }
 
@@ -116,9 +116,9 @@ class TypedGrid final : public SparseGrid {
   }
 
   Range RangeIn(const Box& box) const {
-    constexpr float kMost = std::numeric_limits<float>::max();
+    constexpr float kMax = std::numeric_limits<float>::max();
     constexpr int kBits = nanovdb::NanoUpper<BuildT>::TOTAL;
-    Range range = {kMost, -kMost};
+    Range range = {kMax, -kMax};
     const auto& root = grid().tree().root();
     std::uint64_t uncovered = 1;  // places that tiles of the root may have
     for (int a = 0; a < 3; ++a) {

@@ -88,8 +88,8 @@ Image DecodePng(const std::string& path, const std::string& content) {
   image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   const int bits = png_get_bit_depth(reader.png, reader.info) *
                    png_get_channels(reader.png, reader.info);
-  constexpr double kMostUnpacked = 1032;  // bytes from one, by deflate
-  CheckImageFits(path, image.width, image.height, 8 * kMostUnpacked / bits,
+  constexpr double kMaxExpansion = 1032;  // bytes from one, by deflate
+  CheckImageFits(path, image.width, image.height, 8 * kMaxExpansion / bits,
                  content.size());
   Require(SetOutput(reader), path, reader);
   image.channels = png_get_channels(reader.png, reader.info);

@@ -75,8 +75,8 @@ Spectrum ReflectanceOfRgb(Rgb rgb) {
   // the flat parts of the sigmoid.
   const Rgb grey = {0.5, 0.5, 0.5};
   Coefficients c = {0, 0, 0};
-  for (double share : {0.25, 0.5, 0.75, 0.9, 1.0})
-    c = FitCoefficients(grey + (rgb - grey) * share, c);
+  for (double fraction : {0.25, 0.5, 0.75, 0.9, 1.0})
+    c = FitCoefficients(grey + (rgb - grey) * fraction, c);
   return [c](double nm) { return Evaluate(c, nm); };
 }
 

@@ -31,12 +31,12 @@ Spectrum WhiteRadiance() {
   // Integral of the photometric curve over that of D65.
   double unit = 0;
   for (int nm = kFirstCarriedNm; nm <= kLastCarriedNm; ++nm) {
-    unit += Luminance(WhiteShare(nm)) / d65(nm);
+    unit += Luminance(WhiteFraction(nm)) / d65(nm);
   }
   return [d65, unit](double nm) { return d65(nm) * unit; };
 }
 
-BucketShares::BucketShares(const SpectralBuckets& buckets) {
+BucketFractions::BucketFractions(const SpectralBuckets& buckets) {
   const Spectrum white = WhiteRadiance();
   const WavelengthBins& bins = CarriedWavelengths();
   for (int b = 0; b < kWavelengthBins; ++b) {

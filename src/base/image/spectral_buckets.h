@@ -32,9 +32,9 @@ Spectrum WhiteRadiance();
 
 /// Contributions of a path to the bucket sums of its pixel. Their mean over samples is
 /// the mean radiance over those wavelengths of a bucket that paths carry.
-class BucketShares {
+class BucketFractions {
  public:
-  explicit BucketShares(const SpectralBuckets& buckets);
+  explicit BucketFractions(const SpectralBuckets& buckets);
 
   /// Adds radiance in units of D65 in a bin of the triple that was drawn. A bucket that
   /// no bin reaches stays 0.

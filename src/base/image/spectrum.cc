@@ -145,8 +145,8 @@ Spectrum BlackbodySpectrum(double kelvin) {
   constexpr double kSecondConstant = 1.438776877e7;  // h c / k, in nm K
   return [kelvin](double nm) {
     const double x = kSecondConstant / (nm * kelvin);
-    const double least = kSecondConstant / (kLastNm * kelvin);
-    return std::pow(nm / 560, -5) * std::exp(least - x) / -std::expm1(-x);
+    const double min_exponent = kSecondConstant / (kLastNm * kelvin);
+    return std::pow(nm / 560, -5) * std::exp(min_exponent - x) / -std::expm1(-x);
   };
 }
 

@@ -128,7 +128,7 @@ Spectrum Daylight(double x, double y) {
 
 Spectrum DaylightD65() { return Daylight(0.31271, 0.32912); }
 
-Rgb WhiteShare(double nm) {
+Rgb WhiteFraction(double nm) {
   static const WhiteTable table;
   return table.At(nm);
 }

@@ -28,7 +28,7 @@ Spectrum Interpolated(std::vector<double> nm, std::vector<double> values, bool e
 
 /// What each channel of linear sRGB has of D65 per nm, by tables of the CIE: 1 in all.
 /// Nothing outside 380 to 780 nm.
-Rgb WhiteShare(double nm);
+Rgb WhiteFraction(double nm);
 
 /// Colour of a reflectance under D65; 1 becomes exactly (1, 1, 1). Not clamped.
 Rgb ColorUnderD65(const Spectrum& reflectance);

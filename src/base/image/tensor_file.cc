@@ -10,7 +10,7 @@ namespace lanelight {
 namespace {
 
 constexpr std::string_view kMagic("tensor_file\0", 12);
-constexpr std::uint64_t kMostFields = 1000, kMostDimensions = 16;
+constexpr std::uint64_t kMaxFields = 1000, kMaxDimensions = 16;
 constexpr int kFloat32 = 10;
 constexpr const char* kTypeNames[] = {"none",  "uint8",   "int8",    "uint16",
                                       "int16", "uint32",  "int32",   "uint64",
@@ -42,8 +42,8 @@ TensorFile::TensorFile(std::string bytes) : bytes_(std::move(bytes)) {
     FailAtByte(kMagic.size(), "version {}.{}; supported: 1.0", major, minor);
   }
   const auto count = Read<std::uint32_t>("the number of fields");
-  if (count > kMostFields) {
-    FailAtByte(at_ - 4, "{} fields; at most {}", count, kMostFields);
+  if (count > kMaxFields) {
+    FailAtByte(at_ - 4, "{} fields; at most {}", count, kMaxFields);
   }
   for (std::uint32_t i = 0; i < count; ++i) ReadField();
 }
@@ -61,8 +61,8 @@ void TensorFile::ReadField() {
   const std::string name = bytes_.substr(at_, length);
   at_ += length;
   const auto dimensions = Read<std::uint16_t>("a number of dimensions");
-  if (dimensions > kMostDimensions) {
-    FailAtByte(at_ - 2, "{} dimensions; at most {}", dimensions, kMostDimensions);
+  if (dimensions > kMaxDimensions) {
+    FailAtByte(at_ - 2, "{} dimensions; at most {}", dimensions, kMaxDimensions);
   }
   field.type = Read<std::uint8_t>("a type");
   if (field.type == 0 || field.type >= kTypes) {

@@ -20,13 +20,13 @@ double Sigmoid(double p) { return 0.5 + 0.5 * p / std::sqrt(1 + p * p); }
 // Quadrature of a fit, one entry per bin.
 struct Quadrature {
   std::array<double, kWavelengthBins> place;
-  std::array<Rgb, kWavelengthBins> share;
+  std::array<Rgb, kWavelengthBins> weight;
 
   Quadrature() {
     const WavelengthBins& bins = CarriedWavelengths();
     for (int b = 0; b < kWavelengthBins; ++b) {
       place[b] = SigmoidPlace(bins.centre[b]);
-      share[b] = bins.film[b] / kTriples;
+      weight[b] = bins.film[b] / kTriples;
     }
   }
 };
@@ -46,8 +46,8 @@ struct Colored {
     for (int b = 0; b < kWavelengthBins; ++b) {
       const double t = q.place[b], p = (c[0] * t + c[1]) * t + c[2];
       const double inverse = 1 / std::sqrt(1 + p * p);
-      color += q.share[b] * (0.5 + 0.5 * p * inverse);
-      const Rgb change = q.share[b] * (0.5 * inverse * inverse * inverse);
+      color += q.weight[b] * (0.5 + 0.5 * p * inverse);
+      const Rgb change = q.weight[b] * (0.5 * inverse * inverse * inverse);
       slope[0] += change * (t * t);
       slope[1] += change * t;
       slope[2] += change;
@@ -84,7 +84,7 @@ Polynomial Fit(Rgb target, Polynomial c) {
 }
 
 double NodeValue(int node) {
-  const double end = HalfTangentOfGrey(1 - kLeastUpsampled);
+  const double end = HalfTangentOfGrey(1 - kMinUpsampled);
   const double h = end * (2.0 * node / (kUpsamplingNodes - 1) - 1);
   return 0.5 + h / (1 + h * h);
 }
@@ -146,7 +146,7 @@ SigmoidSpectrum FitSigmoid(Rgb rgb, const SigmoidSpectrum* near) {
   // the flat parts of the sigmoid.
   Polynomial c = {0, 0, 0};
   const Rgb grey = {0.5, 0.5, 0.5};
-  for (double share : {0.5, 0.8, 0.95, 1.0}) c = Fit(grey + (rgb - grey) * share, c);
+  for (double weight : {0.5, 0.8, 0.95, 1.0}) c = Fit(grey + (rgb - grey) * weight, c);
   return {c};
 }
 
@@ -171,7 +171,7 @@ const std::vector<float>& UpsamplingTable() {
 
 SigmoidSpectrum SigmoidByTable(Rgb rgb) {
   static const auto rows = PolynomialThrough();
-  static const double end = HalfTangentOfGrey(1 - kLeastUpsampled);
+  static const double end = HalfTangentOfGrey(1 - kMinUpsampled);
   struct Axis {
     double part;
     std::size_t stride;
@@ -179,7 +179,7 @@ SigmoidSpectrum SigmoidByTable(Rgb rgb) {
   std::array<Axis, 3> axes;
   std::size_t at = 0, stride = 3;
   for (int i = 0; i < 3; ++i, stride *= kUpsamplingNodes) {
-    const double v = std::clamp(rgb[i], kLeastUpsampled, 1 - kLeastUpsampled);
+    const double v = std::clamp(rgb[i], kMinUpsampled, 1 - kMinUpsampled);
     const double x = (HalfTangentOfGrey(v) / end + 1) / 2 * (kUpsamplingNodes - 1);
     const double cell = std::clamp(std::floor(x), 0.0, kUpsamplingNodes - 2.0);
     axes[static_cast<std::size_t>(i)] = {x - cell, stride};
@@ -188,12 +188,12 @@ SigmoidSpectrum SigmoidByTable(Rgb rgb) {
   // From corner to corner along the axis of the largest part first.
   std::sort(axes.begin(), axes.end(), [](Axis a, Axis b) { return a.part > b.part; });
   const float* node = UpsamplingTable().data() + at;
-  double share = 1 - axes[0].part;
-  Vec3d h = Vec3d{node[0], node[1], node[2]} * share;
+  double weight = 1 - axes[0].part;
+  Vec3d h = Vec3d{node[0], node[1], node[2]} * weight;
   for (std::size_t i = 0; i < 3; ++i) {
     node += axes[i].stride;
-    share = axes[i].part - (i < 2 ? axes[i + 1].part : 0);
-    h += Vec3d{node[0], node[1], node[2]} * share;
+    weight = axes[i].part - (i < 2 ? axes[i + 1].part : 0);
+    h += Vec3d{node[0], node[1], node[2]} * weight;
   }
   SigmoidSpectrum sigmoid;
   for (std::size_t k = 0; k < 3; ++k) {

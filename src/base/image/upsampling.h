@@ -36,7 +36,7 @@ Spectrum UpsampledColor(Rgb rgb);
 
 /// Table for colours that are known while rendering: nodes of a cube, red fastest, with
 /// HalfTangent(p) at kUpsamplingNm. Coordinates are those of channels v kept
-/// kLeastUpsampled from 0 and 1: the half tangent of the p that a grey v has, scaled to
+/// kMinUpsampled from 0 and 1: the half tangent of the p that a grey v has, scaled to
 /// [0, kUpsamplingNodes - 1]. Between nodes it is linear in each tetrahedron, so that
 /// greys stay what they are; the colour of others is met within 1e-3 in the mean over the
 /// cube.

@@ -16,10 +16,10 @@ constexpr int kNodes = kLastCarriedNm - kFirstCarriedNm + 1;
 constexpr double kSecondSegment = 488, kThirdSegment = 575;
 
 // Shares of D65 of each channel: per nm, linear between whole ones, and cumulative.
-class WhiteShares {
+class WhiteFractions {
  public:
-  WhiteShares() {
-    for (int i = 0; i < kNodes; ++i) density_[i] = WhiteShare(kFirstCarriedNm + i);
+  WhiteFractions() {
+    for (int i = 0; i < kNodes; ++i) density_[i] = WhiteFraction(kFirstCarriedNm + i);
     for (int i = 1; i < kNodes; ++i) {
       below_[i] = below_[i - 1] + (density_[i - 1] + density_[i]) / 2;
     }
@@ -52,9 +52,9 @@ class WhiteShares {
   std::array<Rgb, kNodes> below_{};
 };
 
-const WhiteShares& Shares() {
-  static const WhiteShares shares;
-  return shares;
+const WhiteFractions& Shares() {
+  static const WhiteFractions fractions;
+  return fractions;
 }
 
 Rgb SumBelow(const Vec3d& nm) {
@@ -91,8 +91,8 @@ Vec3d Solve(Vec3d nm, Rgb wanted) {
 
 // Weight of a wavelength in the response of the film.
 double Weight(double nm) {
-  const Rgb share = Shares().Density(nm);
-  return std::abs(share.x) + std::abs(share.y) + std::abs(share.z) + 1e-12;
+  const Rgb fraction = Shares().Density(nm);
+  return std::abs(fraction.x) + std::abs(fraction.y) + std::abs(fraction.z) + 1e-12;
 }
 
 double WeightedMean(double low, double high, const Spectrum& spectrum) {
@@ -111,8 +111,8 @@ WavelengthBins MakeBins() {
   Vec3d nm = {kFirstCarriedNm, kSecondSegment, kThirdSegment};
   const Rgb first = SumBelow(nm);
   for (int i = 0; i < kTriples; ++i) {
-    const double share = double(i) / kTriples;
-    if (i > 0) nm = Solve(nm, first + Rgb{share, share, share});
+    const double fraction = double(i) / kTriples;
+    if (i > 0) nm = Solve(nm, first + Rgb{fraction, fraction, fraction});
     for (int s = 0; s < 3; ++s) bins.edge[s * kTriples + i] = nm[s];
   }
   bins.edge.back() = kLastCarriedNm;

@@ -14,12 +14,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The tail of 1 % behind the widening holds 20 of 2000 resamples: a quantile known within
 // some 10 % of its distance from the centre.
-constexpr std::size_t kLeastRepetitions = 8;
+constexpr std::size_t kMinRepetitions = 8;
 constexpr double kFinestTail = 0.01;
 constexpr int kResamples = 2000;
 // Beyond this the bootstrap's quantile is an artefact of ties (a resample without the one
 // repetition that differs has no spread at all).
-constexpr double kMostWidening = 3;
+constexpr double kMaxWidening = 3;
 
 // SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
 // generators"): the n-th number is a mix of n times a constant.
@@ -105,7 +105,7 @@ double Widening(Jackknife& jackknife, std::size_t n, double value, double tail) 
   const auto at = t.begin() + static_cast<std::ptrdiff_t>((1 - tail) * kResamples);
   std::nth_element(t.begin(), at, t.end());
   return std::clamp(*at / StudentTwoSidedQuantile(tail, static_cast<double>(n) - 1), 1.0,
-                    kMostWidening);
+                    kMaxWidening);
 }
 
 }  // namespace
@@ -127,7 +127,7 @@ double HalfWidth(const Repetitions& repetitions, const OfMeans& f, double confid
   if (whole.error <= Rounding(whole.value)) return 0;
   const double tail = 1 - confidence;
   double factor = StudentTwoSidedQuantile(tail, static_cast<double>(n) - 1);
-  if (n >= kLeastRepetitions) {
+  if (n >= kMinRepetitions) {
     factor *= Widening(jackknife, n, whole.value, std::max(tail, kFinestTail));
   }
   return factor * whole.error;

@@ -11,7 +11,7 @@ namespace lanelight::stat {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastSeconds = 1e-9;  // what a coarse clock cannot show
+constexpr double kMinSeconds = 1e-9;  // what a coarse clock cannot show
 
 // Logarithms: of samples, mean error, mean seconds.
 struct Point {
@@ -63,9 +63,9 @@ Target Find(std::span<const Point> points, double error) {
   const Point& next = *(last - 1);
   if (next.error == error) return {next.samples, next.seconds, false};
   if (last == points.rend()) return Continue(points, points.front(), error);
-  const double share = (error - last->error) / (next.error - last->error);
-  return {last->samples + share * (next.samples - last->samples),
-          last->seconds + share * (next.seconds - last->seconds), false};
+  const double fraction = (error - last->error) / (next.error - last->error);
+  return {last->samples + fraction * (next.samples - last->samples),
+          last->seconds + fraction * (next.seconds - last->seconds), false};
 }
 
 // The levels as columns: error and seconds of each, a row for each repetition that all
@@ -103,7 +103,7 @@ std::vector<Point> ToPoints(std::span<const Level> levels,
   points.reserve(levels.size());
   for (std::size_t k = 0; k < levels.size(); ++k) {
     points.push_back({std::log(levels[k].samples), std::log(means[2 * k]),
-                      std::log(std::max(means[2 * k + 1], kLeastSeconds))});
+                      std::log(std::max(means[2 * k + 1], kMinSeconds))});
   }
   return points;
 }

@@ -12,15 +12,16 @@
 namespace lanelight::stat {
 namespace {
 
-constexpr std::size_t kLeastPairs = 3;
+constexpr std::size_t kMinPairs = 3;
 // Lower limit of seconds, so that a coarse clock cannot make an efficiency infinite.
-constexpr double kLeastCost = 1e-9;
+constexpr double kMinCostSeconds = 1e-9;
 
 Cost MeanCost(std::span<const Cost> costs) {
   Cost mean;
   for (const Cost& c : costs) {
     mean.error += c.error / static_cast<double>(costs.size());
-    mean.seconds += std::max(c.seconds, kLeastCost) / static_cast<double>(costs.size());
+    mean.seconds +=
+        std::max(c.seconds, kMinCostSeconds) / static_cast<double>(costs.size());
   }
   mean.error = std::max(0.0, mean.error);
   return mean;
@@ -41,15 +42,15 @@ Interval EfficiencyRatio(std::span<const Cost> baseline, std::span<const Cost> o
   if (a.error == 0) return WithoutBounds(0);
   if (b.error == 0) return WithoutBounds(std::numeric_limits<double>::infinity());
   const double value = a.error * a.seconds / (b.error * b.seconds);
-  if (baseline.size() < kLeastPairs) return WithoutBounds(value);
+  if (baseline.size() < kMinPairs) return WithoutBounds(value);
 
   Repetitions pairs(4);
   for (std::size_t i = 0; i < baseline.size(); ++i) {
     // Errors relative to their mean, so that no product leaves the range of double.
     pairs.Add(std::array{baseline[i].error / a.error,
-                         std::max(baseline[i].seconds, kLeastCost) / a.seconds,
+                         std::max(baseline[i].seconds, kMinCostSeconds) / a.seconds,
                          other[i].error / b.error,
-                         std::max(other[i].seconds, kLeastCost) / b.seconds});
+                         std::max(other[i].seconds, kMinCostSeconds) / b.seconds});
   }
   const double half = HalfWidth(pairs, LogRatio, confidence);
   const Interval ratio = {value, value * std::exp(-half), value * std::exp(half)};
@@ -66,16 +67,18 @@ Interval Widened(const Interval& ratio, double deviation, double confidence) {
 
 std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
                                         double confidence,
-                                        std::span<const double> doubts) {
+                                        std::span<const double> uncertainties) {
   const int n = static_cast<int>(strategies.size());
   std::vector<RankRange> ranks(strategies.size(), {1, n});
   if (n < 2) return ranks;
   const double level = SidakLevel(1 - confidence, n * (n - 1) / 2);
   for (std::size_t i = 0; i < strategies.size(); ++i) {
     for (std::size_t j = i + 1; j < strategies.size(); ++j) {
-      const double doubt = doubts.empty() ? 0 : std::hypot(doubts[i], doubts[j]);
-      const Interval ratio = Widened(
-          EfficiencyRatio(strategies[i], strategies[j], 1 - level), doubt, 1 - level);
+      const double extra_uncertainty =
+          uncertainties.empty() ? 0 : std::hypot(uncertainties[i], uncertainties[j]);
+      const Interval ratio =
+          Widened(EfficiencyRatio(strategies[i], strategies[j], 1 - level),
+                  extra_uncertainty, 1 - level);
       if (!ratio.HasBounds() || ratio.Contains(1)) continue;
       const bool other_is_better = ratio.low > 1;
       ranks[other_is_better ? i : j].best += 1;

@@ -43,10 +43,10 @@ Interval Widened(const Interval& ratio, double deviation, double confidence);
 
 /// Ranks of all strategies, each with the same number of repetitions. All pairwise claims
 /// hold together with probability `confidence` (Sidak). Ranks are independent of order.
-/// `doubts`: of each strategy, the standard deviation of an error of the logarithm of its
-/// efficiency that all its repetitions share; empty: none.
+/// `uncertainties`: of each strategy, the standard deviation of an error of the logarithm
+/// of its efficiency that all its repetitions share; empty: none.
 std::vector<RankRange> RankByEfficiency(const std::vector<std::vector<Cost>>& strategies,
                                         double confidence,
-                                        std::span<const double> doubts = {});
+                                        std::span<const double> uncertainties = {});
 
 }  // namespace lanelight::stat

@@ -80,17 +80,17 @@ std::vector<std::size_t> HolmRejections(std::span<const double> p, double family
   return order;
 }
 
-Consensus ConsensusOf(std::span<const MeanEstimate> measurements, double least_variance) {
-  LL_CHECK(!measurements.empty() && least_variance > 0);
+Consensus ConsensusOf(std::span<const MeanEstimate> measurements, double min_variance) {
+  LL_CHECK(!measurements.empty() && min_variance > 0);
   const auto weight = [&](const MeanEstimate& m) {
-    return 1 / std::max(m.variance, least_variance);
+    return 1 / std::max(m.variance, min_variance);
   };
   double weights = 0, mean = 0, quartic = 0, chi_square = 0;
   for (const MeanEstimate& m : measurements) weights += weight(m);
   for (const MeanEstimate& m : measurements) {
-    const double share = weight(m) / weights;
-    mean += share * m.mean;
-    quartic += share * share / std::max(m.dof, 1.0);
+    const double fraction = weight(m) / weights;
+    mean += fraction * m.mean;
+    quartic += fraction * fraction / std::max(m.dof, 1.0);
   }
   for (const MeanEstimate& m : measurements) {
     chi_square += weight(m) * (m.mean - mean) * (m.mean - mean);
@@ -103,11 +103,11 @@ Consensus ConsensusOf(std::span<const MeanEstimate> measurements, double least_v
 }
 
 double DeparturePValue(const MeanEstimate& one, std::span<const MeanEstimate> others,
-                       double least_variance) {
+                       double min_variance) {
   if (others.empty()) return 1;
-  const Consensus consensus = ConsensusOf(others, least_variance);
+  const Consensus consensus = ConsensusOf(others, min_variance);
   MeanEstimate own = one;
-  own.variance = std::max(own.variance, least_variance) * consensus.birge;
+  own.variance = std::max(own.variance, min_variance) * consensus.birge;
   return WelchPValue(own, consensus.estimate);
 }
 

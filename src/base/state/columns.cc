@@ -181,10 +181,11 @@ void ReadColumns(hid_t file, const std::string& group,
     const std::size_t rows = tiles != nullptr ? tiles->size() : column.rows;
     const std::string has = Layout(TypeName(datasets.back()),
                                    hdf5::DimsOf(datasets.back())),
-                      wants = Layout(Name(column.type), DimsInFile(rows, column.shape));
-    if (has == wants) continue;
+                      expected =
+                          Layout(Name(column.type), DimsInFile(rows, column.shape));
+    if (has == expected) continue;
     throw hdf5::Failure(fmt::format("the state's {} is {}; this render has {}",
-                                    Describe(group, column.name), has, wants));
+                                    Describe(group, column.name), has, expected));
   }
   for (std::size_t i = 0; i < into.size(); ++i) ReadRows(datasets[i], into[i], tiles);
 }

@@ -99,9 +99,9 @@ std::vector<hsize_t> DimsOf(const Handle& dataset) {
 }
 
 void CheckStored(const Handle& dataset, const std::string& name, double bytes) {
-  constexpr double kMostExpansion = 1032;  // by deflate
+  constexpr double kMaxExpansion = 1032;  // by deflate
   const auto stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
-  if (bytes <= kMostExpansion * stored) return;
+  if (bytes <= kMaxExpansion * stored) return;
   throw Failure(fmt::format("{} claims {:.0f} bytes, and the file has {:.0f} for it",
                             name, bytes, stored));
 }

@@ -27,7 +27,7 @@ constexpr double kTiles = 0.15;
 constexpr std::uint64_t kMinSamples = 4096;
 constexpr std::size_t kBest = 2;  // tried again, and their combination
 // Gain from which a change stays in the trial.
-constexpr double kPromising = 1.03;
+constexpr double kMinTrialGain = 1.03;
 // A trial is ended if it takes this factor of its planned processor time, on two
 // processors; but not in the first second, in which much runs for the first time. Advice
 // then depends on the machine, but not on other programs.
@@ -50,11 +50,12 @@ struct Tried {
 };
 
 // Returns a gain with its 90 % interval, which includes the scatter of the cost of rays
-// between scenes. `least`: the lower end without noise.
-Interval WithUncertainty(const TrialGain& gain, double least, double price_spread) {
+// between scenes. `minimum`: the lower end without noise.
+Interval WithUncertainty(const TrialGain& gain, double minimum,
+                         double price_uncertainty) {
   const double error =
-      kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_spread);
-  return {std::exp(gain.log), std::exp(least - error), std::exp(gain.most + error)};
+      kNormal95 * std::hypot(kExtraUncertainty * gain.standard_error, price_uncertainty);
+  return {std::exp(gain.log), std::exp(minimum - error), std::exp(gain.maximum + error)};
 }
 
 std::uint32_t SppFor(std::uint64_t samples) {
@@ -67,7 +68,7 @@ class Adviser {
   Adviser(const Job& job, const AdviceOptions& options)
       : job_(job),
         options_(options),
-        pilot_(options.pilot > 0 ? options.pilot : kPilotShare * options.seconds),
+        pilot_(options.pilot > 0 ? options.pilot : kTrialFraction * options.seconds),
         training_{.stop = options.stop},
         trial_(job.scene, training_, SeedOf(job.seed, 0), PlannedSamples()) {
     LL_CHECK(options.seconds > 0);
@@ -77,7 +78,7 @@ class Adviser {
     all_ = CandidatesFor(job_.scene, job_.plan.options);
     std::vector<Tried> tried = First();
     if (tried.size() > 1 && Round(tried, 0)) {
-      DropWorse(tried);
+      DropWorseCandidates(tried);
       if (tried.size() > 1 && Round(tried, kFirst)) Second(tried);
     }
     if (advice_.rays > 0 && !advice_.interrupted) TryBlocks(tried);
@@ -92,14 +93,14 @@ class Adviser {
   }
   // Returns the samples of each candidate in a round with this fraction of the trial. The
   // cost of a new combination is that of its first part.
-  std::uint64_t SamplesFor(const std::vector<Tried>& tried, double share) const {
+  std::uint64_t SamplesFor(const std::vector<Tried>& tried, double fraction) const {
     double rays = 0;
     for (const Tried& t : tried) {
       const bool known = !t.entry.measure.variances.empty();
       rays += (known ? t : tried[1]).entry.measure.cost;
     }
     if (rays == 0) return 0;
-    return std::uint64_t(share * pilot_ * kRaysPerSecond / rays);
+    return std::uint64_t(fraction * pilot_ * kRaysPerSecond / rays);
   }
 
   // Returns the candidates of the first round: as many as can have kMinSamples samples.
@@ -110,8 +111,8 @@ class Adviser {
     }
     const double of_all = double(kMinSamples) * kTypicalRays * double(tried.size());
     advice_.seconds_to_try = of_all / (kProbe * kRaysPerSecond);
-    const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
-    const auto reached = std::size_t(share * double(tried.size()));
+    const double fraction = std::min(1.0, pilot_ / advice_.seconds_to_try);
+    const auto reached = std::size_t(fraction * double(tried.size()));
     for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
       all_[tried[i].index].reason = "the trial's time did not reach it";
     }
@@ -119,8 +120,8 @@ class Adviser {
     return tried;
   }
 
-  bool Round(std::vector<Tried>& tried, double share) {
-    const std::uint64_t samples = std::max(SamplesFor(tried, share), kMinSamples);
+  bool Round(std::vector<Tried>& tried, double fraction) {
+    const std::uint64_t samples = std::max(SamplesFor(tried, fraction), kMinSamples);
     advice_.interrupted |= IsTooSlow() || !TryAll(tried, samples);
     if (advice_.interrupted) return false;
     for (const Tried& t : tried) {
@@ -135,11 +136,11 @@ class Adviser {
 
   // Tries the default first, on pixels of no other round. Returns false if stopped.
   bool TryAll(std::vector<Tried>& tried, std::uint64_t samples) {
-    trial_.Begin(samples, SppFor(samples), turn_++);
+    trial_.Begin(samples, SppFor(samples), round_++);
     for (Tried& t : tried) {
       const AdvisedCandidate& c = all_[t.index];
       if (!t.entry.has_learned) {
-        t.entry = ToTry(PreparedFor(c), job_.plan.options, c.changes, c.price);
+        t.entry = PrepareTrial(PreparedFor(c), job_.plan.options, c.changes, c.price);
       }
       if (!trial_.Try(t.entry, tried.front().entry)) return false;
     }
@@ -150,26 +151,26 @@ class Adviser {
   // changes in the plan.
   PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
     Strategy prepared = candidate.strategy;
-    const Strategy usual;
-    prepared.roulette = usual.roulette;
-    prepared.termination = usual.termination;
-    prepared.floor = usual.floor;
-    prepared.first = usual.first;
-    prepared.scale = usual.scale;
+    const Strategy baseline;
+    prepared.roulette = baseline.roulette;
+    prepared.termination = baseline.termination;
+    prepared.floor = baseline.floor;
+    prepared.first = baseline.first;
+    prepared.scale = baseline.scale;
     return WithStrategy(job_.scene, prepared);
   }
 
   // Returns the efficiency by the last round, with the uncertainty of pixels that were
   // omitted.
   Interval EfficiencyOf(const Tried& t) const {
-    TrialGain gain = t.entry.Told();
-    const double by_all = GainOf(t.entry.measure, t.entry.usual).log;
+    TrialGain gain = t.entry.EfficiencyGain();
+    const double by_all = GainOf(t.entry.measure, t.entry.baseline).log;
     gain.standard_error = std::hypot(gain.standard_error, gain.log - by_all);
-    return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_spread);
+    return WithUncertainty(gain, t.entry.Gain().log, all_[t.index].price_uncertainty);
   }
 
   // Drops, after few samples, candidates that are not expected to become the best.
-  void DropWorse(std::vector<Tried>& tried) {
+  void DropWorseCandidates(std::vector<Tried>& tried) {
     std::erase_if(tried, [&](const Tried& t) {
       const bool misses = t.entry.MissesLight(), worse = EfficiencyOf(t).high < 1;
       if (t.index == 0 || !(misses || worse)) return false;
@@ -192,7 +193,7 @@ class Adviser {
     };
     std::sort(tried.begin() + 1, tried.end(), better);
     while (tried.size() > 1 &&
-           (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kPromising))) {
+           (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kMinTrialGain))) {
       Drop(tried.back(), "less efficient than others after a round");
       tried.pop_back();
     }
@@ -204,7 +205,7 @@ class Adviser {
     tried.resize(2);
     if (!Round(tried, kLast)) return;
     const Tried& last = tried.back();
-    if (last.entry.Beyond(kMustGain, kNormal95) > 0) chosen_ = last.index;
+    if (last.entry.Beyond(kMinChangeGain, kNormal95) > 0) chosen_ = last.index;
     unseen_ = chosen_ == 0 && last.entry.IsCarriedByFew() ? last.index : 0;
   }
 
@@ -221,15 +222,15 @@ class Adviser {
   }
 
   void TryBlocks(std::vector<Tried>& tried) {
-    const Tried& usual = tried.front();
-    const Tried& chosen = chosen_ == 0 ? usual : tried.back();
-    const Tried& base = chosen.entry.splits ? usual : chosen;
+    const Tried& baseline = tried.front();
+    const Tried& chosen = chosen_ == 0 ? baseline : tried.back();
+    const Tried& base = chosen.entry.splits ? baseline : chosen;
     const double gain = chosen_ == 0 ? 1 : EfficiencyOf(chosen).value;
     // A sample with blocks costs 1.5 times as much as one without.
     const auto samples =
         std::uint64_t(kTiles * pilot_ * kRaysPerSecond / (2.5 * base.entry.measure.cost));
     for (const TriedBlocks& blocks :
-         trial_.TryBlocks(usual.entry, chosen.entry, gain, samples)) {
+         trial_.TryBlocks(baseline.entry, chosen.entry, gain, samples)) {
       AddBlocks(base, blocks, samples);
       if (blocks.pays) chosen_ = all_.size() - 1;
     }
@@ -238,16 +239,16 @@ class Adviser {
 
   // Adds `base` combined with the blocks.
   void AddBlocks(const Tried& base, const TriedBlocks& blocks, std::uint64_t samples) {
-    AdvisedCandidate both = WithMore(all_[base.index], blocks.changes);
+    AdvisedCandidate both = WithAddedChanges(all_[base.index], blocks.changes);
     both.meaning = "gains where most of the noise is indirect light";
-    const Interval usual = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
+    const Interval baseline = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
     const Interval more =
-        WithUncertainty(blocks.gain, blocks.gain.least, kReusePriceSpread);
-    both.efficiency = {usual.value * more.value, usual.low * more.low,
-                       usual.high * more.high};
+        WithUncertainty(blocks.gain, blocks.gain.minimum, kReusePriceUncertainty);
+    both.efficiency = {baseline.value * more.value, baseline.low * more.low,
+                       baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.pays_per_pixel ? "gains by pixels, and loses after a filter"
-                                        : "not clearly better";
+    both.reason = blocks.gains_per_pixel ? "gains by pixels, and loses after a filter"
+                                         : "not clearly better";
     both.samples = samples;
     all_.push_back(both);
   }
@@ -299,7 +300,7 @@ class Adviser {
   const double pilot_;  // seconds of kRaysPerSecond
   const TrainingOptions training_;
   StrategyTrial trial_;
-  std::uint64_t turn_ = 0;  // of rounds
+  std::uint64_t round_ = 0;  // of rounds
   std::size_t chosen_ = 0, unseen_ = 0;
   Advice advice_;
   std::vector<AdvisedCandidate>& all_ = advice_.candidates;

@@ -31,10 +31,10 @@ const char* Name(CandidateStatus status);
 
 /// A strategy to try on this scene, and its result.
 struct AdvisedCandidate {
-  Strategy strategy;                   // complete
-  std::string changes;                 // relative to the default
-  std::string meaning;                 // when it is more efficient
-  double price = 1, price_spread = 0;  // DecisionCandidate
+  Strategy strategy;                        // complete
+  std::string changes;                      // relative to the default
+  std::string meaning;                      // when it is more efficient
+  double price = 1, price_uncertainty = 0;  // DecisionCandidate
   CandidateStatus status = CandidateStatus::kSkipped;
   std::string reason = {};  // of the status
   /// Efficiency relative to the default (1 without bounds for the default itself) with
@@ -54,7 +54,7 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
                                          const AdvisedCandidate& b);
 
 /// Adds changes (text as in --strategy) to a candidate.
-AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes);
+AdvisedCandidate WithAddedChanges(AdvisedCandidate candidate, const std::string& changes);
 
 /// Rays that a second of the trial stands for, about the speed of two processors of 2020.
 /// Counting work in rays makes the advice the same on every machine.
@@ -63,12 +63,12 @@ inline constexpr double kRaysPerSecond = 8e6;
 struct AdviceOptions {
   double seconds = 0;  // wall clock of trial and render together
   double pilot =
-      0;  // seconds of the trial at kRaysPerSecond; 0: kPilotShare of `seconds`
+      0;  // seconds of the trial at kRaysPerSecond; 0: kTrialFraction of `seconds`
   const std::atomic<bool>* stop = nullptr;
 };
 
 /// Fraction of the time for the trial; small, since the advice may change nothing.
-inline constexpr double kPilotShare = 0.03;
+inline constexpr double kTrialFraction = 0.03;
 
 struct Advice {
   /// The renderer's default, then changes of one axis and the scene's own strategy, then

@@ -23,7 +23,7 @@ constexpr std::size_t kFewLights = 4;
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
 // Spread of the cost of a ray for strategies without measured cost.
-constexpr double kUnknownSpread = 0.15;
+constexpr double kUnknownPriceUncertainty = 0.15;
 
 // Returns why the scene refuses the strategy; empty if not, with `key` its plan's key.
 std::string Refusal(const Strategy& strategy, const PlanOptions& options,
@@ -57,7 +57,8 @@ const char* Name(CandidateStatus status) {
   return kNames[int(status)];
 }
 
-AdvisedCandidate WithMore(AdvisedCandidate candidate, const std::string& changes) {
+AdvisedCandidate WithAddedChanges(AdvisedCandidate candidate,
+                                  const std::string& changes) {
   ApplyStrategy(changes, {std::make_shared<const std::string>("advise"), 0, 0},
                 candidate.strategy);
   candidate.changes = JoinedChanges(candidate.changes, changes);
@@ -75,25 +76,25 @@ std::optional<AdvisedCandidate> Together(const AdvisedCandidate& a,
   both.changes = a.changes;
   both.meaning = "both changes are more efficient";
   both.price = a.price * b.price;
-  both.price_spread = std::hypot(a.price_spread, b.price_spread);
-  return WithMore(both, b.changes);
+  both.price_uncertainty = std::hypot(a.price_uncertainty, b.price_uncertainty);
+  return WithAddedChanges(both, b.changes);
 }
 
 std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
                                             const PlanOptions& options) {
-  const Strategy own = scene.strategy, usual;
-  std::vector<AdvisedCandidate> out = {{usual, "", "the renderer's default"}};
+  const Strategy own = scene.strategy, baseline;
+  std::vector<AdvisedCandidate> out = {{baseline, "", "the renderer's default"}};
   for (const DecisionCandidate& c : kDecisionCandidates) {
-    AdvisedCandidate changed = WithMore({}, c.changes);
+    AdvisedCandidate changed = WithAddedChanges({}, c.changes);
     if (changed.strategy == own) continue;
     changed.meaning = c.reason;
     changed.price = c.price;
-    changed.price_spread = c.price_spread;
+    changed.price_uncertainty = c.price_uncertainty;
     out.push_back(changed);
   }
-  if (own != usual) {
+  if (own != baseline) {
     out.insert(out.begin() + kPlaceOfOwn,
-               {own, ToText(own), kOwnStrategy, 1, kUnknownSpread});
+               {own, ToText(own), kOwnStrategy, 1, kUnknownPriceUncertainty});
   }
   std::vector<std::string> keys;
   for (AdvisedCandidate& candidate : out) {

@@ -94,9 +94,9 @@ class AgreementTest {
       out_.p = kNotKnown;
       return out_;
     }
-    double least = 1;
-    for (double p : p_) least = std::min(least, std::isnan(p) ? 1 : p);
-    out_.p = std::min(1.0, least * double(p_.size()));
+    double min_p = 1;
+    for (double p : p_) min_p = std::min(min_p, std::isnan(p) ? 1 : p);
+    out_.p = std::min(1.0, min_p * double(p_.size()));
     for (std::size_t i : stat::HolmRejections(p_, out_.level)) {
       if (where_[i] == out_.layout.size()) {
         out_.image_failed = true;
@@ -127,7 +127,8 @@ class AgreementTest {
   }
 
   double PValue(const MeanEstimate& a, const MeanEstimate& b, double rounding) const {
-    if (!RestsOnEnough(a, b, ratio_) || !RestsOnEnough(b, a, 1 / ratio_)) {
+    if (!HasEnoughObservations(a, b, ratio_) ||
+        !HasEnoughObservations(b, a, 1 / ratio_)) {
       return kNotKnown;
     }
     return stat::WelchPValue(a, b, rounding * std::abs(b.mean));
@@ -142,17 +143,17 @@ class AgreementTest {
 
   // Returns the largest of the channels' smallest detectable differences.
   double Detectable() const {
-    double most = 0;
+    double max_difference = 0;
     for (const Whole& w : wholes_) {
       if (!w.tested) return kNotKnown;
       const MeanEstimate pair[] = {w.test, w.reference};
       const MeanEstimate half_sum = stat::Average({pair[0], pair[1]});
       const double t =
           stat::StudentTwoSidedQuantile(out_.level / double(p_.size()), half_sum.dof);
-      most = std::max(most,
-                      2 * t * std::sqrt(half_sum.variance) / std::abs(w.reference.mean));
+      max_difference = std::max(max_difference, 2 * t * std::sqrt(half_sum.variance) /
+                                                    std::abs(w.reference.mean));
     }
-    return most;
+    return max_difference;
   }
 
   Agreement out_;
@@ -163,7 +164,7 @@ class AgreementTest {
   std::vector<Whole> wholes_;
 };
 
-Agreement CannotTell(const Image& test, const std::string& why) {
+Agreement Inconclusive(const Image& test, const std::string& why) {
   Agreement out;
   out.why = why;
   out.level = kBiasLevel;
@@ -183,15 +184,15 @@ std::string Name(AgreementVerdict verdict) {
 Agreement TestAgreement(const Image& test, const Image& reference, bool exact_reference) {
   const NoisyChannels a = FindNoisyChannels(test), b = FindNoisyChannels(reference);
   if (a.variances.empty() && b.variances.empty() && !exact_reference) {
-    return CannotTell(test, "neither image has variances");
+    return Inconclusive(test, "neither image has variances");
   }
-  if (a.variances.empty()) return CannotTell(test, "the first image has no variances");
+  if (a.variances.empty()) return Inconclusive(test, "the first image has no variances");
   if (b.variances.empty() && !exact_reference) {
-    return CannotTell(test,
-                      "the reference has no variances (--reference treats it as exact)");
+    return Inconclusive(
+        test, "the reference has no variances (--reference treats it as exact)");
   }
   if (a.colors.size() != b.colors.size()) {
-    return CannotTell(test, "one image is grey, the other is not");
+    return Inconclusive(test, "one image is grey, the other is not");
   }
   const bool rounded = (!test.is_bytes() && HasHalfValues(test, a.colors)) ||
                        reference.is_bytes() || HasHalfValues(reference, b.colors);
@@ -202,7 +203,7 @@ Agreement TestAgreement(const Image& test, const Image& reference, bool exact_re
                      rounded ? kHalfRounding : kFloatRounding);
   }
   Agreement out = tests.Finish();
-  if (out.verdict == AgreementVerdict::kAgree) out.doubt = SharedSeed(test, reference);
+  if (out.verdict == AgreementVerdict::kAgree) out.caveat = SharedSeed(test, reference);
   return out;
 }
 

@@ -10,9 +10,9 @@
 namespace lanelight {
 
 enum class AgreementVerdict {
-  kAgree,      // no difference beyond noise was found
-  kDiffer,     // a difference was found
-  kCannotTell  // variances are missing, or too few samples
+  kAgree,        // no difference beyond noise was found
+  kDiffer,       // a difference was found
+  kInconclusive  // variances are missing, or too few samples
 };
 
 /// "agree", "differ", "cannot tell".
@@ -20,11 +20,11 @@ std::string Name(AgreementVerdict verdict);
 
 /// Result of tests of equal means of the whole image and of its tiles, for each channel.
 struct Agreement {
-  AgreementVerdict verdict = AgreementVerdict::kCannotTell;
-  std::string why;    // reason of kCannotTell
-  std::string doubt;  // reason to doubt kAgree; may be empty
-  double level = 0;   // probability of kDiffer for images that differ by noise alone
-  double p = 0;       // of all tests together; NaN for kCannotTell
+  AgreementVerdict verdict = AgreementVerdict::kInconclusive;
+  std::string why;     // reason of kInconclusive
+  std::string caveat;  // reason to doubt kAgree; may be empty
+  double level = 0;    // probability of kDiffer for images that differ by noise alone
+  double p = 0;        // of all tests together; NaN for kInconclusive
   std::size_t tests = 0, untested = 0;  // untested: too few samples
   TileLayout layout;
   std::vector<double> z;            // of the worst channel of each tile; NaN: not tested

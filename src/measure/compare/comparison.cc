@@ -17,7 +17,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorTile, x, y, width, height, relmse, share
 
 namespace {
 
-constexpr std::size_t kMostWorstTiles = 6;
+constexpr std::size_t kMaxWorstTiles = 6;
 
 FlipMaps FlipOf(const LinearImage& test, const LinearImage& reference, bool high_range,
                 double pixels_per_degree) {
@@ -65,7 +65,7 @@ std::string VerdictOf(const ImageComparison& c) {
     case AgreementVerdict::kDiffer:
       return text +
              fmt::format(", more than their noise explains ({})", PText(c.agreement.p));
-    case AgreementVerdict::kCannotTell:
+    case AgreementVerdict::kInconclusive:
       break;
   }
   return text + "; it is unknown whether noise explains it: " + c.agreement.why;
@@ -88,7 +88,7 @@ nlohmann::json AgreementJson(const Agreement& a) {
   tiles["failed"] = a.failed;
   return {{"verdict", Name(a.verdict)},
           {"why", a.why},
-          {"doubt", a.doubt},
+          {"doubt", a.caveat},
           {"text", AgreementText(a)},
           {"p", NumberJson(a.p)},
           {"false_alarm", a.level},
@@ -109,7 +109,7 @@ ImageComparison Compare(const NamedImage& test, const NamedImage& reference,
   out.metrics = CompareImages(test.image, reference.image, options.exact_reference);
   out.agreement = TestAgreement(test.image, reference.image, options.exact_reference);
   const LinearImage a = LinearOf(test.image), b = LinearOf(reference.image);
-  out.worst = WorstTiles(a, b, kMostWorstTiles);
+  out.worst = WorstTiles(a, b, kMaxWorstTiles);
   if (options.flip) {
     out.flip = FlipOf(a, b, !test.image.is_bytes() || !reference.image.is_bytes(),
                       options.pixels_per_degree);
@@ -132,7 +132,7 @@ std::string AgreementText(const Agreement& a) {
     case AgreementVerdict::kDiffer:
       return fmt::format("significant difference in {} ({}; {})", WhatFailed(a),
                          PText(a.p), tests);
-    case AgreementVerdict::kCannotTell:
+    case AgreementVerdict::kInconclusive:
       break;
   }
   return "cannot tell: " + a.why;

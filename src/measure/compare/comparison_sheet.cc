@@ -19,7 +19,7 @@ constexpr Vec3d kDarker = {0.02, 0.1, 0.55}, kBrighter = {0.55, 0.03, 0.03},
 constexpr Vec3d kFlipColors[] = {
     {0, 0, 0}, {0.35, 0.01, 0.08}, {0.9, 0.3, 0.02}, {1, 1, 0.8}};
 
-Vec3d Mix(Vec3d a, Vec3d b, double share) { return a * (1 - share) + b * share; }
+Vec3d Mix(Vec3d a, Vec3d b, double weight) { return a * (1 - weight) + b * weight; }
 
 // x from -1 to 1.
 Vec3d DifferenceColor(double x) {

@@ -60,14 +60,14 @@ class EyeFilters {
 
   // The one filter that is not separable: a sum of two that are.
   Plane BlueYellow(const Plane& in, int w, int h) const {
-    double share[2];
+    double fraction[2];
     for (int i = 0; i < 2; ++i) {
       const double sum = Sum(BellOf(kBlueYellow[i]));
-      share[i] = kBlueYellow[i].a * std::sqrt(kPi / kBlueYellow[i].b) * sum * sum;
+      fraction[i] = kBlueYellow[i].a * std::sqrt(kPi / kBlueYellow[i].b) * sum * sum;
     }
     Plane out = One(in, w, h, kBlueYellow[0]);
     const Plane second = One(in, w, h, kBlueYellow[1]);
-    const float part = float(share[0] / (share[0] + share[1]));
+    const float part = float(fraction[0] / (fraction[0] + fraction[1]));
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i] = part * out[i] + (1 - part) * second[i];
     }
@@ -118,7 +118,7 @@ class EyeFilters {
 };
 
 // The filtered colours and features of one image.
-struct Seen {
+struct FilteredImage {
   std::array<Plane, 3> lab;
   Plane edges, points;
 };
@@ -140,10 +140,11 @@ std::array<Plane, 3> OpponentPlanes(const LinearImage& image,
   return out;
 }
 
-Seen Look(const LinearImage& image, const EyeFilters& eye, const OpponentColors& colors) {
+FilteredImage Look(const LinearImage& image, const EyeFilters& eye,
+                   const OpponentColors& colors) {
   const int w = image.width, h = image.height;
   const std::array<Plane, 3> opponent = OpponentPlanes(image, colors);
-  Seen out;
+  FilteredImage out;
   out.edges = eye.Features(opponent[0], w, h, 1);
   out.points = eye.Features(opponent[0], w, h, 2);
   out.lab = {eye.Luminance(opponent[0], w, h), eye.RedGreen(opponent[1], w, h),
@@ -165,7 +166,7 @@ double ColorError(double distance, double largest) {
   return kPt + (error - knee) / (largest - knee) * (1 - kPt);
 }
 
-double FeatureError(const Seen& a, const Seen& b, std::size_t i) {
+double FeatureError(const FilteredImage& a, const FilteredImage& b, std::size_t i) {
   const double edges = std::abs(double(a.edges[i]) - b.edges[i]);
   const double points = std::abs(double(a.points[i]) - b.points[i]);
   return std::pow(std::max(edges, points) / std::sqrt(2.0), kQf);
@@ -179,7 +180,7 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
   LL_CHECK(pixels_per_degree >= 1 && pixels_per_degree <= 1000);
   const EyeFilters eye(pixels_per_degree);
   const OpponentColors colors;
-  const Seen a = Look(reference, eye, colors), b = Look(test, eye, colors);
+  const FilteredImage a = Look(reference, eye, colors), b = Look(test, eye, colors);
   // No two colours of a screen are further apart than green and blue.
   const double largest =
       std::pow(HyAb(colors.HuntLab({0, 1, 0}), colors.HuntLab({0, 0, 1})), kQc);

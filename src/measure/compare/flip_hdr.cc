@@ -44,24 +44,24 @@ LinearImage Toned(const LinearImage& image, double exposure) {
 }  // namespace
 
 FlipExposures ExposuresOf(const LinearImage& reference) {
-  constexpr double kLeast = 1e-30;  // of a luminance, whose logarithm is computed
+  constexpr double kMinLuminance = 1e-30;  // of a luminance, whose logarithm is computed
   std::vector<double> luminances;
   for (std::size_t i = 0; i < reference.pixels(); ++i) {
     double y = 0;
     for (int c = 0; c < 3; ++c) y += kWeights[c] * reference.planes[c][i];
-    if (std::isfinite(y)) luminances.push_back(std::max(y, kLeast));
+    if (std::isfinite(y)) luminances.push_back(std::max(y, kMinLuminance));
   }
   if (luminances.empty()) return {0, 1, 2};
   const auto middle = luminances.begin() + long(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
   const double median = *middle;
   const double brightest = *std::ranges::max_element(luminances);
-  if (brightest <= kLeast) return {0, 1, 2};
+  if (brightest <= kMinLuminance) return {0, 1, 2};
   FlipExposures out;
   out.start = std::log2(BrightInput() / brightest);
   // Limits the range for images that are mostly black.
-  constexpr double kMost = 32;
-  out.stop = std::min(std::log2(BrightInput() / median), out.start + kMost);
+  constexpr double kMaxRange = 32;
+  out.stop = std::min(std::log2(BrightInput() / median), out.start + kMaxRange);
   out.count = std::max(2, int(std::ceil(out.stop - out.start)));
   return out;
 }

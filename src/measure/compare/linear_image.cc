@@ -84,7 +84,7 @@ double ScaleOf(const Plane& values) {
 }
 
 std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& reference,
-                                  std::size_t most) {
+                                  std::size_t maximum) {
   const TileLayout layout = LayoutOf(test.width, test.height);
   std::vector<ErrorSum> sums(layout.size());
   double total = 0;
@@ -110,7 +110,7 @@ std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& re
   }
   std::ranges::sort(
       out, [](const ErrorTile& a, const ErrorTile& b) { return a.share > b.share; });
-  out.resize(std::min(out.size(), most));
+  out.resize(std::min(out.size(), maximum));
   return out;
 }
 

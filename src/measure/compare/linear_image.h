@@ -44,9 +44,9 @@ struct ErrorTile {
   double share = 0;   // fraction of the sum over all tiles
 };
 
-/// Returns at most `most` tiles (of LayoutOf()) with the largest sums of relative squared
-/// errors, largest first. Tiles without error and invalid values are left out.
+/// Returns at most `maximum` tiles (of LayoutOf()) with the largest sums of relative
+/// squared errors, largest first. Tiles without error and invalid values are left out.
 std::vector<ErrorTile> WorstTiles(const LinearImage& test, const LinearImage& reference,
-                                  std::size_t most);
+                                  std::size_t maximum);
 
 }  // namespace lanelight

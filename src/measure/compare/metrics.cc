@@ -77,9 +77,9 @@ class TileGrid {
   std::vector<Tile> tiles_;
 };
 
-// Returns the mean without the largest fraction `share` of the values.
-double TrimmedMean(std::vector<double> values, double share) {
-  const std::size_t keep = values.size() - std::size_t(share * double(values.size()));
+// Returns the mean without the largest fraction `fraction` of the values.
+double TrimmedMean(std::vector<double> values, double fraction) {
+  const std::size_t keep = values.size() - std::size_t(fraction * double(values.size()));
   if (keep == 0) return kNan;
   std::nth_element(values.begin(), values.begin() + (keep - 1), values.end());
   double sum = 0;

@@ -21,11 +21,11 @@ struct EstimateSum {
   void Add(const EstimateSum& o) {
     value += o.value, variance += o.variance, quartic += o.quartic, count += o.count;
   }
-  // Path reuse correlates pixels: the variance of the mean is `as_one` times that of
-  // independent pixels. `dof`: degrees of freedom of the variance of one pixel.
-  MeanEstimate Mean(double as_one, double dof) const {
+  // Path reuse correlates pixels: the variance of the mean is `dependence_factor` times
+  // that of independent pixels. `dof`: degrees of freedom of the variance of one pixel.
+  MeanEstimate Mean(double dependence_factor, double dof) const {
     if (count == 0) return {};
-    const double n = double(count), each = std::min(as_one, n);
+    const double n = double(count), each = std::min(dependence_factor, n);
     return {
         value / n, each * variance / (n * n),
         quartic > 0 ? dof * std::max(1.0, variance * variance / (quartic * each)) : 1e9};
@@ -100,9 +100,10 @@ ChannelMeans MeansOf(const NoisyChannel& test, const NoisyChannel& reference,
   }
   // A variance needs at least two observations.
   const auto mean_of = [](const Image& image) {
-    return [as_one = PixelsAsOne(NumberAttribute(image, kDependentPixels, 1)),
+    return [dependence_factor =
+                DependenceFactor(NumberAttribute(image, kDependentPixels, 1)),
             dof = std::max(1.0, NumberAttribute(image, kObservations, 2) - 1)](
-               const EstimateSum& sum) { return sum.Mean(as_one, dof); };
+               const EstimateSum& sum) { return sum.Mean(dependence_factor, dof); };
   };
   const auto mean_a = mean_of(test.image), mean_b = mean_of(reference.image);
   ChannelMeans out;

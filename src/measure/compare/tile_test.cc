@@ -10,21 +10,21 @@
 namespace lanelight {
 namespace {
 
-constexpr int kMostTiles = 1024;  // about
-constexpr int kLeastSide = 8;
+constexpr int kMaxTiles = 1024;  // about
+constexpr int kMinSide = 8;
 
 // Required number of samples of a tile.
-constexpr double kLeastObservations = 25;
+constexpr double kMinObservations = 25;
 
 }  // namespace
 
 TileLayout LayoutOf(int width, int height) {
   const double pixels = double(width) * height;
-  const int side = std::max(kLeastSide, int(std::ceil(std::sqrt(pixels / kMostTiles))));
+  const int side = std::max(kMinSide, int(std::ceil(std::sqrt(pixels / kMaxTiles))));
   return {side, (width + side - 1) / side, (height + side - 1) / side};
 }
 
-double PixelsAsOne(double squares) {
+double DependenceFactor(double squares) {
   constexpr double kOthers = 16 * 16 - 1;
   return 1 + std::sqrt(kOthers * std::max(0.0, squares - 1));
 }
@@ -49,12 +49,12 @@ stat::MeanEstimate VarianceAround(const TileLayout& layout,
   return {0, sum / count, quartic > 0 ? sum * sum / quartic : 1e9};
 }
 
-bool RestsOnEnough(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
-                   double other_per_own) {
+bool HasEnoughObservations(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
+                           double other_per_own) {
   const double signal = std::max(std::abs(own.mean), std::abs(other.mean));
   const double variance =
       std::max(own.variance, other.variance * std::max(1.0, other_per_own));
-  return signal * signal >= kLeastObservations * variance;
+  return signal * signal >= kMinObservations * variance;
 }
 
 double SignedZ(double p, const stat::MeanEstimate& a, const stat::MeanEstimate& b) {

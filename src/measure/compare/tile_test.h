@@ -31,7 +31,7 @@ TileLayout LayoutOf(int width, int height);
 /// Returns the factor of path reuse on the variance of a mean of pixels: the sum of the
 /// correlations of their errors. `squares`: the sum of squared correlations
 /// (SampleGroups::dependents). Assumes equal correlations within a block.
-double PixelsAsOne(double squares);
+double DependenceFactor(double squares);
 
 /// Returns the mean variance of 5 x 5 tiles around one, with its degrees of freedom
 /// (Welch and Satterthwaite). Rare samples that this tile missed are in its neighbours.
@@ -43,8 +43,8 @@ stat::MeanEstimate VarianceAround(const TileLayout& layout,
 /// bright samples, which its own variance does not show. (mean / standard error)^2 is the
 /// number of equal samples with that variance. The larger variance counts; that of
 /// `other` has `other_per_own` times as many samples.
-bool RestsOnEnough(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
-                   double other_per_own);
+bool HasEnoughObservations(const stat::MeanEstimate& own, const stat::MeanEstimate& other,
+                           double other_per_own);
 
 /// Returns the z-score with the two-sided p-value `p`, at most 9; negative if a < b.
 double SignedZ(double p, const stat::MeanEstimate& a, const stat::MeanEstimate& b);

@@ -10,7 +10,7 @@ namespace {
 
 // A page that does not read is closed when so many messages wait for it: pictures and
 // states wait for its word, so that these are answers to what it keeps asking.
-constexpr std::size_t kMostWaiting = 64;
+constexpr std::size_t kMaxQueuedMessages = 64;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void PageSocket::Read() {
 
 void PageSocket::Queue(std::string message, bool binary) {
   if (!open_ || leaving_) return;
-  if (out_.size() >= kMostWaiting) return Close();
+  if (out_.size() >= kMaxQueuedMessages) return Close();
   out_.push_back({std::move(message), binary});
   if (out_.size() == 1) Write();
 }
@@ -67,7 +67,7 @@ void PageSocket::Write() {
                       });
 }
 
-void PageSocket::SayGoodbye() {
+void PageSocket::SendClose() {
   if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
   Queue("{\"kind\": \"goodbye\"}", false);
   leaving_ = true;

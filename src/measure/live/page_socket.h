@@ -39,7 +39,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   void Accept(const http::request<http::string_body>& request);
   void Queue(std::string message, bool binary);
   /// Sends what waits, then closes.
-  void SayGoodbye();
+  void SendClose();
 
  private:
   struct Message {

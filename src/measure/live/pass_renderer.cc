@@ -17,12 +17,12 @@ namespace {
 // Errors are estimated when there are this many times the samples of the last time, and
 // from so many on: with fewer there is seldom an interval, and to say how many more it
 // would take costs several times as much as the estimate.
-constexpr double kLookRatio = 1.3;
+constexpr double kEstimateSampleRatio = 1.3;
 constexpr std::uint64_t kFirstLook = 8;
 // Nothing can be done meanwhile: of images with more pixels than these, only when an
 // estimate is this small a part of the time since the last one.
 constexpr std::uint64_t kQuickPixels = 1u << 16;
-constexpr double kLookShare = 0.1;
+constexpr double kMaxEstimateFraction = 0.1;
 
 bool HasControl(const Plan& plan) {
   return SamplePlanes(plan.features).Has(PlaneGroup::kNumbers);
@@ -38,9 +38,10 @@ Job JobOf(const LiveScene& live_scene, const View& view, const Strategy& strateg
 }  // namespace
 
 // Goes on from what the renderer has, and keeps what the pass comes to.
-class PassRenderer::Keeper : public RunKeeper {
+class PassRenderer::PassCheckpointer : public Checkpointer {
  public:
-  Keeper(PassRenderer& renderer, FilmAccumulator* before, PassObserver& observer)
+  PassCheckpointer(PassRenderer& renderer, FilmAccumulator* before,
+                   PassObserver& observer)
       : renderer_(renderer), before_(before), observer_(observer) {}
 
   bool Restore(RunState& state) override {
@@ -81,19 +82,19 @@ PassRenderer::PassRenderer(const LiveScene& live_scene, View view,
 
 void PassRenderer::Pass(std::uint64_t spp, PassObserver& observer,
                         const std::atomic<bool>& stop) {
-  const bool goes_on = record_.counts.samples > 0;
+  const bool resumes = record_.counts.samples > 0;
   std::optional<FilmAccumulator> before;
-  if (has_control_ && goes_on) {
+  if (has_control_ && resumes) {
     before = std::move(film_);
     film_ = MakeFilm(job_);
   }
-  Keeper keeper(*this, before ? &*before : nullptr, observer);
+  PassCheckpointer checkpointer(*this, before ? &*before : nullptr, observer);
   RunOptions options;
   options.spp = spp;
   options.seed = job_.seed;
   options.threads = job_.settings.threads;
   options.stop = &stop;
-  options.keeper = &keeper;
+  options.checkpointer = &checkpointer;
   options.on_task = [this](const PixelRect& tile, const RunCounts& counts) {
     cost_.Add(tile, counts);
   };
@@ -111,20 +112,21 @@ void PassRenderer::Pass(std::uint64_t spp, PassObserver& observer,
     rate_ = samples / double(view_.window.pixels()) / seconds;
   if (result.stop_reason != StopReason::kSamples) return;
   spp_ = spp;
-  LookIfDue(stop);
+  EstimateIfDue(stop);
 }
 
 void PassRenderer::Fit() {
   if (has_control_ && record_.counts.samples > 0) film_.FitControl();
 }
 
-void PassRenderer::LookIfDue(const std::atomic<bool>& stop) {
+void PassRenderer::EstimateIfDue(const std::atomic<bool>& stop) {
   if (spp_ < kFirstLook) return;
   if (!looks_.empty()) {
     const Look& last = looks_.back();
-    if (double(spp_) < kLookRatio * double(last.spp)) return;
+    if (double(spp_) < kEstimateSampleRatio * double(last.spp)) return;
     const double since = cpu_seconds() - last.seconds;
-    if (view_.window.pixels() > kQuickPixels && since * kLookShare < look_seconds_)
+    if (view_.window.pixels() > kQuickPixels &&
+        since * kMaxEstimateFraction < look_seconds_)
       return;
   }
   const Stopwatch watch;
@@ -155,13 +157,13 @@ void CostMap::Add(const PixelRect& tile, const RunCounts& counts) {
     for (int x = tile.x0 / kCell; x < Cells(tile.x1); ++x) {
       const int w = std::min(tile.x1, (x + 1) * kCell) - std::max(tile.x0, x * kCell);
       const int h = std::min(tile.y1, (y + 1) * kCell) - std::max(tile.y0, y * kCell);
-      const double share = double(w) * h / pixels;
+      const double fraction = double(w) * h / pixels;
       Cell& cell =
           cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                  static_cast<std::size_t>(x)];
-      cell.samples += share * double(counts.samples);
-      cell.closest += share * double(counts.rays_closest);
-      cell.shadow += share * double(counts.rays_shadow);
+      cell.samples += fraction * double(counts.samples);
+      cell.closest += fraction * double(counts.rays_closest);
+      cell.shadow += fraction * double(counts.rays_shadow);
     }
   }
 }

@@ -90,9 +90,9 @@ class PassRenderer {
   std::size_t Bytes() const;
 
  private:
-  class Keeper;
+  class PassCheckpointer;
 
-  void LookIfDue(const std::atomic<bool>& stop);
+  void EstimateIfDue(const std::atomic<bool>& stop);
 
   View view_;
   const Job job_;

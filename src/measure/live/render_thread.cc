@@ -18,7 +18,7 @@ std::int64_t Microseconds() {
 }
 
 // Pictures take this part of the time at most.
-constexpr double kPictureShare = 0.1;
+constexpr double kMaxPictureFraction = 0.1;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void RenderThread::Receive(int session, const std::string& message) {
   try {
     Push({session, nullptr, ParseMessage(message)});
   } catch (const InputError& error) {
-    Tell(session, error.message());
+    SendError(session, error.message());
   }
 }
 
@@ -74,14 +74,14 @@ void RenderThread::Push(Request request) {
   woken_.notify_all();
 }
 
-void RenderThread::Tell(int session, const std::string& what) {
+void RenderThread::SendError(int session, const std::string& what) {
   const std::lock_guard lock(mutex_);
   const auto sender = senders_.find(session);
   if (sender == senders_.end()) return;
   (*sender->second)(DumpJson({{"kind", "refused"}, {"text", what}}), false);
 }
 
-void RenderThread::TakeRequests(bool all) {
+void RenderThread::HandleRequests(bool all) {
   std::vector<Request> requests;
   {
     const std::lock_guard lock(mutex_);
@@ -96,7 +96,7 @@ void RenderThread::TakeRequests(bool all) {
     try {
       Serve(request);
     } catch (const InputError& error) {
-      Tell(request.session, error.message());
+      SendError(request.session, error.message());
     }
   }
 }
@@ -133,7 +133,7 @@ std::optional<RenderThread::Running> RenderThread::Choose() {
         return Running{at->second, *work};
       }
     } catch (const InputError& error) {
-      Tell(at->first, error.message());
+      SendError(at->first, error.message());
     }
   }
   return std::nullopt;
@@ -165,7 +165,7 @@ void RenderThread::Loop() {
       if (quit_) return;
       stop_ = false;
     }
-    TakeRequests(true);
+    HandleRequests(true);
     const auto now = Clock::now();
     const auto running = Choose();
     const bool first = running && running->work.renderer->spp() == 0;
@@ -179,7 +179,7 @@ void RenderThread::Loop() {
 bool RenderThread::Due() const { return waiting_ || Microseconds() >= publish_at_; }
 
 void RenderThread::Observe() {
-  TakeRequests(false);
+  HandleRequests(false);
   if (Microseconds() >= publish_at_) Publish();
 }
 
@@ -192,8 +192,9 @@ void RenderThread::Publish() {
   }
   const std::int64_t now = Microseconds();
   publish_at_ =
-      now + std::max(static_cast<std::int64_t>(interval * 1e6),
-                     static_cast<std::int64_t>(double(now - begin) / kPictureShare));
+      now +
+      std::max(static_cast<std::int64_t>(interval * 1e6),
+               static_cast<std::int64_t>(double(now - begin) / kMaxPictureFraction));
 }
 
 }  // namespace lanelight::live

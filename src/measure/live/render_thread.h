@@ -49,7 +49,7 @@ class RenderThread : private PassObserver {
   void Loop();
   void Push(Request request);
   /// Those that do not change what is being rendered, or all.
-  void TakeRequests(bool all);
+  void HandleRequests(bool all);
   void Serve(const Request& request);
   std::optional<Running> Choose();
   void Render(const Running& running);
@@ -58,7 +58,7 @@ class RenderThread : private PassObserver {
   bool Due() const override;
   void Observe() override;
   void Publish();
-  void Tell(int session, const std::string& what);
+  void SendError(int session, const std::string& what);
 
   const LiveScene& live_scene_;
   const std::string command_;

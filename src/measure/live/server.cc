@@ -11,8 +11,8 @@
 namespace lanelight::live {
 namespace {
 
-constexpr auto kLookForStop = std::chrono::milliseconds(50);
-constexpr auto kGoodbye = std::chrono::milliseconds(500);
+constexpr auto kStopPollInterval = std::chrono::milliseconds(50);
+constexpr auto kCloseTimeout = std::chrono::milliseconds(500);
 constexpr std::size_t kLongestHead = 8192;
 
 // One request: the page, a socket, or a refusal.
@@ -62,7 +62,7 @@ void HttpClient::Answer() {
   if (decision.answer == live::Answer::kRefused) {
     return Reply(decision.status, "text/plain; charset=utf-8", decision.why + "\n");
   }
-  if (shared_.pages.size() >= kMostPages) {
+  if (shared_.pages.size() >= kMaxPages) {
     return Reply(503, "text/plain; charset=utf-8", "too many pages are open already\n");
   }
   stream_.expires_never();
@@ -118,12 +118,12 @@ void Listen(tcp::acceptor& acceptor, std::uint16_t port) {
 
 // A signal only sets a flag.
 void WatchForStop(SharedState& shared, const std::atomic<bool>& stop) {
-  shared.timer.expires_after(kLookForStop);
+  shared.timer.expires_after(kStopPollInterval);
   shared.timer.async_wait([&](error_code) {
     if (!stop) return WatchForStop(shared, stop);
     shared.acceptor.close();
-    for (const auto& page : shared.pages) page->SayGoodbye();
-    shared.timer.expires_after(kGoodbye);
+    for (const auto& page : shared.pages) page->SendClose();
+    shared.timer.expires_after(kCloseTimeout);
     shared.timer.async_wait([&](error_code) { shared.io.stop(); });
     if (shared.pages.empty()) shared.io.stop();
   });

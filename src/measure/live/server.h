@@ -12,10 +12,10 @@
 namespace lanelight::live {
 
 /// Sockets at once, and pages that are being fetched.
-inline constexpr int kMostPages = 8;
-inline constexpr int kMostConnections = 32;
+inline constexpr int kMaxPages = 8;
+inline constexpr int kMaxConnections = 32;
 /// Of these, from one address: others get in while one client holds on to all it can.
-inline constexpr int kMostFromOne = kMostConnections / 2;
+inline constexpr int kMaxPerAddress = kMaxConnections / 2;
 
 /// Returns whether a client may connect, given how many connections each address has.
 template <typename Counts, typename Address>
@@ -25,7 +25,7 @@ bool MayConnect(const Counts& connections, const Address& client) {
     all += count;
     if (address == client) own = count;
   }
-  return all < kMostConnections && own < kMostFromOne;
+  return all < kMaxConnections && own < kMaxPerAddress;
 }
 
 class Server {

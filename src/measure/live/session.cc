@@ -18,15 +18,15 @@ using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 // Without a move for so long, the camera stands.
-constexpr auto kSettles = std::chrono::milliseconds(120);
+constexpr auto kCameraSettleTime = std::chrono::milliseconds(120);
 // Of strategies that have been left, so that coming back renders nothing again.
-constexpr std::size_t kMostBytesAside = std::size_t{256} << 20;
+constexpr std::size_t kMaxKeptBytes = std::size_t{256} << 20;
 
-int IndexOf(const json& message, const char* member, int most) {
+int IndexOf(const json& message, const char* member, int max_index) {
   const double value = message.at(member).get<double>();
-  if (!(value >= 0 && value <= most) || value != std::floor(value)) {
+  if (!(value >= 0 && value <= max_index) || value != std::floor(value)) {
     throw InputError(fmt::format("\"{}\" is {}; it must be a number from 0 to {}", member,
-                                 value, most));
+                                 value, max_index));
   }
   return static_cast<int>(value);
 }
@@ -51,13 +51,13 @@ Session::Session(const LiveScene& live_scene, std::string command, Send send)
 
 void Session::Do(const json& message) {
   try {
-    Obey(message.at("do"), message);
+    HandleCommand(message.at("do"), message);
   } catch (const json::exception& error) {
     throw NotUnderstood(error);
   }
 }
 
-void Session::Obey(const std::string& what, const json& m) {
+void Session::HandleCommand(const std::string& what, const json& m) {
   if (what == "camera") return Move(CameraPoseFromJson(m.at("eye")));
   if (what == "strategy") return Choose(IndexOf(m, "slot", kSlots - 1), m.at("name"));
   if (what == "exr") return SendExr(IndexOf(m, "slot", kSlots - 1));
@@ -96,13 +96,13 @@ void Session::Move(const CameraPose& pose) {
     slot.previewed = false;
   }
   began_ = Clock::now();
-  settled_ = began_ + kSettles;
+  settled_ = began_ + kCameraSettleTime;
 }
 
 void Session::Choose(int index, const std::string& name) {
   Slot& slot = slots_[static_cast<std::size_t>(index)];
   if (slot.renderer) others_.push_back(std::move(slot.renderer));
-  KeepFew();
+  DropOldRenders();
   const double rate = slot.preview_rate;
   slot = {};
   slot.preview_rate = rate;
@@ -118,10 +118,10 @@ void Session::Choose(int index, const std::string& name) {
   }
 }
 
-void Session::KeepFew() {
+void Session::DropOldRenders() {
   std::size_t bytes = 0;
   for (const auto& other : others_) bytes += other->Bytes();
-  while (!others_.empty() && bytes > kMostBytesAside) {
+  while (!others_.empty() && bytes > kMaxKeptBytes) {
     bytes -= others_.front()->Bytes();
     others_.erase(others_.begin());
   }

@@ -68,10 +68,10 @@ class Session {
     double preview_rate = 0;  // samples per second of previews
   };
 
-  void Obey(const std::string& what, const nlohmann::json& message);
+  void HandleCommand(const std::string& what, const nlohmann::json& message);
   void Choose(int slot, const std::string& name);
   void Move(const CameraPose& pose);
-  void KeepFew();
+  void DropOldRenders();
   std::shared_ptr<PassRenderer> Make(int slot);
   std::optional<Work> NextPreview();
   std::optional<Work> NextPass();

@@ -11,7 +11,7 @@
 namespace lanelight::live {
 namespace {
 
-constexpr double kBetweenStates = 0.2;  // seconds, at least
+constexpr double kStateInterval = 0.2;  // seconds, at least
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void Session::Publish() {
     slot.renderer->Fit();
     SendPicture(i, *slot.renderer, slot.sent);
   }
-  if (state_drawn_ && SecondsSince(last_state_) > kBetweenStates) SendState();
+  if (state_drawn_ && SecondsSince(last_state_) > kStateInterval) SendState();
 }
 
 double Session::Interval() const {

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPreviewSeconds = 0.04;
 // The first one, of which no rate is known.
 constexpr double kFirstPreviewSamples = 16384;
-constexpr int kMostReduced = 16;
+constexpr int kMaxReduction = 16;
 
 // Returns the samples per pixel after the next pass of `seconds`: at most twice as many,
 // since rates are uncertain at first.
@@ -36,7 +36,7 @@ int Session::PreviewFactor(const Slot& slot) const {
   const double pixels =
       double(RenderedPixels(live_scene_.job.loaded->description.film).pixels());
   return std::clamp(static_cast<int>(std::ceil(std::sqrt(pixels / samples))), 1,
-                    kMostReduced);
+                    kMaxReduction);
 }
 
 std::optional<Work> Session::Next() {
@@ -87,11 +87,11 @@ std::optional<Work> Session::NextPass() {
   if (!work) return work;
   const double elapsed = SecondsSince(began_);
   work->spp = NextSpp(*work->renderer, std::clamp(elapsed / 4, 0.2, 2.0));
-  const auto most = static_cast<std::uint64_t>(other_spp);
-  if (pace_ == Pace::kSamples && work->renderer->spp() < most) {
-    work->spp = std::min(work->spp, most);
+  const auto max_spp = static_cast<std::uint64_t>(other_spp);
+  if (pace_ == Pace::kSamples && work->renderer->spp() < max_spp) {
+    work->spp = std::min(work->spp, max_spp);
   }
-  if (work->spp > kMostSamplesPerPixel) return std::nullopt;
+  if (work->spp > kMaxSamplesPerPixel) return std::nullopt;
   return work;
 }
 

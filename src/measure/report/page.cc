@@ -140,8 +140,8 @@ std::string LivePage() {
   return text.head + text.tail;
 }
 
-int ShrinkImages(std::vector<ReportImage>& images, std::size_t most) {
-  const double excess = double(CountValues(images)) / double(most);
+int ShrinkImages(std::vector<ReportImage>& images, std::size_t max_values) {
+  const double excess = double(CountValues(images)) / double(max_values);
   const int side = std::max(1, int(std::ceil(std::sqrt(excess))));
   if (side == 1) return side;
   for (ReportImage& image : images) image = Shrunk(image, side);

@@ -51,8 +51,8 @@ std::uint16_t ToHalfBits(float value);
 /// a browser.
 inline constexpr std::size_t kReportValues = 32'000'000;
 
-/// Averages blocks of pixels in all images to leave at most `most` values. Returns the
-/// side of a block; 1 for unchanged images.
-int ShrinkImages(std::vector<ReportImage>& images, std::size_t most);
+/// Averages blocks of pixels in all images to leave at most `max_values` values. Returns
+/// the side of a block; 1 for unchanged images.
+int ShrinkImages(std::vector<ReportImage>& images, std::size_t max_values);
 
 }  // namespace lanelight

@@ -12,7 +12,7 @@
 namespace lanelight::stress {
 namespace {
 
-constexpr double kConfidence = 0.95, kMostFreedom = 1e9;
+constexpr double kConfidence = 0.95, kMaxDegreesOfFreedom = 1e9;
 
 bool IsStrategy(const std::string& name) {
   if (name == "default") return true;
@@ -78,8 +78,8 @@ std::optional<Interval> RelativeEfficiency(const CaseResult& result,
     const double ratio = Cost(other.point) / Cost(judged.point);
     if (judged.point.series == baseline) return WithoutBounds(1);
     // Estimated variances over true ones are F distributed.
-    const double d1 = std::min(other.point.degrees_of_freedom, kMostFreedom);
-    const double d2 = std::min(judged.point.degrees_of_freedom, kMostFreedom);
+    const double d1 = std::min(other.point.degrees_of_freedom, kMaxDegreesOfFreedom);
+    const double d2 = std::min(judged.point.degrees_of_freedom, kMaxDegreesOfFreedom);
     const double tail = (1 - kConfidence) / 2;
     return Interval{ratio, ratio / stat::FQuantile(1 - tail, d1, d2),
                     ratio / stat::FQuantile(tail, d1, d2)};

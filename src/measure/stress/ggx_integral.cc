@@ -20,12 +20,12 @@ struct Facets {
   const std::function<double(double)>& fresnel;
 
   // Adds a facet of slopes (x, y), of this share of the area.
-  void Add(double x, double y, double share, GgxAlbedo* sum) const {
+  void Add(double x, double y, double fraction, GgxAlbedo* sum) const {
     const double projected = wo.x * x + wo.z;  // (wo.m) / m.z
     if (projected <= 0) return;
     const Vec3d m = Normalize(Vec3d{x, y, 1});
     const double c = std::min(1.0, Dot(wo, m)), f = fresnel(c);
-    const double weight = share * projected / wo.z;
+    const double weight = fraction * projected / wo.z;
     const Vec3d back = 2 * c * m - wo;
     if (back.z > 0) sum->reflected += weight * f * Masking(back);
     const double t = eta > 0 ? RefractedCosine(c, eta) : 0;

@@ -25,7 +25,7 @@ double Used(const JudgedPoint& judged) {
 }
 
 void CountPromised(CaseResult& result) {
-  double most = -1;
+  double maximum = -1;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
     const JudgedPoint& judged = result.points[i];
     result.not_measured += !judged.point.not_measured.empty();
@@ -35,8 +35,8 @@ void CountPromised(CaseResult& result) {
     result.weak += judged.verdict.weak;
     result.detectable = std::max(result.detectable, judged.verdict.detectable);
     const double used = Used(judged);
-    if (used <= most) continue;
-    most = used;
+    if (used <= maximum) continue;
+    maximum = used;
     result.worst = static_cast<int>(i);
   }
 }

@@ -11,9 +11,9 @@ std::string Cases(int count) {
 }
 
 // "a", "a and b", "a, b and 3 more".
-std::string List(const std::vector<std::string>& names, std::size_t most) {
+std::string List(const std::vector<std::string>& names, std::size_t max_names) {
   std::string text;
-  const std::size_t shown = names.size() > most ? most : names.size();
+  const std::size_t shown = names.size() > max_names ? max_names : names.size();
   for (std::size_t i = 0; i < shown; ++i) {
     const bool last = i + 1 == names.size();
     text += (i == 0 ? "" : last ? " and " : ", ") + names[i];

@@ -12,7 +12,7 @@
 namespace lanelight::stress {
 namespace {
 
-JudgedPoint Instead(double parameter, std::string refused, std::string crash) {
+JudgedPoint UnmeasuredPoint(double parameter, std::string refused, std::string crash) {
   JudgedPoint point;
   point.point.parameter = parameter;
   point.point.refused = std::move(refused);
@@ -28,11 +28,11 @@ std::vector<JudgedPoint> Try(const Case& about, double parameter, const Effort& 
       points.emplace_back().point = std::move(point);
     }
     if (!points.empty()) return points;
-    return {Instead(parameter, "", "nothing was measured")};
+    return {UnmeasuredPoint(parameter, "", "nothing was measured")};
   } catch (const InputError& error) {
-    return {Instead(parameter, error.what(), "")};
+    return {UnmeasuredPoint(parameter, error.what(), "")};
   } catch (const std::exception& error) {
-    return {Instead(parameter, "", error.what())};
+    return {UnmeasuredPoint(parameter, "", error.what())};
   }
 }
 

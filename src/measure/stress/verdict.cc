@@ -19,7 +19,7 @@ PointVerdict Faulty(PointVerdict verdict, Fault fault, std::string why) {
   return verdict;
 }
 
-std::string OffText(const Point& point, double error) {
+std::string OutOfToleranceText(const Point& point, double error) {
   const double scale = ScaleOf(point);
   if (!(scale > 0)) return fmt::format("off by {:.2g}", error);
   if (std::abs(error) > 10 * scale) {
@@ -50,15 +50,17 @@ PointVerdict JudgeValue(const Point& point, double level) {
   if (!known || !std::isfinite(point.standard_error + point.tolerance)) {
     return Faulty(verdict, Fault::kNotNumber, "its error is not known");
   }
-  const double most = stat::StudentTwoSidedQuantile(level, point.degrees_of_freedom);
-  const double noise = point.standard_error > 0 ? most * point.standard_error : 0;
+  const double critical_value =
+      stat::StudentTwoSidedQuantile(level, point.degrees_of_freedom);
+  const double noise =
+      point.standard_error > 0 ? critical_value * point.standard_error : 0;
   verdict.allowance = point.tolerance + noise;
   verdict.detectable = Detectable(point, verdict.allowance);
   verdict.weak = !(verdict.detectable <= kWeakFrom);
   const double excess = std::abs(error) - point.tolerance;
   if (excess > 0) verdict.z = excess / point.standard_error;  // infinite without noise
   if (excess <= noise) return verdict;
-  return Faulty(verdict, Fault::kOff, OffText(point, error));
+  return Faulty(verdict, Fault::kOff, OutOfToleranceText(point, error));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class SceneAnalyser {
       for (const Measurement& m : cells.repetitions) AddMachine(m.machine, out_.machines);
       strategy.levels.push_back(
           AnalyseLevel(cells, runs_.reference, spp, options_.confidence));
-      if (strategy.levels.back().reference_share <= kMaxReferenceShare) {
+      if (strategy.levels.back().reference_share <= kMaxReferenceFraction) {
         strategy.self.Add(cells.repetitions);
       }
       strategy.costs.push_back(LevelOf(cells, spp, &Measurement::relmse));
@@ -93,7 +93,8 @@ class SceneAnalyser {
 
   Cells Load(const StrategyRuns& runs, std::uint64_t spp) const {
     Cells cells = store_.Load(runs.Text(), spp);
-    cells.moments.pixels_as_one = PixelsAsOne(GroupsOf(runs.named.strategy).dependents);
+    cells.moments.pixels_as_one =
+        DependenceFactor(GroupsOf(runs.named.strategy).dependents);
     return cells;
   }
 

@@ -42,7 +42,8 @@ struct SelfFailure {
   std::size_t strategy = 0;
   std::uint64_t inside = 0, total = 0;
   std::array<std::uint64_t, 2> pixel = {};  // most frequent worst pixel of missed ones
-  double worst_share = 0;  // fraction of their error in the worst kWorstShare of pixels
+  double worst_share =
+      0;  // fraction of their error in the worst kWorstFraction of pixels
 };
 
 struct LevelAnalysis {
@@ -89,7 +90,7 @@ struct StrategyAnalysis {
   std::optional<Interval> efficiency_trimmed;  // of Measurement::relmse_trimmed
   /// Standard deviation of the logarithm of the efficiency at equal time, by the measured
   /// sample counts of a budget. Both efficiencies' intervals include it.
-  double budget_doubt = 0;
+  double budget_uncertainty = 0;
   stat::RankRange rank;
   stat::MeanEstimate image_mean;  // of all pixels and repetitions at the level `at`
   bool heavy_tailed = false;
@@ -127,7 +128,7 @@ struct SceneAnalysis {
   int report_scale = 1;  // the report's images are smaller by this factor
 };
 
-/// Fraction of the relative MSE in the worst kWorstShare of the pixels above which a
+/// Fraction of the relative MSE in the worst kWorstFraction of the pixels above which a
 /// strategy is heavy-tailed: a few pixels dominate its mean error.
 inline constexpr double kHeavyTail = 0.3;
 
@@ -135,7 +136,7 @@ inline constexpr double kHeavyTail = 0.3;
 inline constexpr std::size_t kMaxNames = 4;
 
 /// Largest fraction of the reference's own error at levels that test intervals.
-inline constexpr double kMaxReferenceShare = 0.1;
+inline constexpr double kMaxReferenceFraction = 0.1;
 
 /// Analyses a scene from its cells on disk, and collects images.
 SceneAnalysis AnalyseScene(const SceneRuns& runs, const StudyOptions& options,
@@ -173,8 +174,8 @@ std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& opt
 std::string BiasText(const SceneRuns& runs, const SceneAnalysis& analysis);
 /// Appends a sentence, which may be empty, to a text.
 void AddSentence(const std::string& sentence, std::string& text);
-/// Returns "A, B and C", or "7 strategies" for more than `most`.
+/// Returns "A, B and C", or "7 strategies" for more than `max_names`.
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
-                      std::size_t most = kMaxNames);
+                      std::size_t max_names = kMaxNames);
 
 }  // namespace lanelight

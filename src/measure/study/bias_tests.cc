@@ -21,11 +21,11 @@ bool PointsAtReference(const MeanEstimate& own, const MeanEstimate& reference,
                        const std::vector<MeanEstimate>& others, std::size_t tests) {
   if (others.empty()) return false;
   const double rounding = kFloatRounding * std::max(std::abs(own.mean), 1e-30);
-  const double least = rounding * rounding;
-  if (stat::DeparturePValue(own, others, least) < kBiasLevel / double(tests)) {
+  const double minimum = rounding * rounding;
+  if (stat::DeparturePValue(own, others, minimum) < kBiasLevel / double(tests)) {
     return false;
   }
-  const MeanEstimate consensus = stat::ConsensusOf(others, least).estimate;
+  const MeanEstimate consensus = stat::ConsensusOf(others, minimum).estimate;
   const bool same_side = (own.mean > reference.mean) == (consensus.mean > reference.mean);
   return same_side && stat::WelchPValue(consensus, reference) < kOthersLevel;
 }
@@ -138,7 +138,7 @@ TileTest TestTiles(const Moments& moments, const Reference& reference, std::uint
     stat::MeanEstimate a = test.means[i];
     a.variance =
         std::max(a.variance, VarianceAround(test.layout, test.means, i).variance);
-    if (!RestsOnEnough(a, b, double(reference.spp) / samples)) {
+    if (!HasEnoughObservations(a, b, double(reference.spp) / samples)) {
       p.push_back(1);
       test.z.push_back(std::nan(""));
       continue;

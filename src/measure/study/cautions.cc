@@ -9,10 +9,10 @@
 namespace lanelight {
 namespace {
 
-class Cautioner {
+class CautionFinder {
  public:
-  Cautioner(const SceneRuns& runs, const StudyOptions& options,
-            const SceneAnalysis& analysis)
+  CautionFinder(const SceneRuns& runs, const StudyOptions& options,
+                const SceneAnalysis& analysis)
       : runs_(runs), options_(options), analysis_(analysis) {}
 
   std::vector<std::string> Texts() {
@@ -52,7 +52,7 @@ class Cautioner {
   }
 
   // Returns whether `other` is significantly more efficient at that sample count.
-  bool Beats(std::size_t other, std::size_t one, std::uint64_t spp) const {
+  bool RanksAbove(std::size_t other, std::size_t one, std::uint64_t spp) const {
     const stat::Level *a = LevelOf(one, spp), *b = LevelOf(other, spp);
     if (a == nullptr || b == nullptr || a->error.size() != b->error.size()) return false;
     const std::size_t n = a->error.size();
@@ -68,7 +68,8 @@ class Cautioner {
     for (std::size_t k = Of(winner).at; k-- > 0;) {
       const std::uint64_t spp = Of(winner).levels[k].spp;
       for (const std::size_t other : analysis_.ranking) {
-        if (other == winner || !Beats(winner, other, at) || !Beats(other, winner, spp)) {
+        if (other == winner || !RanksAbove(winner, other, at) ||
+            !RanksAbove(other, winner, spp)) {
           continue;
         }
         texts_.push_back(fmt::format(
@@ -148,7 +149,7 @@ std::string SuspectTilesText(const SceneAnalysis& analysis) {
 
 std::vector<std::string> Cautions(const SceneRuns& runs, const StudyOptions& options,
                                   const SceneAnalysis& analysis) {
-  return Cautioner(runs, options, analysis).Texts();
+  return CautionFinder(runs, options, analysis).Texts();
 }
 
 void AddSentence(const std::string& sentence, std::string& text) {
@@ -156,8 +157,9 @@ void AddSentence(const std::string& sentence, std::string& text) {
 }
 
 std::string NamesText(const SceneRuns& runs, const std::vector<std::size_t>& strategies,
-                      std::size_t most) {
-  if (strategies.size() > most) return fmt::format("{} strategies", strategies.size());
+                      std::size_t max_names) {
+  if (strategies.size() > max_names)
+    return fmt::format("{} strategies", strategies.size());
   std::string text;
   for (std::size_t k = 0; k < strategies.size(); ++k) {
     text += k == 0 ? "" : k + 1 == strategies.size() ? " and " : ", ";

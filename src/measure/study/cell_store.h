@@ -22,35 +22,36 @@ namespace lanelight {
 
 // X(type, name): one column each. Unknown numbers are NaN. Squared errors exclude the
 // error of the reference, and may be negative by chance; `raw_relmse` includes it.
-#define LANELIGHT_MEASUREMENT(X)                                                         \
-  X(std::uint64_t, seed)                                                                 \
-  X(std::uint64_t, samples)                                                              \
-  X(double, wall_seconds)                                                                \
-  X(double, cpu_seconds)                                                                 \
-  X(double, pilot_seconds)                                                               \
-  X(std::uint64_t, rays_closest)                                                         \
-  X(std::uint64_t, rays_shadow)                                                          \
-  X(double, mse)                                                                         \
-  X(double, rmse)                                                                        \
-  X(double, relmse)                                                                      \
-  X(double, relmse_trimmed) /* without the worst kTrimmedShare of the pixels */          \
-  X(double, relmse_2)       /* of means over squares of 2 x 2 pixels, and so on */       \
-  X(double, relmse_4)                                                                    \
-  X(double, relmse_8)                                                                    \
-  X(double, raw_relmse)                                                                  \
-  X(double, worst_share) /* part of raw_relmse in the worst kWorstShare of the pixels */ \
-  X(double, mape)                                                                        \
-  X(double, mean_r)                                                                      \
-  X(double, mean_g)                                                                      \
-  X(double, mean_b)                                                                      \
-  X(std::uint64_t, invalid)                                                              \
-  X(double, self_relmse) /* the render's own estimate and its interval */                \
-  X(double, self_low)                                                                    \
-  X(double, self_high)                                                                   \
-  X(std::uint64_t, worst_x) /* the worst pixel of raw_relmse */                          \
+#define LANELIGHT_MEASUREMENT(X)                                                    \
+  X(std::uint64_t, seed)                                                            \
+  X(std::uint64_t, samples)                                                         \
+  X(double, wall_seconds)                                                           \
+  X(double, cpu_seconds)                                                            \
+  X(double, pilot_seconds)                                                          \
+  X(std::uint64_t, rays_closest)                                                    \
+  X(std::uint64_t, rays_shadow)                                                     \
+  X(double, mse)                                                                    \
+  X(double, rmse)                                                                   \
+  X(double, relmse)                                                                 \
+  X(double, relmse_trimmed) /* without the worst kTrimmedFraction of the pixels */  \
+  X(double, relmse_2)       /* of means over squares of 2 x 2 pixels, and so on */  \
+  X(double, relmse_4)                                                               \
+  X(double, relmse_8)                                                               \
+  X(double, raw_relmse)                                                             \
+  X(double,                                                                         \
+    worst_share) /* part of raw_relmse in the worst kWorstFraction of the pixels */ \
+  X(double, mape)                                                                   \
+  X(double, mean_r)                                                                 \
+  X(double, mean_g)                                                                 \
+  X(double, mean_b)                                                                 \
+  X(std::uint64_t, invalid)                                                         \
+  X(double, self_relmse) /* the render's own estimate and its interval */           \
+  X(double, self_low)                                                               \
+  X(double, self_high)                                                              \
+  X(std::uint64_t, worst_x) /* the worst pixel of raw_relmse */                     \
   X(std::uint64_t, worst_y)
 
-inline constexpr double kTrimmedShare = 0.01, kWorstShare = 0.001;
+inline constexpr double kTrimmedFraction = 0.01, kWorstFraction = 0.001;
 
 struct Measurement {
 #define X(type, name) type name = Unknown<type>();
@@ -59,7 +60,7 @@ struct Measurement {
   MachineInfo machine;
 
   bool HasSelf() const { return self_low <= self_high; }
-  bool SelfHolds() const { return self_low <= relmse && relmse <= self_high; }
+  bool SelfIntervalCovers() const { return self_low <= relmse && relmse <= self_high; }
 
  private:
   template <class T>

@@ -22,7 +22,7 @@ class Comparison {
     }
     if (out_.ranking.empty()) return;
     out_.baseline = out_.ranking.front();
-    FindDoubts();
+    FindUncertainties();
     Rank();
     SortRanking();
   }
@@ -32,17 +32,18 @@ class Comparison {
   // samples, efficiency is proportional to samples^-(1 + 2 order). Timed renders estimate
   // the sample counts of a budget, with a spread; the actual time also differs from the
   // budget.
-  void FindDoubts() {
+  void FindUncertainties() {
     if (!options_.budget || !options_.spp.empty()) return;
     std::vector<double> times;
     for (std::size_t i : out_.ranking) times.push_back(TimeOf(i));
     std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-    const double usual = times[times.size() / 2];
+    const double typical = times[times.size() / 2];
     for (std::size_t i : out_.ranking) {
       StrategyAnalysis& s = out_.strategies[i];
-      const double missed = std::log(TimeOf(i) / usual);
-      s.budget_doubt = Sensitivity(s) * std::hypot(runs_.strategies[i].count_spread,
-                                                   std::isfinite(missed) ? missed : 0);
+      const double missed = std::log(TimeOf(i) / typical);
+      s.budget_uncertainty =
+          Sensitivity(s) * std::hypot(runs_.strategies[i].count_deviation,
+                                      std::isfinite(missed) ? missed : 0);
     }
   }
 
@@ -54,36 +55,37 @@ class Comparison {
   static double Sensitivity(const StrategyAnalysis& s) {
     if (!s.order_relmse) return 1;
     const Interval& order = *s.order_relmse;
-    double most = std::abs(1 + 2 * order.value);
-    if (!order.HasBounds()) return std::max(most, 1.0);
+    double maximum = std::abs(1 + 2 * order.value);
+    if (!order.HasBounds()) return std::max(maximum, 1.0);
     for (double bound : {order.low, order.high}) {
-      most = std::max(most, std::abs(1 + 2 * bound));
+      maximum = std::max(maximum, std::abs(1 + 2 * bound));
     }
-    return most;
+    return maximum;
   }
 
   Interval Relative(std::span<const stat::Cost> other_costs,
                     std::span<const stat::Cost> baseline_costs, std::size_t other) const {
     if (other == out_.baseline) return WithoutBounds(1);  // nothing is estimated
-    const double doubt = std::hypot(out_.strategies[out_.baseline].budget_doubt,
-                                    out_.strategies[other].budget_doubt);
+    const double extra_uncertainty =
+        std::hypot(out_.strategies[out_.baseline].budget_uncertainty,
+                   out_.strategies[other].budget_uncertainty);
     return stat::Widened(
-        stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence), doubt,
-        options_.confidence);
+        stat::EfficiencyRatio(baseline_costs, other_costs, options_.confidence),
+        extra_uncertainty, options_.confidence);
   }
 
   void Rank() {
     std::vector<std::vector<stat::Cost>> costs;
-    std::vector<double> doubts;
+    std::vector<double> uncertainties;
     for (std::size_t i : out_.ranking) {
       const StrategyAnalysis& strategy = out_.strategies[i];
       costs.push_back(CostsOf(strategy.costs[strategy.at], repetitions_));
-      doubts.push_back(out_.strategies[i].budget_doubt);
+      uncertainties.push_back(out_.strategies[i].budget_uncertainty);
     }
     const auto trimmed = [&](std::size_t i) {
       return std::span(out_.strategies[i].trimmed).first(repetitions_);
     };
-    const auto ranks = stat::RankByEfficiency(costs, options_.confidence, doubts);
+    const auto ranks = stat::RankByEfficiency(costs, options_.confidence, uncertainties);
     for (std::size_t k = 0; k < costs.size(); ++k) {
       const std::size_t i = out_.ranking[k];
       StrategyAnalysis& strategy = out_.strategies[i];

@@ -20,8 +20,8 @@ double SumRaw(const PixelError* begin, const PixelError* end) {
   return sum;
 }
 
-std::size_t Count(double share, std::size_t pixels) {
-  return std::max<std::size_t>(1, std::size_t(std::lround(share * double(pixels))));
+std::size_t Count(double fraction, std::size_t pixels) {
+  return std::max<std::size_t>(1, std::size_t(std::lround(fraction * double(pixels))));
 }
 
 void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
@@ -35,7 +35,8 @@ void MeasureRelative(std::vector<PixelError> errors, Measurement& m) {
   const auto worse = [](const PixelError& a, const PixelError& b) {
     return a.raw > b.raw;
   };
-  const std::size_t worst = Count(kWorstShare, n), trimmed = Count(kTrimmedShare, n);
+  const std::size_t worst = Count(kWorstFraction, n),
+                    trimmed = Count(kTrimmedFraction, n);
   std::nth_element(errors.begin(), errors.begin() + trimmed - 1, errors.end(), worse);
   std::nth_element(errors.begin(), errors.begin() + worst - 1, errors.begin() + trimmed,
                    worse);

@@ -60,8 +60,9 @@ Interval SquaredBias(const Moments& moments, const Reference& reference,
 
 // Returns an estimate with at least the variance by the reference, since an image may
 // have missed all rare samples.
-stat::MeanEstimate Cautious(const stat::MeanEstimate& own,
-                            const stat::MeanEstimate& known, double reference_per_image) {
+stat::MeanEstimate WithReferenceVariance(const stat::MeanEstimate& own,
+                                         const stat::MeanEstimate& known,
+                                         double reference_per_image) {
   stat::MeanEstimate out = own;
   out.variance = std::max(out.variance, known.variance * reference_per_image);
   return out;
@@ -75,8 +76,9 @@ void TestMean(const Moments& moments, const Reference& reference, double confide
   level.bias = WithoutBounds(bias);
   if (moments.count() < 2) return;
   const double samples = double(level.spp) * double(moments.count());
-  level.bias_p = stat::WelchPValue(Cautious(own, known, double(reference.spp) / samples),
-                                   known, kFloatRounding * scale);
+  level.bias_p = stat::WelchPValue(
+      WithReferenceVariance(own, known, double(reference.spp) / samples), known,
+      kFloatRounding * scale);
   const double variance = own.variance + known.variance;
   if (variance == 0) {
     level.bias = {bias, bias, bias};
@@ -99,7 +101,7 @@ SelfCheck CheckSelf(const std::vector<Measurement>& all, double confidence) {
       continue;
     }
     ++self.total;
-    self.inside += m.SelfHolds();
+    self.inside += m.SelfIntervalCovers();
   }
   self.relmse = stat::MeanInterval(estimates, confidence);
   return self;

@@ -61,7 +61,7 @@ Reference RenderReference(const Job& scene, const ReferenceOptions& options) {
   if (!options.state.empty()) {
     checkpoint = OpenCheckpoint(job, options);
     run.tiles = checkpoint->tiles();
-    run.keeper = checkpoint.get();
+    run.checkpointer = checkpoint.get();
   }
   const RunResult result = Run(job.scene, job.plan, run, film);
   if (checkpoint) Finish(*checkpoint, options);

@@ -74,7 +74,7 @@ struct StrategyRuns {
   std::optional<std::size_t> same_as = {};  // index of the equal strategy of kSame
   /// Standard error of the logarithm of a budget's count, by the scatter of timed
   /// renders; 0 for given counts.
-  double count_spread = 0;
+  double count_deviation = 0;
 
   std::string Text() const { return ToText(named.strategy); }
 };
@@ -92,7 +92,7 @@ struct SceneRuns {
   int full_width = 0, full_height = 0;
   PixelRect window;
   double load_seconds = 0, build_seconds = 0;
-  TreeReport trees;  // BVHs; their time is part of build_seconds
+  BvhReport trees;  // BVHs; their time is part of build_seconds
   std::vector<std::string> notes;
   std::string differs;  // how images differ from the scene file; may be empty
   std::string folder;   // of state files and images

@@ -95,11 +95,11 @@ std::uint64_t SceneRunner::Seed(int repetition) const {
 }
 
 std::uint64_t SceneRunner::MaxSamples() const {
-  std::uint64_t most = 1;
+  std::uint64_t max_spp = 1;
   for (const StrategyRuns& runs : scene_.strategies) {
-    if (!runs.counts.empty()) most = std::max(most, runs.counts.back());
+    if (!runs.counts.empty()) max_spp = std::max(max_spp, runs.counts.back());
   }
-  return most;
+  return max_spp;
 }
 
 double SceneRunner::Work(std::uint64_t spp) const {
@@ -109,7 +109,7 @@ double SceneRunner::Work(std::uint64_t spp) const {
 
 bool SceneRunner::Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
 
-std::optional<HeldLock> SceneRunner::WaitForClaim(const std::string& name) const {
+std::optional<ScopedLock> SceneRunner::WaitForClaim(const std::string& name) const {
   return claims_->Wait(name, [this](double) { return !Stopped(); });
 }
 

@@ -78,7 +78,7 @@ class SceneRunner {
   std::uint64_t Seed(int repetition) const;
   bool Stopped() const;
   /// Waits for a claim; empty if the study is stopped before.
-  std::optional<HeldLock> WaitForClaim(const std::string& name) const;
+  std::optional<ScopedLock> WaitForClaim(const std::string& name) const;
   void Report(const std::string& what);
   double Work(std::uint64_t spp) const;  // work of one render, in samples
 
@@ -99,7 +99,7 @@ class SceneRunner {
 struct Calibration {
   double samples = 1;  // per pixel in the budget, at least 1
   /// Standard error of log(samples), by the scatter of timed renders.
-  double spread = 0;
+  double deviation = 0;
   /// Samples per pixel for a relative error of kSmallError, by estimates of the timed
   /// renders; infinite without estimates.
   double for_small_error = std::numeric_limits<double>::infinity();

@@ -64,27 +64,27 @@ void SceneRunner::SaveState() {
 // speed.
 void SceneRunner::FindCounts() {
   nlohmann::json& counts = state_["counts"];
-  nlohmann::json& spreads = state_["spreads"];
-  if (spreads.is_null()) spreads = nlohmann::json::object();
-  const bool given = !options_.spp.empty();
+  nlohmann::json& deviations = state_["spreads"];
+  if (deviations.is_null()) deviations = nlohmann::json::object();
+  const bool has_counts = !options_.spp.empty();
   bool all_known = true;
   for (StrategyRuns& runs : scene_.strategies) {
     if (runs.status != RunStatus::kOk) continue;
     all_known &= counts.contains(runs.Text());
   }
-  if (given || !all_known) {
+  if (has_counts || !all_known) {
     Report("choosing sample counts");
     ChooseCounts(options_, job_, scene_.strategies, hooks_.stop);
   }
   for (StrategyRuns& runs : scene_.strategies) {
     if (runs.status != RunStatus::kOk) continue;
-    if (!given && counts.contains(runs.Text())) {
+    if (!has_counts && counts.contains(runs.Text())) {
       runs.counts = counts[runs.Text()].get<std::vector<std::uint64_t>>();
-      runs.count_spread = spreads.value(runs.Text(), 0.0);
+      runs.count_deviation = deviations.value(runs.Text(), 0.0);
     }
     if (runs.counts.empty()) continue;  // stopped before they were known
     counts[runs.Text()] = runs.counts;
-    if (runs.count_spread > 0) spreads[runs.Text()] = runs.count_spread;
+    if (runs.count_deviation > 0) deviations[runs.Text()] = runs.count_deviation;
   }
   SaveState();
 }

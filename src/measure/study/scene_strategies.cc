@@ -88,7 +88,7 @@ void SceneRunner::RunDiffuseModels() {
     settings.scattering = model.scattering;
     settings.spp = MaxSamples();
     settings.transport = SettingsInForce(job_).transport;
-    settings.known_tree = TreesOf(*job_.scene.compiled);
+    settings.cached_bvh = CachedBvhOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
     if (Stopped()) return;

@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kMostSpp = 1u << 20;
+constexpr std::uint64_t kMaxSpp = 1u << 20;
 constexpr double kMinSeconds = 1e-9;  // replaces 0 of a coarse clock
 
 std::vector<std::uint64_t> Sorted(std::vector<std::uint64_t> counts) {
@@ -82,7 +82,7 @@ class TimedRenders {
     std::uint64_t spp = 1;
     Render(strategy, spp);
     // Stops at half the time, since the next render takes twice as long.
-    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMostSpp &&
+    while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMaxSpp &&
            !Stopped()) {
       spp *= 2;
     }
@@ -93,23 +93,23 @@ class TimedRenders {
     TimedStrategy& timed = renders_[i];
     timed.few.push_back(SecondsOf(Render(strategies_[i], timed.FewSpp()).result).cpu);
     const JobRun run = Render(strategies_[i], timed.spp);
-    const Seconds taken = SecondsOf(run.result);
+    const Seconds elapsed = SecondsOf(run.result);
     timed.for_small_error = ForSmallError(run.film, timed.spp);
-    timed.seconds.push_back(taken.cpu);
-    wall_per_cpu_.push_back(taken.wall / taken.cpu);
+    timed.seconds.push_back(elapsed.cpu);
+    wall_per_cpu_.push_back(elapsed.wall / elapsed.cpu);
   }
 
   Calibration Evaluate(const TimedStrategy& timed) const {
     std::vector<double> logarithms;
     for (double s : timed.seconds) logarithms.push_back(std::log(s));
     // The standard error of a median of normal values.
-    const double spread = StandardDeviation(logarithms) *
-                          std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
+    const double deviation = StandardDeviation(logarithms) *
+                             std::sqrt(std::numbers::pi / 2 / double(logarithms.size()));
     const double samples =
         SamplesOfBudget(seconds_ / stat::Median(wall_per_cpu_),
                         {double(timed.spp), stat::Median(timed.seconds)},
                         {double(timed.FewSpp()), stat::Median(timed.few)});
-    return {std::clamp(samples, 1.0, double(kMostSpp)), spread, timed.for_small_error};
+    return {std::clamp(samples, 1.0, double(kMaxSpp)), deviation, timed.for_small_error};
   }
 
   const Job& job_;
@@ -167,7 +167,7 @@ void ChooseCounts(const StudyOptions& options, const Job& job,
   for (std::size_t i = 0; i < runs.size() && !found.empty(); ++i) {
     const Calibration& c = found[each ? i : 0];
     runs[i]->counts = CountsUpTo(each ? std::uint64_t(c.samples) : DefaultLargest(c));
-    runs[i]->count_spread = each ? c.spread : 0;
+    runs[i]->count_deviation = each ? c.deviation : 0;
   }
 }
 

@@ -38,8 +38,8 @@ void SelfRenders::Add(const std::vector<Measurement>& renders) {
     if (!m.HasSelf()) continue;
     stat::Cluster& cluster = seeds[m.seed];
     ++cluster.trials;
-    cluster.successes += m.SelfHolds();
-    if (m.SelfHolds()) continue;
+    cluster.successes += m.SelfIntervalCovers();
+    if (m.SelfIntervalCovers()) continue;
     ++missed[{m.worst_x, m.worst_y}];
     missed_worst_share += m.worst_share;
   }
@@ -52,7 +52,7 @@ void Calibrate(double confidence, SceneAnalysis& analysis) {
   for (std::size_t i = 0; i < analysis.strategies.size(); ++i) {
     const StrategyAnalysis& strategy = analysis.strategies[i];
     for (const LevelAnalysis& level : strategy.levels) {
-      if (level.reference_share > kMaxReferenceShare) continue;
+      if (level.reference_share > kMaxReferenceFraction) continue;
       analysis.calibration.inside += level.self.inside;
       analysis.calibration.total += level.self.total;
       analysis.calibration.refused += level.self.refused;
@@ -76,11 +76,11 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
   if (self.total == 0) {
     return self.refused > 0 ? "No render stated an interval of its own error." : "";
   }
-  const Interval& share = analysis.calibration_share;
+  const Interval& fraction = analysis.calibration_share;
   std::string text = fmt::format("The renders' own 95 % error intervals held in {:.1f} %",
-                                 100 * share.value);
-  if (share.HasBounds()) {
-    text += fmt::format(" [{:.1f}, {:.1f}]", 100 * share.low, 100 * share.high);
+                                 100 * fraction.value);
+  if (fraction.HasBounds()) {
+    text += fmt::format(" [{:.1f}, {:.1f}]", 100 * fraction.low, 100 * fraction.high);
   }
   text +=
       fmt::format(" of {} renders of {} seed{}, which the strategies share", self.total,
@@ -92,7 +92,7 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
         " Those of {} held in {} of {}: in the rest, {:g} % of the pixels had {:.0f} % "
         "of "
         "the error, and pixel ({}, {}) was the worst most often.",
-        runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstShare,
+        runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstFraction,
         100 * f.worst_share, f.pixel[0], f.pixel[1]);
   }
   return text;

@@ -89,7 +89,7 @@ Json StrategyJson(const StrategyRuns& runs, const StrategyAnalysis& s) {
               {"to_target", TargetJson(s.to_target)},
               {"efficiency", IntervalJson(s.efficiency)},
               {"efficiency_trimmed", IntervalJson(s.efficiency_trimmed)},
-              {"budget_doubt", NumberJson(s.budget_doubt)},
+              {"budget_uncertainty", NumberJson(s.budget_uncertainty)},
               {"at_spp", s.HasRuns() ? Json(s.AtLevel().spp) : Json()},
               {"rank", s.HasRuns() ? Json({s.rank.best, s.rank.worst}) : Json()},
               {"heavy_tailed", s.heavy_tailed},
@@ -236,7 +236,7 @@ std::string StudyCsv(const std::vector<SceneStudy>& scenes) {
           const Measurement& m = cells.repetitions[r];
           text += fmt::format("{},{},{},{},{},{},{}\n", CsvQuoted(scene.runs.name),
                               CsvQuoted(runs.named.name), spp, r + 1, CsvRow(m),
-                              m.HasSelf() ? m.SelfHolds() ? "1" : "0" : "",
+                              m.HasSelf() ? m.SelfIntervalCovers() ? "1" : "0" : "",
                               MachineCsvRow(m.machine));
         }
       }

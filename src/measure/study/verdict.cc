@@ -27,7 +27,7 @@ class Writer {
     return runs_.strategies[i].named.name;
   }
   const StrategyAnalysis& Of(std::size_t i) const { return analysis_.strategies[i]; }
-  void Say(const std::string& sentence) { AddSentence(sentence, text_); }
+  void Append(const std::string& sentence) { AddSentence(sentence, text_); }
 
   std::string List(const std::vector<std::size_t>& indices) const {
     return NamesText(runs_, indices, indices.size());
@@ -37,7 +37,7 @@ class Writer {
     const std::size_t best = analysis_.ranking.front();
     const Interval& gain = *Of(best).efficiency;
     if (!std::isfinite(gain.value) || Of(best).AtLevel().relmse.value <= 0) {
-      return Say("No error is left to compare: the strategies reach the reference.");
+      return Append("No error is left to compare: the strategies reach the reference.");
     }
     std::vector<std::size_t> first;
     for (std::size_t i : analysis_.ranking) {
@@ -45,7 +45,7 @@ class Writer {
     }
     const std::size_t repetitions = Of(best).AtLevel().repetitions;
     if (repetitions < 3) {
-      return Say(fmt::format(
+      return Append(fmt::format(
           "No ranking: {} repetition{} too few for intervals; use 3 or more. In these "
           "renders {} has the least error for the time, {} times the efficiency of {}.",
           repetitions, repetitions == 1 ? " is" : "s are", NameOf(best),
@@ -57,10 +57,10 @@ class Writer {
             : fmt::format("{} times the efficiency of {}", EstimateText(gain),
                           NameOf(analysis_.baseline));
     if (first.size() == 1) {
-      return Say(fmt::format("{} gives the least error for the time: {}.", NameOf(best),
-                             amount));
+      return Append(fmt::format("{} gives the least error for the time: {}.",
+                                NameOf(best), amount));
     }
-    Say(
+    Append(
         fmt::format("{} gives the least error for the time in these renders ({}), but {} "
                     "not certainly behind.",
                     NameOf(best), amount, Others(first)));
@@ -82,7 +82,7 @@ class Writer {
     const auto& mine = Of(best).to_target;
     const auto& base = Of(analysis_.baseline).to_target;
     if (!mine || !base || best == analysis_.baseline) return;
-    Say(
+    Append(
         fmt::format("To a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
                     "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
                     analysis_.target_relmse, mine->seconds.value, mine->samples.value,
@@ -94,11 +94,11 @@ class Writer {
   void Order() {
     const auto& order = Of(analysis_.ranking.front()).order;
     if (!order) return;
-    Say(fmt::format("Its RMSE falls with the number of samples to the power {}{}.",
-                    EstimateText(*order),
-                    order->HasBounds() && order->high < -0.5
-                        ? ", faster than independent samples"
-                        : ""));
+    Append(fmt::format("Its RMSE falls with the number of samples to the power {}{}.",
+                       EstimateText(*order),
+                       order->HasBounds() && order->high < -0.5
+                           ? ", faster than independent samples"
+                           : ""));
   }
 
   void TrimmedWinner() {
@@ -107,34 +107,35 @@ class Writer {
     };
     const std::size_t best = *std::ranges::max_element(analysis_.ranking, better);
     if (best == analysis_.baseline) return;
-    Say(fmt::format(
+    Append(fmt::format(
         "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
         NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
         NameOf(analysis_.baseline)));
   }
 
   void Warnings() {
-    Say(CalibrationText(runs_, analysis_));
+    Append(CalibrationText(runs_, analysis_));
     std::vector<std::size_t> heavy, failed;
     for (std::size_t i = 0; i < analysis_.strategies.size(); ++i) {
       if (Of(i).heavy_tailed) heavy.push_back(i);
       if (runs_.strategies[i].status == RunStatus::kFailed) failed.push_back(i);
     }
     if (!heavy.empty()) {
-      Say(fmt::format(
+      Append(fmt::format(
           "Rare bright samples carry much of the error of {}: intervals there "
           "may not hold, and bias cannot be tested.",
           NamesText(runs_, heavy)));
       TrimmedWinner();
     }
-    Say(BiasText(runs_, analysis_));
-    if (!failed.empty()) Say("Failed: " + List(failed) + ".");
+    Append(BiasText(runs_, analysis_));
+    if (!failed.empty()) Append("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
-      Say("The reference is too noisy for the smallest errors: more than half of those "
+      Append(
+          "The reference is too noisy for the smallest errors: more than half of those "
           "is "
           "its own error.");
     }
-    if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
+    if (runs_.interrupted) Append("The study was interrupted; --resume continues it.");
   }
 
   const SceneRuns& runs_;

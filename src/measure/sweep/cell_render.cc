@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kProbeSamples = 4;
 
 // Returns tiles of at most 32 x 32 pixels in a grid of 8 x 8 over the image.
-std::vector<PixelRect> SpreadWindows(const PixelRect& image) {
+std::vector<PixelRect> EvenlySpacedWindows(const PixelRect& image) {
   constexpr int kSide = 32, kGrid = 8;
   const int width = std::min(kSide, std::max(1, image.width() / kGrid));
   const int height = std::min(kSide, std::max(1, image.height() / kGrid));
@@ -83,8 +83,8 @@ bool CellRenderer::HasTarget(const SweepCell& cell) {
 // Compiles the scene; sets failure_ and no job if that fails.
 void CellRenderer::Compile(const SweepCell& cell, RenderSettings settings) {
   const std::string trees = TreeKeyOf(cell.values);
-  if (job_ && trees == tree_key_) settings.known_tree = TreesOf(*job_->scene.compiled);
-  tree_key_ = trees;
+  if (job_ && trees == bvh_key_) settings.cached_bvh = CachedBvhOf(*job_->scene.compiled);
+  bvh_key_ = trees;
   job_.reset();  // frees memory before the next is built
   failure_.clear();
   settings.seed.reset();  // cells differ in their seeds
@@ -134,7 +134,7 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
 }
 
 ProbeRender RenderProbe(const Job& job, double seconds, bool half) {
-  const std::vector<PixelRect> windows = SpreadWindows(job.window);
+  const std::vector<PixelRect> windows = EvenlySpacedWindows(job.window);
   const int width = windows.front().width() * int(windows.size());
   const int height = windows.front().height();
   ProbeRender probe;

@@ -44,7 +44,7 @@ class CellRenderer {
   OutputPaths outputs_;
   std::optional<Job> job_;     // of the last cell, with the scene's strategy
   std::string key_, failure_;  // key of job_; why there is no job
-  std::string tree_key_;       // key of its BVHs
+  std::string bvh_key_;        // key of its BVHs
 };
 
 /// Speed and error of a short render, for predictions of long ones.

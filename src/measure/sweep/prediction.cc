@@ -75,8 +75,8 @@ class Predictor {
 
   // Renders evenly spaced combinations, to cover all scenes and strategies, in grid
   // order, to compile each scene once.
-  void RenderProbes(std::size_t most, SweepPrediction& out) {
-    const std::size_t count = std::min(most, combinations_.size());
+  void RenderProbes(std::size_t probe_limit, SweepPrediction& out) {
+    const std::size_t count = std::min(probe_limit, combinations_.size());
     for (std::size_t i = 0; i < count && !stop_; ++i) {
       const Combination& c = combinations_[i * combinations_.size() / count];
       try {

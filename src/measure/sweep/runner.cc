@@ -18,7 +18,7 @@ namespace lanelight {
 namespace {
 
 // State of a cell as far as this process knows.
-enum class Known { kMissing, kDone, kFailed, kElsewhere, kNoTarget };
+enum class CellStatus { kMissing, kDone, kFailed, kElsewhere, kNoTarget };
 
 class Runner {
  public:
@@ -43,8 +43,8 @@ class Runner {
     Help();
     if (options_.wait) WaitForOthers();
     outcome.rendered = rendered_;
-    outcome.elsewhere = Count(Known::kElsewhere);
-    outcome.without_target = Count(Known::kNoTarget);
+    outcome.elsewhere = Count(CellStatus::kElsewhere);
+    outcome.without_target = Count(CellStatus::kNoTarget);
     outcome.interrupted = interrupted_;
   }
 
@@ -63,9 +63,9 @@ class Runner {
       if (is_new) groups_.emplace_back();
       groups_[entry->second].push_back(part_.size());
       part_.push_back(&cell);
-      known_.push_back(state == CellState::kDone        ? Known::kDone
-                       : !CellRenderer::HasTarget(cell) ? Known::kNoTarget
-                                                        : Known::kMissing);
+      known_.push_back(state == CellState::kDone        ? CellStatus::kDone
+                       : !CellRenderer::HasTarget(cell) ? CellStatus::kNoTarget
+                                                        : CellStatus::kMissing);
       failed_before_.push_back(state == CellState::kFailed);
     }
   }
@@ -75,7 +75,7 @@ class Runner {
   void FirstOfAll() {
     for (const Group& group : groups_) {
       if (std::ranges::all_of(
-              group, [&](std::size_t i) { return known_[i] != Known::kMissing; })) {
+              group, [&](std::size_t i) { return known_[i] != CellStatus::kMissing; })) {
         continue;
       }
       const auto claim = claims_.Take("scene of " + part_[group.front()]->name);
@@ -94,7 +94,7 @@ class Runner {
     for (const Group& group : groups_) {
       std::vector<std::size_t> missing;
       for (const std::size_t i : group) {
-        if (known_[i] == Known::kMissing) missing.push_back(i);
+        if (known_[i] == CellStatus::kMissing) missing.push_back(i);
       }
       std::ranges::reverse(missing);
       if (!missing.empty()) {
@@ -112,9 +112,9 @@ class Runner {
 
   void WaitForOthers() {
     constexpr auto kPause = std::chrono::milliseconds(200);
-    while (!interrupted_ && Count(Known::kElsewhere) > 0) {
+    while (!interrupted_ && Count(CellStatus::kElsewhere) > 0) {
       for (std::size_t i = 0; i < part_.size() && !Stopped(); ++i) {
-        if (known_[i] == Known::kElsewhere) TryCell(i);
+        if (known_[i] == CellStatus::kElsewhere) TryCell(i);
       }
       interrupted_ |= Stopped();
       std::this_thread::sleep_for(kPause);
@@ -122,10 +122,10 @@ class Runner {
   }
 
   void TryCell(std::size_t i) {
-    if (known_[i] != Known::kMissing && known_[i] != Known::kElsewhere) return;
+    if (known_[i] != CellStatus::kMissing && known_[i] != CellStatus::kElsewhere) return;
     const auto claim = claims_.Take(part_[i]->name);
     if (!claim) {
-      known_[i] = Known::kElsewhere;
+      known_[i] = CellStatus::kElsewhere;
       return;
     }
     if (StillMissing(i)) RenderCell(i);
@@ -134,9 +134,10 @@ class Runner {
   // Another process may have rendered the cell since this one looked.
   bool StillMissing(std::size_t i) {
     const CellState state = folder_.Look(*part_[i]).state;
-    if (state == CellState::kDone) known_[i] = Known::kDone;
-    if (state == CellState::kFailed && !failed_before_[i]) known_[i] = Known::kFailed;
-    return known_[i] == Known::kMissing || known_[i] == Known::kElsewhere;
+    if (state == CellState::kDone) known_[i] = CellStatus::kDone;
+    if (state == CellState::kFailed && !failed_before_[i])
+      known_[i] = CellStatus::kFailed;
+    return known_[i] == CellStatus::kMissing || known_[i] == CellStatus::kElsewhere;
   }
 
   void RenderCell(std::size_t i) {
@@ -153,7 +154,7 @@ class Runner {
           renderer_.Render(cell, folder_.path() + "/cells/" + cell.name, hooks);
       if (rendering.report.result.stopped_early) {
         folder_.RemoveImages(cell);
-        known_[i] = Known::kMissing;
+        known_[i] = CellStatus::kMissing;
         interrupted_ = true;
         return;
       }
@@ -164,7 +165,7 @@ class Runner {
         return Fail(i, text.substr(0, text.size() - 2));
       }
       folder_.Finish(cell, CellReport(rendering));
-      known_[i] = Known::kDone;
+      known_[i] = CellStatus::kDone;
       ++rendered_;
     } catch (const WouldOverwrite&) {
       throw;
@@ -178,7 +179,7 @@ class Runner {
 
   void Fail(std::size_t i, const std::string& message) {
     const SweepCell& cell = *part_[i];
-    known_[i] = Known::kFailed;
+    known_[i] = CellStatus::kFailed;
     folder_.Fail(cell, message);
     // All cells of a broken scene have the same message.
     if (!said_.insert(message).second || !hooks_.on_problem) return;
@@ -187,12 +188,12 @@ class Runner {
 
   void Report(const SweepCell& cell, const Progress& progress) {
     if (!hooks_.on_progress) return;
-    hooks_.on_progress(
-        {Count(Known::kDone) + Count(Known::kFailed), part_.size(), &cell, progress});
+    hooks_.on_progress({Count(CellStatus::kDone) + Count(CellStatus::kFailed),
+                        part_.size(), &cell, progress});
   }
 
   bool Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
-  std::size_t Count(Known what) const {
+  std::size_t Count(CellStatus what) const {
     return std::size_t(std::ranges::count(known_, what));
   }
 
@@ -203,7 +204,7 @@ class Runner {
   const LockFile claims_;  // of cells and scenes, by their names
   CellRenderer renderer_;
   std::vector<const SweepCell*> part_;  // cells of this process
-  std::vector<Known> known_;            // of each
+  std::vector<CellStatus> known_;       // of each
   std::vector<bool> failed_before_;     // failed before this process started; retried
   std::vector<Group> groups_;
   std::set<std::string> said_;  // reported failures

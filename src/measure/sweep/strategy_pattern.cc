@@ -44,7 +44,7 @@ class PatternReader {
       if (text_[at] == ',') item_ = at + 1;
       if (text_[at] == '}') Fail("'}' without '{'");
       if (text_[at] == '{') at = List(at);
-      if (text_[at] == '*') Star(at);
+      if (text_[at] == '*') ExpandStar(at);
     }
     rest = text_.substr(fixed_);
     return std::move(parts_);
@@ -70,7 +70,7 @@ class PatternReader {
     return close;
   }
 
-  void Star(std::size_t at) {
+  void ExpandStar(std::size_t at) {
     const bool ends = at + 1 == text_.size() || text_[at + 1] == ',';
     if (at == item_ || text_[at - 1] != '=' || !ends) {
       Fail(

@@ -131,14 +131,14 @@ std::vector<ThroughputRow> MeasureThroughput(
     SceneBench bench(options, scene);
     bench.Begin(stop);
     const Stopwatch watch;
-    const double most = options.seconds * double(bench.rows().size());
+    const double max_seconds = options.seconds * double(bench.rows().size());
     for (progress.repeats = 0; !stop; ++progress.repeats) {
       const bool enough = progress.repeats >= kMinRepeats;
       if (enough &&
-          (WorstSpread(bench.rows()) <= options.within || watch.Seconds() >= most))
+          (MaxSpread(bench.rows()) <= options.within || watch.Seconds() >= max_seconds))
         break;
       bench.Repeat(stop);
-      progress.worst = WorstSpread(bench.rows());
+      progress.worst = MaxSpread(bench.rows());
       on_progress(progress);
     }
     ++progress.done;

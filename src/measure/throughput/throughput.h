@@ -94,7 +94,7 @@ struct BenchProgress {
 };
 
 /// Returns the largest Spread(); 0 without rows.
-double WorstSpread(const std::vector<ThroughputRow>& rows);
+double MaxSpread(const std::vector<ThroughputRow>& rows);
 
 /// Returns the row with one thread, but the same scene and target; null without one.
 const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,

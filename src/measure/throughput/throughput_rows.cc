@@ -87,7 +87,7 @@ std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   return groups;
 }
 
-double WorstSpread(const std::vector<ThroughputRow>& rows) {
+double MaxSpread(const std::vector<ThroughputRow>& rows) {
   double worst = 0;
   for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
   return worst;
@@ -127,7 +127,7 @@ std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& ro
         "The machine was busy: {}. Rates per second of processor time say more.",
         fmt::join(busy, "; ")));
   }
-  const double worst = WorstSpread(rows);
+  const double worst = MaxSpread(rows);
   if (worst > within) {
     warnings.push_back(fmt::format(
         "Not all medians are known within {:.3g} %: the worst {}. The machine is not "

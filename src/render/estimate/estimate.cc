@@ -17,10 +17,10 @@ namespace lanelight {
 namespace {
 
 constexpr int kReach = 1;           // neighbours: 3 x 3 pixels
-constexpr int kSpread = 2;          // where their scatter is taken from: 5 x 5
+constexpr int kVarianceReach = 2;   // where their scatter is taken from: 5 x 5
 constexpr double kRounding = 1e-5;  // of a mean, at most (docs/numbers.md)
 constexpr double kTwoSided = 1.96;  // kEstimateConfidence of a normal is within
-constexpr int kMostDoublings = 12;  // of the samples, looked at for an interval
+constexpr int kMaxDoublings = 12;   // of the samples, looked at for an interval
 
 // 1 / x^2 of a noisy x is too large by three times its variance over the square, to
 // second order: `noise`, that variance, takes it away.
@@ -32,10 +32,10 @@ double Weight(double mean, double noise = 0) {
 struct Shares {
   double sum = 0, squares = 0, by_freedom = 0;
 
-  void Add(double share, double freedom, double dependents) {
-    sum += share;
+  void Add(double fraction, double freedom, double dependents) {
+    sum += fraction;
     // E[s^4] = sigma^4 (G + 1) / (G - 1) for normal observations.
-    const double square = dependents * share * share * freedom / (freedom + 2);
+    const double square = dependents * fraction * fraction * freedom / (freedom + 2);
     squares += square;
     by_freedom += square / freedom;
   }
@@ -75,18 +75,18 @@ struct Sums {
   double pooled = 0;  // relative error, by ChannelTruth::pooled
   // Squares by which the relative errors may grow; the largest, and the index of its
   // pixel.
-  double up_squares = 0, most_up = 0;
-  std::size_t most_up_at = 0;
+  double up_squares = 0, max_upper = 0;
+  std::size_t max_upper_at = 0;
   double squares = 0,
          relative_squares = 0;  // of means, which rounding is in proportion to
   std::uint64_t pixels = 0;
 
-  // `share`: of the variance that is left; `dependents`: SampleGroups.
+  // `fraction`: of the variance that is left; `dependents`: SampleGroups.
   void Add(std::size_t index, const PixelEstimate& p,
-           const std::array<ChannelTruth, 3>& truth, double share, double dependents) {
+           const std::array<ChannelTruth, 3>& truth, double fraction, double dependents) {
     double own_square = 0, own_relative = 0, up = 0;
     for (int c = 0; c < 3; ++c) {
-      const double v = p.variance[c] * share / 3;
+      const double v = p.variance[c] * fraction / 3;
       const double weight = Weight(truth[c].own.Quantile(0), truth[c].noise);
       own_square += v;
       own_relative += v * weight;
@@ -101,7 +101,7 @@ struct Sums {
       squares += s;
       relative_squares += s / (3 * s + kRelativeEpsilon);
     }
-    if (up > most_up) most_up = up, most_up_at = index;
+    if (up > max_upper) max_upper = up, max_upper_at = index;
     ++pixels;
   }
   void Add(const Sums& other) {
@@ -111,8 +111,8 @@ struct Sums {
     up_squares += other.up_squares;
     squares += other.squares;
     relative_squares += other.relative_squares;
-    if (other.most_up > most_up) {
-      most_up = other.most_up, most_up_at = other.most_up_at;
+    if (other.max_upper > max_upper) {
+      max_upper = other.max_upper, max_upper_at = other.max_upper_at;
     }
     pixels += other.pixels;
   }
@@ -141,15 +141,15 @@ class PixelGrid {
   }
 
   // Sums in the order of the rows, so that the result is the same for any number of
-  // threads. `share`: part of the variances that more samples would leave.
-  Sums Total(double share = 1) const {
+  // threads. `fraction`: part of the variances that more samples would leave.
+  Sums Total(double fraction = 1) const {
     std::vector<Sums> rows(static_cast<std::size_t>(height_));
     ForRows([&](int y) {
       Sums& row = rows[std::size_t(y)];
       for (int x = 0; x < width_; ++x) {
         const std::size_t i = Index(x, y);
         if (!pixels_[i].known) continue;
-        row.Add(i, pixels_[i], Truth(x, y, share), share, dependents_);
+        row.Add(i, pixels_[i], Truth(x, y, fraction), fraction, dependents_);
       }
     });
     Sums total;
@@ -202,19 +202,19 @@ class PixelGrid {
 
   // Statistics of the pixels around one, itself included.
   struct Surroundings {
-    Rgb spread;          // mean of (m - n)^2 - v, 5 x 5 pixels
-    Rgb mean, variance;  // sums over 3 x 3 pixels
-    double pixels = 0;   // these
+    Rgb variance_between;  // mean of (m - n)^2 - v, 5 x 5 pixels
+    Rgb mean, variance;    // sums over 3 x 3 pixels
+    double pixels = 0;     // these
   };
   Surroundings Around(int x, int y) const {
     Surroundings s;
     double count = 0;
-    ForWindow(x, y, kSpread, [&](std::size_t i) {
+    ForWindow(x, y, kVarianceReach, [&](std::size_t i) {
       const Rgb d = pixels_[i].mean - neighbours_[i];
-      s.spread += d * d - pixels_[i].variance;
+      s.variance_between += d * d - pixels_[i].variance;
       ++count;
     });
-    s.spread = s.spread / count;
+    s.variance_between = s.variance_between / count;
     ForWindow(x, y, kReach, [&](std::size_t i) {
       s.mean += pixels_[i].mean;
       s.variance += pixels_[i].variance;
@@ -224,20 +224,20 @@ class PixelGrid {
   }
 
   // Estimates the truth by empirical Bayes, with the neighbours' mean as the prior's.
-  std::array<ChannelTruth, 3> Truth(int x, int y, double share) const {
+  std::array<ChannelTruth, 3> Truth(int x, int y, double fraction) const {
     const PixelEstimate& p = pixels_[Index(x, y)];
     const Surroundings s = Around(x, y);
     const double others = std::max(1.0, s.pixels - 1);
     std::array<ChannelTruth, 3> out;
     for (int c = 0; c < 3; ++c) {
-      const double a = std::max(0.0, s.spread[c]), v = p.variance[c] * share;
+      const double a = std::max(0.0, s.variance_between[c]), v = p.variance[c] * fraction;
       if (!(v > 0)) continue;
       const double n = neighbours_[Index(x, y)][c];
       const double m = std::abs(a * p.mean[c] + v * n) / (a + v);
       out[c].own.mean = m;
       if (a > 0) out[c].own.shape = std::max(1.0, m * m * (a + v) / (a * v));
-      out[c].noise = std::pow(v / (a + v) / others, 2) * (s.variance[c] * share - v);
-      const double u = s.variance[c] * share / s.pixels;
+      out[c].noise = std::pow(v / (a + v) / others, 2) * (s.variance[c] * fraction - v);
+      const double u = s.variance[c] * fraction / s.pixels;
       out[c].pooled = (a * p.mean[c] + u * s.mean[c] / s.pixels) / (a + u);
       out[c].pooled_noise = std::pow(u / (a + u), 2) * u / s.pixels;
     }
@@ -256,12 +256,12 @@ class PixelGrid {
 Interval WithWeights(const Interval& v, const Sums& sums) {
   if (!(v.value > 0)) return v;
   const double n = double(sums.pixels);
-  const double skew = kSkewDoubt * std::sqrt(std::min(v.value, 1.0));
+  const double skew = kSkewUncertainty * std::sqrt(std::min(v.value, 1.0));
   const double low = std::log(v.low / v.value);
   const double pooled = std::log(std::min(1.0, sums.pooled / sums.relative.sum));
   const double up = std::sqrt(sums.up_squares) / n;
   const double value =
-      v.value * std::exp(kSkew * std::sqrt(std::min(v.value, kMostSkewed)));
+      v.value * std::exp(kSkew * std::sqrt(std::min(v.value, kMaxSkewError)));
   return {value, value * std::exp(-std::hypot(low, pooled, skew)),
           value + std::hypot(v.high - v.value, up, value * skew)};
 }
@@ -283,8 +283,8 @@ ErrorEstimate FromSums(const Sums& sums) {
   out.rmse = {std::sqrt(mse.value), std::sqrt(mse.low), std::sqrt(mse.high)};
   out.relmse =
       WithWeights(ErrorInterval(relative.sum / n, relative.K1(), relative.K2()), sums);
-  out.has_interval = mse.high <= kMostTimes * mse.value &&
-                     out.relmse.high <= kMostTimes * out.relmse.value;
+  out.has_interval = mse.high <= kMaxUpperRatio * mse.value &&
+                     out.relmse.high <= kMaxUpperRatio * out.relmse.value;
   // Rounding is no noise, and shows where there is none.
   constexpr double kSquare = kRounding * kRounding;
   out.relmse.high += kSquare * sums.relative_squares / n;
@@ -292,7 +292,7 @@ ErrorEstimate FromSums(const Sums& sums) {
   return out;
 }
 
-ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
+ErrorEstimate WithoutUpperBound(ErrorEstimate out, std::string why) {
   out.has_interval = false;
   out.rmse = AtLeast(out.rmse);
   out.relmse = AtLeast(out.relmse);
@@ -301,7 +301,7 @@ ErrorEstimate Unseen(ErrorEstimate out, std::string why) {
 }
 
 // Tiles that are ahead must not speak for the others.
-ErrorEstimate OfAPart(std::uint64_t known, std::uint64_t all) {
+ErrorEstimate EstimateOfPartialImage(std::uint64_t known, std::uint64_t all) {
   ErrorEstimate out;
   out.pixels = known;
   out.why = fmt::format(
@@ -317,12 +317,12 @@ int MoreSamples(const PixelGrid& grid) {
   const auto suffice = [&grid](int doublings) {
     return FromSums(grid.Total(std::ldexp(1.0, -doublings))).has_interval;
   };
-  int too_few = 0, enough = kMostDoublings + 1;
+  int too_few = 0, enough = kMaxDoublings + 1;
   while (enough - too_few > 1) {
     const int middle = (too_few + enough) / 2;
     (suffice(middle) ? enough : too_few) = middle;
   }
-  return enough > kMostDoublings ? 0 : 1 << enough;
+  return enough > kMaxDoublings ? 0 : 1 << enough;
 }
 
 }  // namespace
@@ -334,29 +334,29 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const Sums sums = grid.Total();
   if (grid.Stopped()) return {};
   if (sums.pixels > 0 && sums.pixels < window.pixels()) {
-    return OfAPart(sums.pixels, window.pixels());
+    return EstimateOfPartialImage(sums.pixels, window.pixels());
   }
   ErrorEstimate out = FromSums(sums);
   // Samples that are all black are equal, and say nothing of a lamp that they missed.
   if (out.available && grid.IsBlack()) {
-    return Unseen(std::move(out), kNoLight);
+    return WithoutUpperBound(std::move(out), kNoLight);
   }
   if (!out.available || out.has_interval) return out;
   const auto times = [](const Interval& v) { return v.high / v.value; };
-  const double rmse = times(out.rmse), most = std::max(rmse * rmse, times(out.relmse));
-  const int x = window.x0 + int(sums.most_up_at) % window.width();
-  const int y = window.y0 + int(sums.most_up_at) / window.width();
+  const double rmse = times(out.rmse), maximum = std::max(rmse * rmse, times(out.relmse));
+  const int x = window.x0 + int(sums.max_upper_at) % window.width();
+  const int y = window.y0 + int(sums.max_upper_at) / window.width();
   const int more = MoreSamples(grid);
   if (grid.Stopped()) return {};
   out.why = fmt::format(
       "rare bright samples, most of all at pixel ({}, {}), may make it {:.2g} times as "
       "large; {}, or a strategy that finds them (`lanelight advise`)",
-      x, y, most,
+      x, y, maximum,
       more > 0 ? fmt::format("an interval takes about {} times the samples", more)
                : fmt::format("an interval takes more than {} times the samples",
-                             1 << kMostDoublings));
-  if (rmse * rmse > kMostTimes) out.rmse = AtLeast(out.rmse);
-  if (times(out.relmse) > kMostTimes) out.relmse = AtLeast(out.relmse);
+                             1 << kMaxDoublings));
+  if (rmse * rmse > kMaxUpperRatio) out.rmse = AtLeast(out.rmse);
+  if (times(out.relmse) > kMaxUpperRatio) out.relmse = AtLeast(out.relmse);
   return out;
 }
 
@@ -374,12 +374,14 @@ ErrorEstimate EstimateError(const FilmAccumulator& film, const std::atomic<bool>
       EstimateError(WindowOf(film), pixel, film.groups().dependents, stop);
   // The expected number of samples that have met a light.
   const double met = TotalSamples(film) * film.chance_of_light();
-  if (!out.has_interval || film.chance_of_light() >= 1 || met >= kLeastMet) return out;
-  return Unseen(std::move(out),
-                fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
-                            "be missing: an interval needs {:.2g} times as many samples, "
-                            "or directions=mis, which samples lights",
-                            met, kLeastMet / met));
+  if (!out.has_interval || film.chance_of_light() >= 1 || met >= kMinExpectedMeetings)
+    return out;
+  return WithoutUpperBound(
+      std::move(out),
+      fmt::format("only {:.2g} samples hit lamps by chance, so some lamps may "
+                  "be missing: an interval needs {:.2g} times as many samples, "
+                  "or directions=mis, which samples lights",
+                  met, kMinExpectedMeetings / met));
 }
 
 Interval ErrorInterval(double estimate, double k1, double k2) {

@@ -77,22 +77,22 @@ struct PixelEstimate {
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes
 /// 2 gamma sqrt(r) of a pixel's relative error r away, gamma being the skewness of its
-/// mean; over scenes the loss was found to be kSkew sqrt(relmse) up to kMostSkewed, give
-/// or take kSkewDoubt sqrt(relmse) (bench/calibrate/): the former is given back, the
-/// latter widens the interval.
+/// mean; over scenes the loss was found to be kSkew sqrt(relmse) up to kMaxSkewError,
+/// give or take kSkewUncertainty sqrt(relmse) (bench/calibrate/): the former is given
+/// back, the latter widens the interval.
 ///
 /// Holds for two groups or more, best for four. What no group has sampled cannot be seen.
-/// Where the upper end is more than kMostTimes the estimate, it would say nothing: there
-/// is none. Nor is there where directions find lamps by chance alone, and all samples
-/// together are expected to have met what shines less than kLeastMet times: what none has
-/// met is in no estimate.
+/// Where the upper end is more than kMaxUpperRatio the estimate, it would say nothing:
+/// there is none. Nor is there where directions find lamps by chance alone, and all
+/// samples together are expected to have met what shines less than kMinExpectedMeetings
+/// times: what none has met is in no estimate.
 ///
 /// `stop`: once it is set, nothing more is computed, and what is returned says nothing
 /// (`available` is false); null: never.
 ErrorEstimate EstimateError(const FilmAccumulator& film,
                             const std::atomic<bool>* stop = nullptr);
-inline constexpr double kMostTimes = 32, kLeastMet = 50;
-inline constexpr double kSkew = 0.3, kSkewDoubt = 0.5, kMostSkewed = 0.01;
+inline constexpr double kMaxUpperRatio = 32, kMinExpectedMeetings = 50;
+inline constexpr double kSkew = 0.3, kSkewUncertainty = 0.5, kMaxSkewError = 0.01;
 
 /// Estimates from any source of pixels of the window, which is called from several
 /// threads at once. `dependents`: see SampleGroups; pixels count for less by this factor.
@@ -114,10 +114,10 @@ struct ErrorTarget {
 /// Returns whether the upper ends of the estimate's intervals are below the target.
 bool Reached(const ErrorTarget& target, const ErrorEstimate& estimate);
 
-/// Returns whether the estimate has no upper end although kHopeless times as many samples
-/// were taken as its value asks for.
+/// Returns whether the estimate has no upper end although kHopelessFactor times as many
+/// samples were taken as its value asks for.
 bool IsHopeless(const ErrorTarget& target, const ErrorEstimate& estimate);
-inline constexpr double kHopeless = 64;
+inline constexpr double kHopelessFactor = 64;
 
 /// Returns the samples per pixel that the target is expected to take, of which `done` are
 /// taken: squared errors fall like 1 / samples. At most `done` if it is reached, more if

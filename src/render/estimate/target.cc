@@ -28,7 +28,7 @@ bool Reached(const ErrorTarget& target, const ErrorEstimate& estimate) {
 
 bool IsHopeless(const ErrorTarget& target, const ErrorEstimate& estimate) {
   return estimate.available && !std::isfinite(Excess(target, estimate)) &&
-         kHopeless * Part(target, estimate.relmse.value, estimate.rmse.value) < 1;
+         kHopelessFactor * Part(target, estimate.relmse.value, estimate.rmse.value) < 1;
 }
 
 double SamplesNeeded(const ErrorTarget& target, const ErrorEstimate& estimate,

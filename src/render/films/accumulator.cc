@@ -155,16 +155,16 @@ Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
 // and scaled down by the share of a sample that has no partner yet.
 Rgb FilmAccumulator::UnitVariance(std::size_t index) const {
   const double n = double(groups_.Observations(samples_[index]));
-  const double share = n * groups_.unit / double(samples_[index]);
+  const double fraction = n * groups_.unit / double(samples_[index]);
   if (control_) {
-    return control_->ResidualSquares(index, samples_[index]) * (share / (n * (n - 1)));
+    return control_->ResidualSquares(index, samples_[index]) * (fraction / (n * (n - 1)));
   }
   Rgb variance;
   for (int c = 0; c < 3; ++c) {
     const double open = groups_.unit > 1 ? open_[index].sum[c] : 0;
     const double mean = (units_[index].sum[c] - open) / groups_.unit / n;
     const double scatter = std::max(0.0, units_[index].squares[c] / n - mean * mean);
-    variance[c] = scatter / (n - 1) * share;
+    variance[c] = scatter / (n - 1) * fraction;
   }
   return variance;
 }

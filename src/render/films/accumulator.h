@@ -56,7 +56,7 @@ class FilmAccumulator {
   std::optional<ControlReport> Control() const;
 
   /// Most planes of a sample.
-  static constexpr int kMostPlanes =
+  static constexpr int kMaxPlanes =
       kColorPlanes + kAovPlanes + kGbufferPlanes + NumPlanes(PlaneGroup::kRadiance) +
       NumPlanes(PlaneGroup::kTriple) + NumPlanes(PlaneGroup::kNumbers);
 

@@ -48,7 +48,7 @@ class BucketFilm {
 
  private:
   SpectralBuckets buckets_;
-  BucketShares shares_;
+  BucketFractions shares_;
   std::vector<double> sums_;  // of a pixel all buckets, then those of the next
 };
 

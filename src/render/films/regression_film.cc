@@ -12,8 +12,8 @@ namespace lanelight {
 namespace {
 
 constexpr int kFunctions = RegressionFilm::kFunctions;
-constexpr std::uint32_t kAtOnce = 32;  // samples
-constexpr float kCaution = 2;          // see Scatter::Fit
+constexpr std::uint32_t kAtOnce = 32;    // samples
+constexpr float kNoiseSafetyFactor = 2;  // see Scatter::Fit
 constexpr float kNeighbourFreedom = 24;
 
 // Orthonormal P1 in the middle of a cell.
@@ -57,10 +57,10 @@ struct RegressionFilm::Scatter {
   // Coefficients of a channel. That of noise alone has the variance sum (f - its mean)^2
   // phi^2 / (sum phi^2)^2, whatever f and phi have in common (White 1980): where both
   // live on the same few paths, samples that are neither tell nothing. They are shrunk
-  // as if kCaution times that had been seen, less the share that the function explains;
-  // neighbours weigh in with kNeighbourFreedom degrees of freedom at most. One sample
-  // more, with phi = 1 and f at its mean, keeps those of events that have hardly been
-  // seen finite.
+  // as if kNoiseSafetyFactor times that had been seen, less the share that the function
+  // explains; neighbours weigh in with kNeighbourFreedom degrees of freedom at most. One
+  // sample more, with phi = 1 and f at its mean, keeps those of events that have hardly
+  // been seen finite.
   void Fit(const Scatter& block, int c, Values& b) const {
     const float around = block.freedom - freedom;
     const float w = around > 0 ? std::min(1.0f, kNeighbourFreedom / around) : 0;
@@ -69,7 +69,8 @@ struct RegressionFilm::Scatter {
     };
     float g = 0;  // standard deviation, as if channels rose and fell together
     for (int k = 0; k < 3; ++k) g += std::sqrt(mix(ff[k], block.ff[k])) / 3;
-    const float f = mix(ff[c], block.ff[c]), scale = g > 0 ? kCaution * f / (g * g) : 0;
+    const float f = mix(ff[c], block.ff[c]),
+                scale = g > 0 ? kNoiseSafetyFactor * f / (g * g) : 0;
     for (std::size_t j = 0; j < b.size(); ++j) {
       const float square = mix(squares[j], block.squares[j]);
       const float product = mix(products[c][j], block.products[c][j]);
@@ -87,10 +88,10 @@ RegressionFilm::RegressionFilm(const PixelRect& window, const SampleGroups& grou
     : window_(window),
       groups_(groups),
       coefficient_(coefficient),
-      turns_(groups.replicates ? kReplicates : 2) {
+      replicates_(groups.replicates ? kReplicates : 2) {
   LL_CHECK(groups.unit == 1 || groups.replicates);
   const auto pixels = std::size_t(window.pixels());
-  ResizeInHugePages(sums_, pixels * turns_);
+  ResizeInHugePages(sums_, pixels * replicates_);
   ResizeInHugePages(colors_, pixels);
   ResizeInHugePages(products_, pixels);
   ResizeInHugePages(fitted_, pixels);
@@ -140,16 +141,16 @@ void RegressionFilm::AddHalf(std::size_t pixel, std::uint32_t half,
   Products sums = products_[pixel][half];
   for (std::uint32_t i = 0; i < phi.size(); ++i) {
     const std::uint64_t sample = samples.first + begin + i;
-    const std::uint32_t turn = TurnOf(sample);
-    if (turn % 2 != half) continue;
-    Values& sum = sums_[pixel * turns_ + turn];
+    const std::uint32_t replicate = ReplicateOf(sample);
+    if (replicate % 2 != half) continue;
+    Values& sum = sums_[pixel * replicates_ + replicate];
     for (std::size_t j = 0; j < kFunctions; ++j) sum[j] += phi[i][j];
     for (int c = 0; c < 3; ++c) {
       const double f = double(samples.colors[c][begin + i]);
       colors.f[c] += f;
       colors.ff[c] += f * f;
     }
-    if (sample >= kMostFitted) continue;
+    if (sample >= kMaxFittedSamples) continue;
     const float g = (samples.colors[0][begin + i] + samples.colors[1][begin + i] +
                      samples.colors[2][begin + i]) /
                     3;
@@ -184,17 +185,18 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   const std::uint64_t samples = colors.samples[pixel];
   const double all = SamplesOfHalf(samples, half);
   if (all < 2) return out;
-  // Beyond kMostFitted colours and functions know more than their products do.
-  const double n = SamplesOfHalf(std::min(samples, kMostFitted), half), share = n / all;
+  // Beyond kMaxFittedSamples colours and functions know more than their products do.
+  const double n = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half),
+               fraction = n / all;
   const auto side = std::size_t(half);
   const Colors& own = colors_[pixel][side];
   const Products& sums = products_[pixel][side];
   out.freedom = float(n - 1);
   Values phi = {};
-  for (std::size_t t = side; t < turns_; t += 2) {
+  for (std::size_t t = side; t < replicates_; t += 2) {
     for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += Sums(pixel, t)[j];
   }
-  const auto inverse = float(share * share / n);
+  const auto inverse = float(fraction * fraction / n);
   const auto g = float((own.f[0] + own.f[1] + own.f[2]) / (3 * all));
   for (std::size_t j = 0; j < phi.size(); ++j) {
     out.squares[j] = std::max(0.0f, sums.squares[j] - phi[j] * phi[j] * inverse);
@@ -203,8 +205,8 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
   }
   for (int c = 0; c < 3; ++c) {
     const double mean = own.f[c] / all;
-    out.ff[c] = float(std::max(0.0, own.ff[c] - own.f[c] * mean) * share);
-    const auto scale = float(mean * share);
+    out.ff[c] = float(std::max(0.0, own.ff[c] - own.f[c] * mean) * fraction);
+    const auto scale = float(mean * fraction);
     for (std::size_t j = 0; j < phi.size(); ++j) {
       out.products[c][j] = sums.products[c][j] - scale * phi[j];
     }
@@ -218,10 +220,10 @@ void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t 
   Fitted& out = fitted_[pixel];
   const auto side = std::size_t(half);
   const Products& sums = products_[pixel][side];
-  const double fitted = SamplesOfHalf(std::min(samples, kMostFitted), half);
+  const double fitted = SamplesOfHalf(std::min(samples, kMaxFittedSamples), half);
   const double more = fitted > 0 ? SamplesOfHalf(samples, half) / fitted : 0;
   for (int c = 0; c < 3; ++c) {
-    for (std::size_t t = side; t < turns_; t += 2) {
+    for (std::size_t t = side; t < replicates_; t += 2) {
       float sum = 0;
       for (std::size_t j = 0; j < b[c].size(); ++j) sum += b[c][j] * Sums(pixel, t)[j];
       out.corrections[t][c] = sum;
@@ -325,7 +327,7 @@ ControlReport RegressionFilm::Report(const ControlledColors& colors) const {
 std::vector<MutableStateColumn> RegressionFilm::Columns() {
   return {MakeStateColumn<float>("regression_sums",
                                  "sums of the functions, by replicate or half", sums_,
-                                 {turns_, kFunctions}),
+                                 {replicates_, kFunctions}),
           MakeStateColumn<double>("regression_colors",
                                   "sums of f, then of its square, by half and channel",
                                   colors_, {2, 2, 3}),

@@ -19,8 +19,8 @@
 //               scene, and O(functions / n) of it for the errors of the coefficients
 //
 // Sums are of a half's samples in their order, so that they do not depend on how these
-// come in. Those of single precision that only coefficients need end with kMostFitted
-// samples: nothing more is to be learned.
+// come in. Those of single precision that only coefficients need end with
+// kMaxFittedSamples samples: nothing more is to be learned.
 #pragma once
 
 #include <array>
@@ -96,7 +96,7 @@ class RegressionFilm {
   /// Pixels of a block (kBlock x kBlock, from the image's origin on) share information,
   /// so the result is the same for any split of the render.
   static constexpr int kBlock = 4;
-  static constexpr std::uint64_t kMostFitted = std::uint64_t{1} << 20;
+  static constexpr std::uint64_t kMaxFittedSamples = std::uint64_t{1} << 20;
 
   /// Requires units of single samples, or replicates (GroupsOf).
   RegressionFilm(const PixelRect& window, const SampleGroups& groups, double coefficient);
@@ -125,7 +125,7 @@ class RegressionFilm {
   struct Colors {
     double f[3] = {}, ff[3] = {};
   };
-  // Over the first kMostFitted samples, of which a half has half.
+  // Over the first kMaxFittedSamples samples, of which a half has half.
   struct Products {
     Values squares = {}, products[3] = {};  // of phi, of f and phi
     Values once = {}, twice = {};           // of g phi^2, of g^2 phi^2; g: mean of f
@@ -139,11 +139,11 @@ class RegressionFilm {
   };
   struct Scatter;
 
-  std::uint32_t TurnOf(std::uint64_t sample) const {
-    return std::uint32_t(sample / groups_.unit % turns_);
+  std::uint32_t ReplicateOf(std::uint64_t sample) const {
+    return std::uint32_t(sample / groups_.unit % replicates_);
   }
-  const Values& Sums(std::size_t pixel, std::size_t turn) const {
-    return sums_[pixel * turns_ + turn];
+  const Values& Sums(std::size_t pixel, std::size_t replicate) const {
+    return sums_[pixel * replicates_ + replicate];
   }
   double SamplesOfHalf(std::uint64_t samples, int half) const;
   Scatter ScatterOf(const ControlledColors& colors, std::size_t pixel, int half) const;
@@ -155,7 +155,7 @@ class RegressionFilm {
   PixelRect window_;
   SampleGroups groups_;
   double coefficient_;
-  std::uint32_t turns_;       // replicates, or halves
+  std::uint32_t replicates_;  // replicates, or halves
   std::vector<Values> sums_;  // of phi, by pixel and turn
   std::vector<Halves<Colors>> colors_;
   std::vector<Halves<Products>> products_;

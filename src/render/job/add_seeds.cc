@@ -17,18 +17,18 @@ void CheckWhole(const MergedRender& render) {
         render.seeds.front(), render.missing));
   }
   const SampleGroups& groups = render.film->groups();
-  const std::uint64_t turn = groups.unit * (groups.replicates ? kReplicates : 1);
-  bool whole_turns = true;
+  const std::uint64_t cycle = groups.unit * (groups.replicates ? kReplicates : 1);
+  bool whole_cycles = true;
   for (const PixelRect& tile : render.tiles) {
     ForEachPixel(tile, [&](int x, int y) {
-      whole_turns = whole_turns && render.film->Samples(x, y) % turn == 0;
+      whole_cycles = whole_cycles && render.film->Samples(x, y) % cycle == 0;
     });
   }
-  if (render.least == render.most && whole_turns) return;
+  if (render.minimum == render.maximum && whole_cycles) return;
   throw InputError(
       fmt::format("seed {} has {} to {} samples per pixel: renders of different seeds "
                   "can be added if all pixels have the same number, a multiple of {}",
-                  render.seeds.front(), render.least, render.most, turn));
+                  render.seeds.front(), render.minimum, render.maximum, cycle));
 }
 
 template <class T>
@@ -59,9 +59,9 @@ void AddSeed(MergedRender& sum, MergedRender& more) {
   sum.seeds.push_back(more.seeds.front());
   sum.identity["seed"] = sum.seeds;
   sum.head["settings"]["seed"] = sum.seeds;
-  sum.least += more.least;
-  sum.most += more.most;
-  sum.head["settings"]["spp"] = sum.least;
+  sum.minimum += more.minimum;
+  sum.maximum += more.maximum;
+  sum.head["settings"]["spp"] = sum.minimum;
 }
 
 }  // namespace lanelight

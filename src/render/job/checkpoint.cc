@@ -160,7 +160,7 @@ void Checkpoint::Keep(RunState& state) {
     const bool watched = !watch || Try(watch);
     const bool wanted = last_ != nullptr;
     const bool kept = wanted && Try([this] { last_->Write(settings_.path); });
-    if (watched && kept == wanted) told_.clear();
+    if (watched && kept == wanted) reported_.clear();
     if (kept) last_.reset();  // as much memory as the film has
     return kept;
   });
@@ -214,7 +214,7 @@ bool Checkpoint::Try(const std::function<void()>& write) {
     write();
     return true;
   } catch (const std::exception& error) {
-    if (told_.insert(error.what()).second) on_problem_(error.what());
+    if (reported_.insert(error.what()).second) on_problem_(error.what());
     return false;
   }
 }
@@ -223,10 +223,10 @@ std::vector<std::string> Checkpoint::Finish() {
   if (writing_.valid()) kept_ = writing_.get();
   if (kept_ || !last_) return {};
   std::string path = settings_.path;
-  Saver saver;
-  saver.Save(path, [&](const std::string& p) { last_->Write(p); });
+  ResultWriter writer;
+  writer.Save(path, [&](const std::string& p) { last_->Write(p); });
   kept_ = path == settings_.path;
-  return saver.problems();
+  return writer.problems();
 }
 
 }  // namespace lanelight

@@ -37,7 +37,7 @@ class StateLock {
 
  private:
   std::optional<LockFile> file_;  // none: no locks here
-  std::optional<HeldLock> lock_;
+  std::optional<ScopedLock> lock_;
 };
 
 /// Makes the content of a state, without tiles and window. `about`: further members of
@@ -74,7 +74,7 @@ struct CheckpointSettings {
 /// a state. Throws InputError for a damaged one.
 std::optional<Decide> DecisionOfState(const CheckpointSettings& settings);
 
-class Checkpoint : public RunKeeper {
+class Checkpoint : public Checkpointer {
  public:
   /// Opens the state. `head` is the head of the report (HeadJson). `on_problem` is called
   /// at once, from any thread, for states that cannot be written. Throws InputError if
@@ -116,7 +116,7 @@ class Checkpoint : public RunKeeper {
   CheckpointSettings settings_;
   const nlohmann::json identity_, head_;
   std::function<void(const std::string&)> on_problem_;
-  std::set<std::string> told_;  // problems
+  std::set<std::string> reported_;  // problems
   std::vector<PixelRect> tiles_;
   std::optional<StateLock> lock_;
   std::unique_ptr<StateFile> from_;

@@ -94,7 +94,7 @@ Display::~Display() {
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
-    if (server_) server_->Hurry(kLastSeconds);
+    if (server_) server_->SetDeadline(kLastSeconds);
   }
   ended_cv_.notify_all();
   thread_.join();
@@ -176,7 +176,7 @@ void Display::Serve() {
   }
   std::unique_lock lock(mutex_);
   server_ = std::move(server);
-  if (ended_) server_->Hurry(kLastSeconds);
+  if (ended_) server_->SetDeadline(kLastSeconds);
   lock.unlock();
   if (server_->Send(CreateImagePacket(name_, window_.width(), window_.height())) !=
       Connection::Sent::kAll) {

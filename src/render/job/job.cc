@@ -43,9 +43,9 @@ void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
       {choice.refused_at, "rendered in red, green and blue, since " + choice.why});
 }
 
-Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
+Job Prepare(LoadedScene loaded, const RenderSettings& requested) {
   Job job;
-  job.settings = asked;
+  job.settings = requested;
   const RenderSettings& settings = job.settings;
   SceneDescription& description = loaded.description;
   Stopwatch watch;
@@ -57,9 +57,9 @@ Job Prepare(LoadedScene loaded, const RenderSettings& asked) {
   loaded.load_seconds += watch.Lap();
 
   CompileOptions compile = CompileOptionsOf(settings);
-  compile.tree_report = &loaded.trees;
+  compile.bvh_report = &loaded.trees;
   job.scene = PrepareScene(description, compile);
-  job.settings.known_tree.reset();  // which may be all that keeps it
+  job.settings.cached_bvh.reset();  // which may be all that keeps it
   // Reports look for notes in one place.
   const std::vector<Note>& notes = job.scene.notes();
   description.notes.insert(description.notes.end(), notes.begin(), notes.end());

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 #include "src/scene/description/description.h"
 
 namespace lanelight {
@@ -18,7 +18,7 @@ struct LoadedScene {
   std::uint64_t scene_hash = 0;  // see HashSceneFiles()
   double load_seconds = 0;       // reading and parsing
   double build_seconds = 0;      // compiling: acceleration structure, lights, textures
-  TreeReport trees;              // over shapes: part of that
+  BvhReport trees;               // over shapes: part of that
 };
 
 }  // namespace lanelight

@@ -63,10 +63,10 @@ std::uint64_t PhysicalMemory() {
 std::string OutOfMemoryText() {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
-  const double taken = 1024.0 * double(usage.ru_maxrss) / kGiB;
+  const double used = 1024.0 * double(usage.ru_maxrss) / kGiB;
   const std::uint64_t limit = AddressSpace();
   std::string text =
-      fmt::format("out of memory: the program had taken {:.2f} GiB of {:.2f} GiB", taken,
+      fmt::format("out of memory: the program had taken {:.2f} GiB of {:.2f} GiB", used,
                   double(PhysicalMemory()) / kGiB);
   if (limit != ~std::uint64_t{0}) {
     text += fmt::format(", and may address {:.2f} GiB (ulimit -v)", double(limit) / kGiB);

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostOpen = 256;
+constexpr std::size_t kMaxOpenFiles = 256;
 
 struct Input {
   std::string path;
@@ -169,7 +169,7 @@ class Merger {
     CheckIdentity(path, input.identity);
     window_ = file->window();  // the same for all: CheckSame
     // Opened again, it is read and checked once more.
-    if (inputs_.size() < kMostOpen) input.file = std::move(file);
+    if (inputs_.size() < kMaxOpenFiles) input.file = std::move(file);
     inputs_.push_back(std::move(input));
   }
 
@@ -212,12 +212,12 @@ class Merger {
   }
 
   static void FindSamples(MergedRender& merged) {
-    merged.least = ~std::uint64_t{0};
+    merged.minimum = ~std::uint64_t{0};
     for (const PixelRect& tile : merged.tiles) {
       ForEachPixel(tile, [&](int x, int y) {
         const std::uint64_t samples = merged.film->Samples(x, y);
-        merged.least = std::min(merged.least, samples);
-        merged.most = std::max(merged.most, samples);
+        merged.minimum = std::min(merged.minimum, samples);
+        merged.maximum = std::max(merged.maximum, samples);
       });
     }
   }
@@ -241,8 +241,8 @@ RunResult ResultOf(const MergedRender& merged) {
   static_cast<RunCounts&>(result) = merged.run.counts;
   result.training = merged.run.training;
   const Json& spp = merged.head.at("settings").at("spp");
-  const bool whole = merged.missing == 0 && merged.least == merged.most &&
-                     (spp.is_null() || merged.least >= spp.get<std::uint64_t>());
+  const bool whole = merged.missing == 0 && merged.minimum == merged.maximum &&
+                     (spp.is_null() || merged.minimum >= spp.get<std::uint64_t>());
   result.stop_reason = whole ? StopReason::kSamples : StopReason::kInterrupted;
   result.stopped_early = !whole;
   result.control = merged.film->Control();

@@ -29,10 +29,10 @@ struct MergedRender {
   std::unique_ptr<FilmAccumulator> film;
   std::unique_ptr<Films> films;  // film, and what belongs to it
   RunRecord run;
-  std::vector<MachineInfo> machines;  // where parts were rendered
-  std::uint64_t missing = 0;          // pixels of the window that no file has
-  std::uint64_t least = 0, most = 0;  // samples per pixel
-  std::vector<std::uint64_t> seeds;   // more than one: of different renders
+  std::vector<MachineInfo> machines;       // where parts were rendered
+  std::uint64_t missing = 0;               // pixels of the window that no file has
+  std::uint64_t minimum = 0, maximum = 0;  // samples per pixel
+  std::vector<std::uint64_t> seeds;        // more than one: of different renders
 };
 
 /// Reads states, one after the other, into one film. Throws InputError for files that are

@@ -134,12 +134,14 @@ void NoteError(const ErrorEstimate& error, ExrOptions& options) {
 
 // Stores the smallest number of observations of a pixel, on which variances rest.
 void NoteObservations(const FilmAccumulator& film, ExrOptions& options) {
-  constexpr std::uint64_t kMost = 1 << 30;
-  std::uint64_t least = kMost;
+  constexpr std::uint64_t kMaxObservations = 1 << 30;
+  std::uint64_t min_observations = kMaxObservations;
   FillPixels(film, [&](std::size_t, int x, int y) {
-    if (film.HasVariance(x, y)) least = std::min(least, film.Observations(x, y));
+    if (film.HasVariance(x, y))
+      min_observations = std::min(min_observations, film.Observations(x, y));
   });
-  if (least < kMost) options.attributes[kObservations] = int(least);
+  if (min_observations < kMaxObservations)
+    options.attributes[kObservations] = int(min_observations);
   const std::uint64_t pixels = std::uint64_t(film.width()) * std::uint64_t(film.height());
   const std::uint64_t empty = pixels - SampledPixels(film);
   if (empty > 0) options.attributes[kEmptyPixels] = int(empty);

@@ -15,15 +15,15 @@ constexpr int kSide = 16;
 }  // namespace
 
 std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
-                                   int least_side) {
+                                   int min_side) {
   LL_CHECK(part.index >= 1 && part.index <= part.count);
   const std::vector<int> equal(static_cast<std::size_t>(part.count), 1);
-  auto parts = DealTiles(TilesOf(window, kSide), equal, least_side);
+  auto parts = DistributeTiles(TilesOf(window, kSide), equal, min_side);
   // The last one has least.
   if (parts.back().empty()) {
     const auto tiles =
         std::ranges::count_if(parts, [](const auto& p) { return !p.empty(); });
-    const int side = std::min(kSide, least_side);
+    const int side = std::min(kSide, min_side);
     throw InputError(fmt::format(
         "{} parts are more than the {} tiles of {}x{} pixels that this render can be cut "
         "into: at most {} parts, or renders with different seeds",

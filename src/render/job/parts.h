@@ -14,9 +14,9 @@ struct Part {
 
 /// Returns the tiles of a part of the window; every pixel is in exactly one part. Tiles
 /// are dealt along a Z-order curve, so that each part has its share of each region; they
-/// are halved until there are many, down to `least_side` pixels. Throws InputError if
+/// are halved until there are many, down to `min_side` pixels. Throws InputError if
 /// there are more parts than tiles.
 std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
-                                   int least_side = 1);
+                                   int min_side = 1);
 
 }  // namespace lanelight

@@ -45,11 +45,11 @@ class ReadBuffer {
     double passes = 1, best = 0;
     for (int trial = 0; trial < kTrials;) {
       const auto count = std::size_t(passes);
-      const double taken = Read(words, count);
-      best = std::max(best, double(count) * double(words) * 4 / taken);
+      const double elapsed = Read(words, count);
+      best = std::max(best, double(count) * double(words) * 4 / elapsed);
       // The first trials find out how many passes there have to be.
-      if (taken < 0.5 * seconds && trial == 0) {
-        passes = std::ceil(passes * std::clamp(seconds / taken, 2.0, 1000.0));
+      if (elapsed < 0.5 * seconds && trial == 0) {
+        passes = std::ceil(passes * std::clamp(seconds / elapsed, 2.0, 1000.0));
       } else {
         ++trial;
       }
@@ -65,10 +65,10 @@ class ReadBuffer {
   double Read(std::size_t words, std::size_t passes) const {
     const Stopwatch watch;
     const std::uint32_t sum = ReadSum(target_, data_, words, passes);
-    const double taken = watch.Seconds();
+    const double elapsed = watch.Seconds();
     const std::uint64_t once = std::uint64_t{words} * (words - 1) / 2;
     LL_CHECK_EQ(sum, std::uint32_t(once * passes));
-    return std::max(taken, 1e-9);
+    return std::max(elapsed, 1e-9);
   }
 
   SimdTarget target_;
@@ -86,10 +86,10 @@ void MeasureMultiplyAdds(SimdTarget target, bool counters, Peaks& peaks) {
     const bool read = counters && group.Read(&before);
     const Stopwatch watch;
     const float x = MultiplyAdds(target, kIterations, kFactor, kAddend);
-    const double taken = watch.Seconds();
+    const double elapsed = watch.Seconds();
     LL_CHECK(std::abs(x - 2) < 1e-5f);
-    peaks.flops = std::max(peaks.flops,
-                           double(kIterations) * MultiplyAddsOperations(target) / taken);
+    peaks.flops = std::max(
+        peaks.flops, double(kIterations) * MultiplyAddsOperations(target) / elapsed);
     if (!read || !group.Read(&after) || after[0] <= before[0]) continue;
     peaks.fma_ipc = std::max(peaks.fma_ipc,
                              double(after[1] - before[1]) / double(after[0] - before[0]));

@@ -25,8 +25,8 @@ Json CountersJson(const ProfileRow& row) {
 
 Json RowJson(const ProfileRow& row, double flops) {
   const StageProfile& c = row.counts;
-  Json out = {{"name", c.name},     {"kind", Name(row.kind)}, {"seconds", c.seconds},
-              {"share", row.share}, {"calls", c.calls},       {"items", c.items}};
+  Json out = {{"name", c.name},        {"kind", Name(row.kind)}, {"seconds", c.seconds},
+              {"share", row.fraction}, {"calls", c.calls},       {"items", c.items}};
   out["ns_per_item"] = c.items > 0 ? Json(row.NsPerItem()) : Json();
   const bool stage = row.kind == RowKind::kStage;
   const auto of_stage = [&](double value) { return stage ? Json(value) : Json(); };

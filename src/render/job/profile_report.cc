@@ -56,7 +56,7 @@ constexpr double kLineBytes = 64;
 
 // Misses fetch a line each from the level behind: those of the first cache from the
 // second, those of the last from main memory. As parts of what was measured.
-double MissTraffic(const Peaks& peaks, const ProfileRow& row) {
+double CacheMissTraffic(const Peaks& peaks, const ProfileRow& row) {
   const double ns = row.NsPerItem();
   if (peaks.levels.size() < 2 || !(ns > 0)) return 0;
   const double second = row.PerItem(Counter::kL1Misses) * kLineBytes / (ns * 1e-9);
@@ -69,7 +69,7 @@ Bound BoundOf(const Peaks& peaks, const ProfileRow& row) {
   if (row.of_peak >= kBoundFrom) return Bound::kMemory;
   const double ipc = row.InstructionsPerCycle();
   if (!(ipc > 0) || !(peaks.fma_ipc > 0)) return Bound::kUnknown;
-  if (MissTraffic(peaks, row) >= kBoundFrom) return Bound::kMemory;
+  if (CacheMissTraffic(peaks, row) >= kBoundFrom) return Bound::kMemory;
   return ipc >= kBoundFrom * peaks.fma_ipc ? Bound::kCompute : Bound::kNeither;
 }
 
@@ -110,11 +110,12 @@ ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks) {
   AddRows(result, report);
   AddSums(report);
   for (ProfileRow& row : report.rows) {
-    row.share = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
+    row.fraction = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
     if (row.kind == RowKind::kStage) PlaceOnRoofline(peaks, report.level, row);
   }
   std::ranges::sort(report.rows, [](const ProfileRow& a, const ProfileRow& b) {
-    return a.share != b.share ? a.share > b.share : a.counts.name < b.counts.name;
+    return a.fraction != b.fraction ? a.fraction > b.fraction
+                                    : a.counts.name < b.counts.name;
   });
   return report;
 }

@@ -55,7 +55,7 @@ struct ProfileRow {
   RowKind kind = RowKind::kStage;
   StageProfile counts;
   bool intersect = false;  // traces rays, to their closest hit or to a light
-  double share = 0;        // of ProfileReport::seconds
+  double fraction = 0;     // of ProfileReport::seconds
   double bandwidth = 0;    // bytes of columns per second, read and written
   double of_peak = 0;      // of ProfileReport::level
   Bound bound = Bound::kUnknown;

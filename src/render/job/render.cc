@@ -23,17 +23,18 @@ namespace {
 using Json = nlohmann::json;
 
 void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
-                const RenderTargets& targets, Saver& saver, RenderReport& report) {
+                const RenderTargets& targets, ResultWriter& writer,
+                RenderReport& report) {
   const Stopwatch watch;
   report.exr = targets.exr;
-  saver.Save(report.exr, [&](const std::string& path) {
+  writer.Save(report.exr, [&](const std::string& path) {
     WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
              OutputOptions(facts.identity, facts.head,
                            {report.result, report.result.training.changes, report.error},
                            film, targets.image.half));
   });
   report.png = targets.png;
-  saver.Save(report.png, [&](const std::string& path) {
+  writer.Save(report.png, [&](const std::string& path) {
     WritePng(path, FilmImage(film, facts.color_space), targets.image.exposure);
   });
   report.write_seconds = watch.Seconds();
@@ -70,8 +71,9 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
 }
 
 // Keeps the state after the failure of a rank, and tells the user.
-[[noreturn]] void GiveUp(const RankFailure& failure, const CheckpointSettings& settings,
-                         Checkpoint& checkpoint) {
+[[noreturn]] void ReportRankFailure(const RankFailure& failure,
+                                    const CheckpointSettings& settings,
+                                    Checkpoint& checkpoint) {
   checkpoint.Finish();
   if (settings.path.empty() || !checkpoint.kept()) throw failure;
   throw RankFailure(fmt::format("{}\nthe state is kept: continue with --resume '{}'",
@@ -93,7 +95,7 @@ struct ShownRun {
     options.group = hooks.group;
     options.on_training = hooks.on_training;
     if (hooks.on_progress) {
-      if (hooks.tells_error) error.Listen(job.window.pixels(), options);
+      if (hooks.reports_error) error.Listen(job.window.pixels(), options);
       options.on_progress = [&](const Progress& p) { hooks.on_progress(error.At(p)); };
     }
     if (!targets.display) return;
@@ -134,7 +136,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   if (targets.checkpoint.Any()) {
     checkpoint.emplace(job, targets.checkpoint, facts.head, Problems(hooks));
     shown.options.tiles = checkpoint->tiles();
-    shown.options.keeper = &*checkpoint;
+    shown.options.checkpointer = &*checkpoint;
   }
   // A part shows the pixels of its tiles only.
   const std::vector<PixelRect>& tiles = shown.options.tiles;
@@ -143,7 +145,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   try {
     out.report.result = Run(job.scene, job.plan, shown.options, film);
   } catch (const RankFailure& failure) {
-    if (checkpoint) GiveUp(failure, targets.checkpoint, *checkpoint);
+    if (checkpoint) ReportRankFailure(failure, targets.checkpoint, *checkpoint);
     throw;
   }
   if (checkpoint) {
@@ -173,7 +175,7 @@ std::string PartialPath(const std::string& path) {
 }
 
 void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
-                    const RenderTargets& asked, const Json& members, Rendering& out) {
+                    const RenderTargets& requested, const Json& members, Rendering& out) {
   const std::uint64_t sampled = SampledPixels(film);
   out.report.unsampled_pixels =
       std::uint64_t(film.width()) * std::uint64_t(film.height()) - sampled;
@@ -185,16 +187,16 @@ void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
         fmt::format("{} pixels have no sample", facts.pixels - sampled);
   }
   const RenderTargets targets =
-      out.report.partial ? PartialTargets(asked, sampled > 0) : asked;
+      out.report.partial ? PartialTargets(requested, sampled > 0) : requested;
   out.report.black = IsBlack(film);
-  Saver saver;
-  SaveImages(film, facts, targets, saver, out.report);
+  ResultWriter writer;
+  SaveImages(film, facts, targets, writer, out.report);
   if (!targets.json.empty()) {
     out.json = ToJson(out.report, facts.head);
     out.json.update(members);
   }
-  if (targets.json != "-") saver.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
-  const std::vector<std::string>& problems = saver.problems();
+  if (targets.json != "-") writer.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
+  const std::vector<std::string>& problems = writer.problems();
   out.problems.insert(out.problems.end(), problems.begin(), problems.end());
 }
 

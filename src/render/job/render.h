@@ -27,7 +27,7 @@ struct RenderTargets {
 
 struct RenderHooks {
   std::function<void(const RenderProgress&)> on_progress;
-  bool tells_error = false;  // progress has the error so far, which costs a little
+  bool reports_error = false;  // progress has the error so far, which costs a little
   std::function<void()> on_training;  // RunOptions
   std::function<void()> on_rendered;  // before anything is written
   /// Receives problems with states, watched images or the viewer; from any thread.
@@ -40,7 +40,7 @@ struct RenderHooks {
 struct Rendering {
   RenderReport report;
   nlohmann::json json;                // the report, if the targets have one
-  std::vector<std::string> problems;  // of writing; see Saver
+  std::vector<std::string> problems;  // of writing; see ResultWriter
   bool state_kept = false;            // the last state is on the disk
 };
 

@@ -68,7 +68,7 @@ Json NotesJson(const Job& job) {
 }
 
 // Merged states have no BVH of their own.
-Json TreesJson(const TreeReport& trees) {
+Json TreesJson(const BvhReport& trees) {
   if (trees.bytes == 0) return nullptr;
   return {{"origin", trees.Origin()}, {"bytes", trees.bytes}};
 }

@@ -10,7 +10,7 @@
 
 #include "src/render/estimate/estimate.h"
 #include "src/render/job/job.h"
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 
 namespace lanelight {
 
@@ -26,7 +26,7 @@ struct RenderReport {
   bool partial = false;
   bool black = false;  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
-  TreeReport trees;
+  BvhReport trees;
   bool half = false;
 };
 

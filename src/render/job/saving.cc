@@ -39,7 +39,7 @@ bool LiesIn(const std::string& folder, const std::string& file) {
              .first == around.end();
 }
 
-void SpareInput(const OutputPaths& outputs, const std::string& input) {
+void CheckNotOverwritten(const OutputPaths& outputs, const std::string& input) {
   for (const std::string& file : outputs.files) {
     if (!SameFile(file, input)) continue;
     throw WouldOverwrite("output '" + file + "' would overwrite '" + input +
@@ -56,8 +56,8 @@ void SpareInput(const OutputPaths& outputs, const std::string& input) {
 
 }  // namespace
 
-void Saver::Save(std::string& path,
-                 const std::function<void(const std::string&)>& write) {
+void ResultWriter::Save(std::string& path,
+                        const std::function<void(const std::string&)>& write) {
   if (path.empty()) return;
   try {
     return write(path);
@@ -75,14 +75,14 @@ void Saver::Save(std::string& path,
   }
 }
 
-void Saver::SaveText(std::string path, const std::string& text) {
+void ResultWriter::SaveText(std::string path, const std::string& text) {
   Save(path, [&](const std::string& p) { WriteFileAtomically(p, text); });
 }
 
 void CheckOutputPaths(OutputPaths outputs, const std::set<std::string>& inputs) {
   std::vector<std::string>& paths = outputs.files;
   std::erase_if(paths, [](const std::string& p) { return p.empty() || p == "-"; });
-  for (const std::string& input : inputs) SpareInput(outputs, input);
+  for (const std::string& input : inputs) CheckNotOverwritten(outputs, input);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (!SameFile(paths[i], paths[j])) continue;
@@ -118,9 +118,9 @@ std::string FallbackPath(const std::string& path) {
   fs::path directory = fs::temp_directory_path(error);
   if (error) directory = "/tmp";
   // The end of a long name, with its extension.
-  constexpr std::size_t kMostOfName = 200;
+  constexpr std::size_t kMaxNameLength = 200;
   std::string name = fs::path(path).filename();
-  if (name.size() > kMostOfName) name.erase(0, name.size() - kMostOfName);
+  if (name.size() > kMaxNameLength) name.erase(0, name.size() - kMaxNameLength);
   // Results of one name, as those of a sweep's cells, each have a file of their own.
   for (int i = 0;; ++i) {
     const std::string number = i == 0 ? "" : fmt::format("-{}", i);

@@ -11,7 +11,7 @@
 namespace lanelight {
 
 /// Saves results and collects error messages.
-class Saver {
+class ResultWriter {
  public:
   /// Calls write(path); if that throws, writes into the temporary directory, so that no
   /// result is lost. Sets `path` to where the file is, or to nothing. Ignores an empty

@@ -30,7 +30,7 @@ class QuotedNames {
       } else if (c == '"') {
         TakeString();
       } else if (IsLetter(c)) {
-        TakeWord();
+        HashWord();
       } else {
         const char* const begin = text_.data();
         const char* const next = SkipSpaces(begin + at_ + 1, begin + text_.size());
@@ -49,7 +49,7 @@ class QuotedNames {
     at_ = std::min(text_.find(end, from), text_.size());
     return text_.substr(from, at_ - from);
   }
-  void TakeWord() {
+  void HashWord() {
     const std::size_t from = at_;
     while (at_ < text_.size() && IsLetter(text_[at_])) ++at_;
     directive_ = text_.substr(from, at_ - from);

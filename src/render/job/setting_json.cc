@@ -29,8 +29,9 @@ RenderSettings SettingsInForce(const Job& job) {
   s.gbuffer = film.gbuffer;
   s.points = job.scene.strategy.points;
   s.max_depth = int(job.plan.options.max_depth);
-  s.transport = job.scene.transport() == Transport::kSpectral ? AskedTransport::kSpectral
-                                                              : AskedTransport::kRgb;
+  s.transport = job.scene.transport() == Transport::kSpectral
+                    ? TransportSetting::kSpectral
+                    : TransportSetting::kRgb;
   s.build = job.scene.compiled->accel.quality;
   s.threads = ThreadCount(s.threads);
   s.target = job.plan.options.target.name();

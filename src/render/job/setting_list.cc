@@ -36,7 +36,7 @@ struct ChangesType {
 
 std::vector<Setting> Amounts() {
   const NumberType<double> error{1e-12, 1e12};
-  constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
+  constexpr std::uint64_t kMaxSeed = std::numeric_limits<std::uint64_t>::max();
   return {
       Declare({"spp", "N", "Samples per pixel", OfScene(Sampler{}.spp)},
               CountType{1, kMaxSpp}, &S::spp, kAmountFlag | kReported),
@@ -56,7 +56,7 @@ std::vector<Setting> Amounts() {
       Declare({"target-rmse", "X", "Stop once the RMSE is below X with 95 % confidence"},
               error, &S::target_rmse, kAmountFlag | kReported),
       Declare({"seed", "S", "Seed of the random numbers", OfScene(Sampler{}.seed)},
-              NumberType<std::uint64_t>{0, kMostSeed}, &S::seed,
+              NumberType<std::uint64_t>{0, kMaxSeed}, &S::seed,
               kAmountFlag | kStudyFlag | kEverySame | kReported)};
 }
 
@@ -89,9 +89,9 @@ std::vector<Setting> Contents() {
            "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "
            "where a material or a light of it has a spectrum",
            OfScene("scene")},
-          NamesType<AskedTransport>{{{"rgb", AskedTransport::kRgb},
-                                     {"spectral", AskedTransport::kSpectral},
-                                     {"scene", AskedTransport::kByScene}}},
+          NamesType<TransportSetting>{{{"rgb", TransportSetting::kRgb},
+                                       {"spectral", TransportSetting::kSpectral},
+                                       {"scene", TransportSetting::kByScene}}},
           &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
       Declare({"max-depth", "D", "Maximum number of scattering events of a path",
                OfScene(Integrator{}.max_depth)},
@@ -128,8 +128,8 @@ std::vector<Setting> Execution() {
           Declare({"copied-triangles", "N",
                    "Copy small instances into world space while the scene grows by at "
                    "most N triangles; 0: none"},
-                  NumberType<std::uint64_t>{0, kMostCopiedTriangles},
-                  &S::copied_triangles, kEveryFlag | kSweepKey | kEverySame | kReported),
+                  NumberType<std::uint64_t>{0, kMaxCopiedTriangles}, &S::copied_triangles,
+                  kEveryFlag | kSweepKey | kEverySame | kReported),
           Declare({"threads", "T", "Threads; 0 = all cores"},
                   NumberType<int>{0, kMaxThreads}, &S::threads, kEveryFlag | kReported),
           Declare({"simd", "NAME", "SIMD target (see `lanelight info`)",

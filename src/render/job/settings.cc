@@ -53,8 +53,8 @@ void CheckSpp(std::int64_t spp) {
 }
 
 void CheckSppSetting(std::uint64_t spp) {
-  constexpr auto kMost = std::uint64_t(std::numeric_limits<std::int64_t>::max());
-  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMost)));
+  constexpr auto kMaxInt64 = std::uint64_t(std::numeric_limits<std::int64_t>::max());
+  CheckSpp(static_cast<std::int64_t>(std::min(spp, kMaxInt64)));
 }
 
 void CheckTarget(const std::optional<double>& target) {
@@ -83,25 +83,26 @@ void ApplyFilm(const RenderSettings& settings, Film& film) {
 }
 
 // A film that keeps spectra needs wavelengths.
-void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
+void ApplySpectralFilm(const std::optional<TransportSetting>& requested,
                        std::optional<Transport>& transport) {
-  const bool rgb = asked ? *asked == AskedTransport::kRgb : transport == Transport::kRgb;
+  const bool rgb =
+      requested ? *requested == TransportSetting::kRgb : transport == Transport::kRgb;
   if (rgb) {
     throw InputError(fmt::format(
         "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
         "leave it out, or use Film \"rgb\"",
-        asked ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
+        requested ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
   }
   transport = Transport::kSpectral;
 }
 
 // Removes the transport where the scene decides.
-void ApplyTransport(const std::optional<AskedTransport>& asked,
+void ApplyTransport(const std::optional<TransportSetting>& requested,
                     std::optional<Transport>& transport) {
-  if (!asked) return;
+  if (!requested) return;
   transport.reset();
-  if (*asked == AskedTransport::kRgb) transport = Transport::kRgb;
-  if (*asked == AskedTransport::kSpectral) transport = Transport::kSpectral;
+  if (*requested == TransportSetting::kRgb) transport = Transport::kRgb;
+  if (*requested == TransportSetting::kSpectral) transport = Transport::kSpectral;
 }
 
 }  // namespace
@@ -148,7 +149,7 @@ bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& sc
     return false;
   }
   if (settings.decision == DefaultDecision::kAlways) return true;
-  if (settings.seconds) return *settings.seconds >= kLeastDecidedSeconds;
+  if (settings.seconds) return *settings.seconds >= kMinSecondsForTrial;
   const std::uint64_t pixels = RenderedPixels(scene.film).pixels();
   // A render with a target takes at least this many.
   const std::uint64_t own =
@@ -172,7 +173,7 @@ CompileOptions CompileOptionsOf(const RenderSettings& settings) {
   options.build = settings.build.value_or(options.build);
   options.leaf_triangles = LeafTrianglesFor(SimdTarget(settings.target).lanes());
   options.copied_triangles = settings.copied_triangles;
-  options.known_tree = settings.known_tree.get();
+  options.cached_bvh = settings.cached_bvh.get();
   return options;
 }
 

@@ -17,7 +17,7 @@ namespace lanelight {
 
 struct CompileOptions;    // src/scene/compile/compile.h
 struct Film;              // src/scene/description/film.h
-struct KnownTree;         // src/scene/accel/build.h
+struct CachedBvh;         // src/scene/accel/build.h
 struct SceneDescription;  // src/scene/description/description.h
 
 /// True if decide=pilot is the default of a render that is asked for no strategy, neither
@@ -29,11 +29,11 @@ enum class DefaultDecision {
 };
 
 /// The requested transport; kByScene: see ChooseTransport (src/render/job/transport.h).
-enum class AskedTransport { kRgb, kSpectral, kByScene };
+enum class TransportSetting { kRgb, kSpectral, kByScene };
 
 /// Default limit of triangles of instances that are copied into the world: about 25 MB.
 inline constexpr std::uint64_t kCopiedTriangles = 1u << 17;
-inline constexpr std::uint64_t kMostCopiedTriangles = 1u << 30;
+inline constexpr std::uint64_t kMaxCopiedTriangles = 1u << 30;
 
 /// Format of written images.
 struct ImageSettings {
@@ -56,12 +56,12 @@ struct RenderSettings {
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;
-  std::optional<AskedTransport> transport;
+  std::optional<TransportSetting> transport;
   /// Strategies that will be rendered in turn (WithStrategy), besides the scene's:
   /// kByScene chooses a transport that none of them refuses.
   std::vector<Strategy> compared;
   std::optional<BuildQuality> build;                  // of the BVHs
-  std::shared_ptr<const KnownTree> known_tree;        // as in CompileOptions
+  std::shared_ptr<const CachedBvh> cached_bvh;        // as in CompileOptions
   std::uint64_t copied_triangles = kCopiedTriangles;  // as in CompileOptions
   std::uint32_t wavefront = 0;                        // paths; 0 = chosen by the plan
   bool aov = false;
@@ -75,7 +75,7 @@ struct RenderSettings {
 bool HasTarget(const RenderSettings& settings);
 
 /// The maximum that may be requested.
-inline constexpr std::uint64_t kMaxSpp = kMostSamplesPerPixel;
+inline constexpr std::uint64_t kMaxSpp = kMaxSamplesPerPixel;
 inline constexpr std::uint32_t kMaxWavefront = 1u << 20;
 inline constexpr int kMaxDepth = 1 << 20;
 inline constexpr int kMaxThreads = 1024;
@@ -88,7 +88,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 /// Returns whether decide=pilot is the default of this render: with kIfLong, from 4
 /// seconds on, or from the samples that the trial run is planned for (DecidedBy).
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);
-inline constexpr double kLeastDecidedSeconds = 4;
+inline constexpr double kMinSecondsForTrial = 4;
 
 /// Returns the auxiliary planes of such a render.
 Auxiliary AuxiliaryOf(const RenderSettings& settings, const Film& film);

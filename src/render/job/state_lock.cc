@@ -12,7 +12,7 @@
 namespace lanelight {
 namespace {
 
-std::string WhoAmI() {
+std::string ProcessName() {
   char host[HOST_NAME_MAX + 1] = "";
   gethostname(host, sizeof(host) - 1);
   return fmt::format("process {} on {}", getpid(), host);
@@ -43,7 +43,7 @@ StateLock::StateLock(const std::string& path,
     }
     // The previous owner may have removed the file just after it was opened here.
   } while (!file_->IsNamed());
-  file_->SetNote(WhoAmI());
+  file_->SetNote(ProcessName());
   // The owner of the lock is the only writer of these files.
   RemoveTemporaries(path);
 }

@@ -17,19 +17,19 @@ using std::chrono::microseconds;
 // Naps of a rank that waits: a tenth of what it has waited, since a collective takes some
 // steps that are made when all have called again. Each nap costs two switches of
 // processes where ranks share a core.
-constexpr microseconds kFirstNap(100), kLongestNap(10000);
+constexpr microseconds kMinPollDelay(100), kMaxPollDelay(10000);
 // While bytes are on their way, which MPI moves piece by piece when it is called.
-constexpr microseconds kTransferNap(100);
+constexpr microseconds kTransferPollDelay(100);
 
 // Returns whether the request has ended; if not, the caller has given up.
-bool Await(MPI_Request request, microseconds longest = kLongestNap,
-           const std::function<bool()>& gives_up = nullptr) {
+bool Await(MPI_Request request, microseconds longest = kMaxPollDelay,
+           const std::function<bool()>& should_stop = nullptr) {
   int done = 0;
   for (microseconds waited(0), nap(0);; waited += nap) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     if (done != 0) return true;
-    if (gives_up && gives_up()) return false;
-    nap = std::clamp(waited / 10, kFirstNap, longest);
+    if (should_stop && should_stop()) return false;
+    nap = std::clamp(waited / 10, kMinPollDelay, longest);
     std::this_thread::sleep_for(nap);
   }
 }
@@ -41,7 +41,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 30;
 template <class Post>
 void InPieces(char* bytes, std::size_t size, const Post& post) {
   for (std::size_t at = 0; at < size; at += kPiece) {
-    Await(post(bytes + at, int(std::min(kPiece, size - at))), kTransferNap);
+    Await(post(bytes + at, int(std::min(kPiece, size - at))), kTransferPollDelay);
   }
 }
 
@@ -83,7 +83,7 @@ std::string MpiGroup::Name(int rank) const {
 }
 
 std::vector<int> MpiGroup::AllGather(int number) {
-  HearFailures();
+  PollFailures();
   std::vector<int> numbers(hosts_.size());
   MPI_Request request;
   MPI_Iallgather(&number, 1, MPI_INT, numbers.data(), 1, MPI_INT, MPI_COMM_WORLD,
@@ -93,7 +93,7 @@ std::vector<int> MpiGroup::AllGather(int number) {
 }
 
 void MpiGroup::Broadcast(std::span<char> bytes) {
-  HearFailures();
+  PollFailures();
   bytes_ += bytes.size();
   InPieces(bytes.data(), bytes.size(), [](char* at, int count) {
     MPI_Request request;
@@ -102,13 +102,13 @@ void MpiGroup::Broadcast(std::span<char> bytes) {
   });
 }
 
-void MpiGroup::Gather(std::string_view bytes, const Take& take) {
-  HearFailures();
-  Collect(bytes, take);
+void MpiGroup::Gather(std::string_view bytes, const Receiver& receive) {
+  PollFailures();
+  Collect(bytes, receive);
 }
 
 // One worker after the other: the leader has room for the largest part only.
-void MpiGroup::Collect(std::string_view bytes, const Take& take) {
+void MpiGroup::Collect(std::string_view bytes, const Receiver& receive) {
   std::uint64_t size = bytes.size();
   const std::span<char> head(reinterpret_cast<char*>(&size), sizeof(size));
   if (!leads()) {
@@ -120,12 +120,12 @@ void MpiGroup::Collect(std::string_view bytes, const Take& take) {
     in_.resize(size);
     Receive(in_, r);
     bytes_ += size;
-    take(r, in_);
+    receive(r, in_);
   }
 }
 
 bool MpiGroup::SwapBytes(int partner, std::span<char> out, std::span<char> in,
-                         const std::function<bool()>& gives_up) {
+                         const std::function<bool()>& should_stop) {
   constexpr int kTag = 1;
   MPI_Request requests[2];
   MPI_Isend(out.data(), int(out.size()), MPI_BYTE, partner, kTag, MPI_COMM_WORLD,
@@ -133,40 +133,40 @@ bool MpiGroup::SwapBytes(int partner, std::span<char> out, std::span<char> in,
   MPI_Irecv(in.data(), int(in.size()), MPI_BYTE, partner, kTag, MPI_COMM_WORLD,
             &requests[1]);
   bytes_ += out.size() + in.size();
-  return Await(requests[1], kTransferNap, gives_up) &&
-         Await(requests[0], kTransferNap, gives_up);
+  return Await(requests[1], kTransferPollDelay, should_stop) &&
+         Await(requests[0], kTransferPollDelay, should_stop);
 }
 
 std::optional<std::string> MpiGroup::Swap(int partner, std::string bytes,
-                                          const std::function<bool()>& gives_up) {
+                                          const std::function<bool()>& should_stop) {
   out_ = std::move(bytes);
   out_size_ = out_.size();
   LL_CHECK_LE(out_size_, kPiece);
   const auto span = [](std::uint64_t& size) {
     return std::span<char>(reinterpret_cast<char*>(&size), sizeof(size));
   };
-  gave_up_ = !SwapBytes(partner, span(out_size_), span(in_size_), gives_up);
-  if (gave_up_) return std::nullopt;
+  aborted_ = !SwapBytes(partner, span(out_size_), span(in_size_), should_stop);
+  if (aborted_) return std::nullopt;
   in_.resize(in_size_);
-  gave_up_ = !SwapBytes(partner, out_, in_, gives_up);
-  if (gave_up_) return std::nullopt;
+  aborted_ = !SwapBytes(partner, out_, in_, should_stop);
+  if (aborted_) return std::nullopt;
   return in_;
 }
 
 std::optional<RankStatus> MpiGroup::Sum(const RankStatus& own,
-                                        const std::function<bool()>& gives_up) {
+                                        const std::function<bool()>& should_stop) {
   static_assert(sizeof(RankStatus) % sizeof(std::uint64_t) == 0);
   sum_ = own;
   MPI_Request request;
   MPI_Iallreduce(MPI_IN_PLACE, &sum_, sizeof(sum_) / sizeof(std::uint64_t), MPI_UINT64_T,
                  MPI_SUM, MPI_COMM_WORLD, &request);
-  gave_up_ = !Await(request, kLongestNap, gives_up);
-  if (gave_up_) return std::nullopt;
+  aborted_ = !Await(request, kMaxPollDelay, should_stop);
+  if (aborted_) return std::nullopt;
   return sum_;
 }
 
 // Precedes every collective call; a failed rank calls only this.
-void MpiGroup::HearFailures() {
+void MpiGroup::PollFailures() {
   if (Sum({}, nullptr)->failed > 0) ThrowFailure();
 }
 
@@ -181,7 +181,7 @@ void MpiGroup::ThrowFailure() {
 
 // A rank that has not answered will not come to the end either.
 int MpiGroup::Leave(int exit_code) {
-  if (gave_up_) MPI_Abort(MPI_COMM_WORLD, exit_code);
+  if (aborted_) MPI_Abort(MPI_COMM_WORLD, exit_code);
   MPI_Finalize();
   return exit_code;
 }

@@ -24,20 +24,20 @@ class MpiGroup : public RankGroup {
   std::uint64_t bytes() const override { return bytes_; }
   std::vector<int> AllGather(int number) override;
   void Broadcast(std::span<char> bytes) override;
-  void Gather(std::string_view bytes, const Take& take) override;
+  void Gather(std::string_view bytes, const Receiver& receive) override;
   std::optional<std::string> Swap(int partner, std::string bytes,
-                                  const std::function<bool()>& gives_up) override;
+                                  const std::function<bool()>& should_stop) override;
   std::optional<RankStatus> Sum(const RankStatus& own,
-                                const std::function<bool()>& gives_up) override;
+                                const std::function<bool()>& should_stop) override;
   int Leave(int exit_code) override;
   int Fail(int exit_code, const std::string& message) override;
 
  private:
-  void HearFailures();
+  void PollFailures();
   [[noreturn]] void ThrowFailure();
-  void Collect(std::string_view bytes, const Take& take);
+  void Collect(std::string_view bytes, const Receiver& receive);
   bool SwapBytes(int partner, std::span<char> out, std::span<char> in,
-                 const std::function<bool()>& gives_up);
+                 const std::function<bool()>& should_stop);
 
   int rank_ = 0;
   std::vector<std::string> hosts_;  // by rank
@@ -46,7 +46,7 @@ class MpiGroup : public RankGroup {
   RankStatus sum_;
   std::uint64_t out_size_ = 0, in_size_ = 0;
   std::string out_, in_;
-  bool gave_up_ = false;  // on a rank that has not answered
+  bool aborted_ = false;  // on a rank that has not answered
   bool failed_ = false;   // a rank has, and the leader knows
 };
 

@@ -72,7 +72,7 @@ void FindShadowKernels(const Stages& registered, Plan& plan) {
   shadows.Add({Feature::kLights, Feature::kOpaqueShadows});
   for (const Stage& stage : registered) {
     if (stage.role != StageRole::kShadow || !shadows.HasAll(stage.needs)) continue;
-    LL_CHECK_LT(found.num_shadow, RayKernels::kMost);
+    LL_CHECK_LT(found.num_shadow, RayKernels::kMaxKernels);
     found.shadow[found.num_shadow++] = stage.resolve(shadows);
   }
 }
@@ -131,10 +131,10 @@ RayKernels FindRayKernels(const Plan& plan) {
                Feature::kTextureFootprints});
   for (const PlannedStage& planned : plan.paths().stages) {
     if (planned.stage.role == StageRole::kIntersect) {
-      LL_CHECK_LT(found.num_closest, RayKernels::kMost);
+      LL_CHECK_LT(found.num_closest, RayKernels::kMaxKernels);
       found.closest[found.num_closest++] = planned.kernel;
     } else if (planned.stage.role == StageRole::kSurface) {
-      LL_CHECK_LT(found.num_surface, RayKernels::kMost);
+      LL_CHECK_LT(found.num_surface, RayKernels::kMaxKernels);
       found.surface[found.num_surface++] = planned.stage.resolve(bare);
     }
   }
@@ -195,7 +195,7 @@ Plan MakePlan(const PreparedScene& scene, const PlanOptions& options) {
     plan.wavefront = std::max(plan.wavefront, 2u);
   }
   plan.slots =
-      plan.wavefront * (plan.features.Has(Feature::kSplitting) ? kMostCopies : 1);
+      plan.wavefront * (plan.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1);
   return plan;
 }
 

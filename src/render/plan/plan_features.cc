@@ -137,7 +137,7 @@ FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& opti
 
 bool SeesLightsApart(const PreparedScene& scene) {
   const FeatureSet& f = scene.features();
-  return scene.strategy.seen_lights == SeenLights::kApart &&
+  return scene.strategy.visible_lights == VisibleLights::kApart &&
          !f.Has(Feature::kMedia) &&              // which dim what is seen
          !f.Has(Feature::kMovingCamera) &&       // which blurs all edges
          !scene.view->film.response.limits() &&  // which are of single samples

@@ -30,8 +30,8 @@ std::string FeaturesText(const FeatureSet& features) {
 
 // Returns the parameters of the plan's strategy; omits what no stage reads.
 std::string ParametersText(const Strategy& s, const FeatureSet& features) {
-  const PointsParameters points = MakePointsParameters(s.points);
-  const PairParameters pairs = MakePairParameters(s);
+  const SamplerParameters points = MakeSamplerParameters(s.points);
+  const AntitheticParameters pairs = MakeAntitheticParameters(s);
   const MisParameters mis = MakeMisParameters(s);
   const SampleGroups groups = GroupsOf(s);
   std::string text = fmt::format("points {} {} pairs {} {} groups {} {} mis {} {} {}",

@@ -21,9 +21,9 @@ struct RankLoad {
 };
 
 /// Returns the rank that `rank` compares itself with in this turn, or -1. Symmetric.
-inline int BalancePartner(int rank, int ranks, std::uint64_t turn) {
+inline int BalancePartner(int rank, int ranks, std::uint64_t round) {
   const auto dimensions = std::bit_width(static_cast<unsigned>(std::max(ranks - 1, 1)));
-  const int partner = rank ^ (1 << (turn % static_cast<unsigned>(dimensions)));
+  const int partner = rank ^ (1 << (round % static_cast<unsigned>(dimensions)));
   return partner < ranks ? partner : -1;
 }
 
@@ -31,7 +31,7 @@ inline int BalancePartner(int rank, int ranks, std::uint64_t turn) {
 inline constexpr double kMinSecondsGained = 0.005;
 /// Returns the samples that the first rank hands to the second so that both end together;
 /// 0 if the second would end later, or if too little time is won.
-inline std::uint64_t SamplesToGive(const RankLoad& from, const RankLoad& to) {
+inline std::uint64_t SamplesToTransfer(const RankLoad& from, const RankLoad& to) {
   if (from.speed <= 0) return 0;
   // A rank that has not ended a task yet, since it had none, is taken to be as fast.
   const double speed = to.speed > 0 ? to.speed : from.speed;
@@ -50,9 +50,9 @@ class PollInterval {
   }
   /// Takes the sum of the status of all ranks.
   void Update(const RankStatus& all) {
-    const double seconds = since_.Lap(), taken = left_ - double(all.left);
+    const double seconds = since_.Lap(), rendered = left_ - double(all.left);
     left_ = double(all.left);
-    const double remaining = taken > 0 ? seconds * left_ / taken : kLongest;
+    const double remaining = rendered > 0 ? seconds * left_ / rendered : kLongest;
     until_next_ = std::clamp(remaining / 4, kShortest, kLongest);
   }
 

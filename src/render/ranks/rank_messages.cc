@@ -44,8 +44,8 @@ void ForEachRow(std::span<const TileProgress> packed, const std::vector<PixelRec
 
 }  // namespace
 
-void PackTiles(std::span<const TileProgress> packed, const std::vector<PixelRect>& tiles,
-               Films& films, std::string& out) {
+void SerializeTiles(std::span<const TileProgress> packed,
+                    const std::vector<PixelRect>& tiles, Films& films, std::string& out) {
   const std::uint64_t count = packed.size();
   out.append(reinterpret_cast<const char*>(&count), sizeof(count));
   out.append(reinterpret_cast<const char*>(packed.data()), packed.size_bytes());
@@ -69,20 +69,21 @@ std::vector<std::span<const TileProgress>> InPieces(
   return pieces;
 }
 
-std::vector<TileProgress> UnpackTiles(std::string_view bytes,
-                                      const std::vector<PixelRect>& tiles, Films& films) {
-  const auto take = [&bytes](void* to, std::size_t size) {
+std::vector<TileProgress> DeserializeTiles(std::string_view bytes,
+                                           const std::vector<PixelRect>& tiles,
+                                           Films& films) {
+  const auto read = [&bytes](void* to, std::size_t size) {
     LL_CHECK_GE(bytes.size(), size);
     if (size > 0) std::memcpy(to, bytes.data(), size);
     bytes.remove_prefix(size);
   };
   std::uint64_t count = 0;
-  take(&count, sizeof(count));
+  read(&count, sizeof(count));
   LL_CHECK_LE(count, tiles.size());
   std::vector<TileProgress> packed(count);
-  take(packed.data(), count * sizeof(TileProgress));
+  read(packed.data(), count * sizeof(TileProgress));
   for (const TileProgress& one : packed) LL_CHECK_LT(one.tile, tiles.size());
-  ForEachRow(packed, tiles, films, take);
+  ForEachRow(packed, tiles, films, read);
   LL_CHECK(bytes.empty());
   return packed;
 }

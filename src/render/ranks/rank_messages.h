@@ -17,15 +17,16 @@ namespace lanelight {
 
 /// Appends these tiles and their pixels in all columns of the films. `tiles`: the places
 /// of all tiles.
-void PackTiles(std::span<const TileProgress> packed, const std::vector<PixelRect>& tiles,
-               Films& films, std::string& out);
+void SerializeTiles(std::span<const TileProgress> packed,
+                    const std::vector<PixelRect>& tiles, Films& films, std::string& out);
 /// Divides tiles into pieces of some megabytes; at least one piece, which may be empty.
 std::vector<std::span<const TileProgress>> InPieces(
     const std::vector<TileProgress>& owned, const std::vector<PixelRect>& tiles);
 /// Copies the pixels into the films and returns the tiles. `bytes` must hold nothing
 /// else.
-std::vector<TileProgress> UnpackTiles(std::string_view bytes,
-                                      const std::vector<PixelRect>& tiles, Films& films);
+std::vector<TileProgress> DeserializeTiles(std::string_view bytes,
+                                           const std::vector<PixelRect>& tiles,
+                                           Films& films);
 
 struct RunStart {
   std::vector<PixelRect> tiles;

@@ -53,21 +53,24 @@ class WorkerWatch : public TaskWatcher {
 class RankWork::OwnRound {
  public:
   OwnRound(RankWork& work, const Round& round, TaskWatcher& watcher)
-      : work_(work), round_(round), watcher_(watcher), taken_before_(Taken()) {
+      : work_(work),
+        round_(round),
+        watcher_(watcher),
+        rendered_before_(RenderedSamples()) {
     total_ = scheduler().Missing(scheduler().Snapshot(), round.end);
     Start();
   }
 
   /// Waits at most this long; returns whether the round has ended.
-  bool Wait(std::chrono::duration<double> most) {
-    const bool done = running_.wait_for(most) == std::future_status::ready;
+  bool Wait(std::chrono::duration<double> timeout) {
+    const bool done = running_.wait_for(timeout) == std::future_status::ready;
     const double seconds = since_.Lap();
     if (!done) busy_ += seconds;
     return done;
   }
   RankLoad load() const {
-    const std::uint64_t taken = Taken() - taken_before_;
-    return {total_ - taken, busy_ > 0 ? double(taken) / busy_ : 0};
+    const std::uint64_t rendered = RenderedSamples() - rendered_before_;
+    return {total_ - rendered, busy_ > 0 ? double(rendered) / busy_ : 0};
   }
   std::vector<TileProgress> Release(std::uint64_t samples) {
     std::vector<TileProgress> tiles = scheduler().Release(samples);
@@ -83,7 +86,7 @@ class RankWork::OwnRound {
 
  private:
   Scheduler& scheduler() { return work_.threads_.scheduler(); }
-  std::uint64_t Taken() const { return work_.threads_.Taken(); }
+  std::uint64_t RenderedSamples() const { return work_.threads_.RenderedSamples(); }
   void Start() {
     running_ = std::async(std::launch::async, [this] {
       try {
@@ -97,20 +100,21 @@ class RankWork::OwnRound {
   RankWork& work_;
   const Round round_;
   TaskWatcher& watcher_;
-  const std::uint64_t taken_before_;
+  const std::uint64_t rendered_before_;
   std::uint64_t total_ = 0;  // samples of this round
   double busy_ = 0;          // seconds
   Stopwatch since_;
   std::future<void> running_;  // ends before the rest
 };
 
-void RankWork::Deal(bool have_samples, int min_tile_side) {
+void RankWork::AssignTiles(bool have_samples, int min_tile_side) {
   if (have_samples) {
     for (const MutableStateColumn& column : films_.Columns()) {
       group_.Broadcast({static_cast<char*>(column.data), column.Bytes()});
     }
   }
-  const auto parts = DealTiles(tiles(), group_.AllGather(MaxThreads()), min_tile_side);
+  const auto parts =
+      DistributeTiles(tiles(), group_.AllGather(MaxThreads()), min_tile_side);
   std::vector<PixelRect> all;
   std::vector<TileProgress> own;
   for (std::size_t rank = 0; rank < parts.size(); ++rank) {
@@ -152,15 +156,15 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
     if (sum.failed + sum.interrupted > 0) stopped_ = true;
     failed_ |= sum.failed > 0;
     // Samples of other ranks are progress too.
-    if (taken_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
+    if (rendered_elsewhere_.exchange(sum.samples) != sum.samples) watcher.TaskDone();
   });
   if (problem_) std::rethrow_exception(problem_);
-  if (gave_up_) {
+  if (aborted_) {
     stopped_ = true;
   } else if (all.behind > 0) {
     Gather();
   } else {
-    other_levels_ = {round.end, std::max(round.end, other_levels_.most)};
+    other_levels_ = {round.end, std::max(round.end, other_levels_.maximum)};
   }
 }
 
@@ -169,7 +173,7 @@ void RankWork::RunRound(const Round& round, TaskWatcher& watcher) {
 RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
                             const OnStatus& on_status) {
   std::optional<Clock::time_point> signal;
-  const GivesUp gives_up = [&] {
+  const StopPredicate should_stop = [&] {
     if (!group_.leads() || !watcher.Interrupted()) return false;
     if (!signal) signal = Clock::now();
     return SecondsSince(*signal) > kAnswerSeconds;
@@ -180,36 +184,37 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
     const bool done = own.Wait(interval.UntilNext());
     RankStatus status = Status(round, watcher, done);
     status.left = own.load().left;
-    auto all = group_.Sum(status, gives_up);
-    gave_up_ = !all;
-    if (gave_up_) return {};
+    auto all = group_.Sum(status, should_stop);
+    aborted_ = !all;
+    if (aborted_) return {};
     interval.Update(*all);
     all->samples -= status.samples;  // of others
     on_status(*all);
     if (all->busy == 0) return *all;
     // All ranks have the same status, and decide alike.
     if (all->failed + all->interrupted + all->stopped > 0) continue;
-    gave_up_ = !Balance(step, own, gives_up);
-    if (gave_up_) return {};
+    aborted_ = !Balance(step, own, should_stop);
+    if (aborted_) return {};
   }
 }
 
 // Returns false if it gave up on the other rank.
-bool RankWork::Balance(std::uint64_t step, OwnRound& own, const GivesUp& gives_up) {
+bool RankWork::Balance(std::uint64_t step, OwnRound& own,
+                       const StopPredicate& should_stop) {
   const int partner = BalancePartner(group_.rank(), group_.ranks(), step);
   if (partner < 0) return true;
   RankLoad mine = own.load(), theirs;
-  const auto load = group_.Swap(partner, ToString(mine), gives_up);
+  const auto load = group_.Swap(partner, ToString(mine), should_stop);
   if (!load) return false;
   LL_CHECK_EQ(load->size(), sizeof(theirs));
   std::memcpy(&theirs, load->data(), sizeof(theirs));
-  const std::uint64_t samples = SamplesToGive(mine, theirs);
-  if (samples == 0 && SamplesToGive(theirs, mine) == 0) return true;
+  const std::uint64_t samples = SamplesToTransfer(mine, theirs);
+  if (samples == 0 && SamplesToTransfer(theirs, mine) == 0) return true;
   std::string packed;
-  PackTiles(own.Release(samples), tiles(), films_, packed);
-  const auto bytes = group_.Swap(partner, std::move(packed), gives_up);
+  SerializeTiles(own.Release(samples), tiles(), films_, packed);
+  const auto bytes = group_.Swap(partner, std::move(packed), should_stop);
   if (!bytes) return false;
-  own.Adopt(UnpackTiles(*bytes, tiles(), films_));
+  own.Adopt(DeserializeTiles(*bytes, tiles(), films_));
   return true;
 }
 
@@ -221,17 +226,17 @@ RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
   status.stopped = watcher.Stopped();
   status.cancelled = watcher.Cancelled();
   status.busy = !done;
-  status.behind = !done || threads_.Levels().least < round.end;
-  status.samples = threads_.Taken();
+  status.behind = !done || threads_.Levels().minimum < round.end;
+  status.samples = threads_.RenderedSamples();
   return status;
 }
 
 void RankWork::Gather() {
-  if (gathered_ || gave_up_) return;
+  if (gathered_ || aborted_) return;
   Share({Order::kGather, {}});
   other_counts_ = {};
   other_levels_ = {};
-  for (int piece = MostPieces(0); piece > 0; --piece) {
+  for (int piece = MaxPieces(0); piece > 0; --piece) {
     group_.Gather("", [this](int, std::string_view bytes) { ReceivePiece(bytes); });
   }
   gathered_ = true;
@@ -243,7 +248,8 @@ void RankWork::ReceivePiece(std::string_view bytes) {
   LL_CHECK_GE(bytes.size(), sizeof(counts));
   std::memcpy(&counts, bytes.data(), sizeof(counts));
   other_counts_.Add(counts);
-  other_levels_.Add(LevelsOf(UnpackTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
+  other_levels_.Add(
+      LevelsOf(DeserializeTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
 }
 
 void RankWork::SendPieces() {
@@ -252,25 +258,25 @@ void RankWork::SendPieces() {
   RunCounts counts = threads_.Counts();
   counts.cpu_seconds = clock_.CpuSeconds();
   std::string bytes;
-  const auto all = std::size_t(MostPieces(int(pieces.size())));
+  const auto all = std::size_t(MaxPieces(int(pieces.size())));
   for (std::size_t i = 0; i < all; ++i) {
     bytes.clear();
     bytes += ToString(std::exchange(counts, {}));
-    PackTiles(i < pieces.size() ? pieces[i] : std::span<const TileProgress>(), tiles(),
-              films_, bytes);
+    SerializeTiles(i < pieces.size() ? pieces[i] : std::span<const TileProgress>(),
+                   tiles(), films_, bytes);
     group_.Gather(bytes, nullptr);
   }
 }
 
 // Returns the largest number of pieces of any rank.
-int RankWork::MostPieces(int own) {
+int RankWork::MaxPieces(int own) {
   const std::vector<int> all = group_.AllGather(own);
   return *std::ranges::max_element(all);
 }
 
 // All ranks meet once more, so that the leader learns of a failure.
 void RankWork::Finish() {
-  if (!gave_up_) {
+  if (!aborted_) {
     Share({Order::kLeave, {}});
     group_.AllGather(0);
   } else if (failed_) {

@@ -26,7 +26,7 @@ class RankWork : public RoundRunner {
 
   /// Gives each rank its part of the tiles; collective, before the first round.
   /// `have_samples`: workers receive the leader's samples first.
-  void Deal(bool have_samples, int min_tile_side);
+  void AssignTiles(bool have_samples, int min_tile_side);
 
   // Leader:
   void RunRound(const Round& round, TaskWatcher& watcher) override;
@@ -34,7 +34,9 @@ class RankWork : public RoundRunner {
   void Gather() override;
   TileLevels Levels() const override;
   RunCounts Counts() const override;
-  std::uint64_t Taken() const override { return threads_.Taken() + taken_elsewhere_; }
+  std::uint64_t RenderedSamples() const override {
+    return threads_.RenderedSamples() + rendered_elsewhere_;
+  }
   bool Stopped() const override { return stopped_; }
   void Finish() override;
 
@@ -49,17 +51,17 @@ class RankWork : public RoundRunner {
     Order order = Order::kLeave;
     Round round;
   };
-  using GivesUp = std::function<bool()>;
+  using StopPredicate = std::function<bool()>;
   class OwnRound;
   using OnStatus = std::function<void(const RankStatus& all)>;
 
   Command Share(Command command);
   RankStatus Render(const Round& round, TaskWatcher& watcher, const OnStatus& on_status);
   RankStatus Status(const Round& round, const TaskWatcher& watcher, bool done) const;
-  bool Balance(std::uint64_t step, OwnRound& own, const GivesUp& gives_up);
+  bool Balance(std::uint64_t step, OwnRound& own, const StopPredicate& should_stop);
   void SendPieces();
   void ReceivePiece(std::string_view bytes);
-  int MostPieces(int own);
+  int MaxPieces(int own);
   const std::vector<PixelRect>& tiles() const { return threads_.scheduler().tiles(); }
 
   RankGroup& group_;
@@ -69,11 +71,11 @@ class RankWork : public RoundRunner {
   // Of the other ranks, as of the last round or Gather().
   RunCounts other_counts_;
   TileLevels other_levels_;
-  std::atomic<std::uint64_t> taken_elsewhere_{0};
+  std::atomic<std::uint64_t> rendered_elsewhere_{0};
   bool gathered_ = true;  // nothing has been rendered since
   std::atomic<bool> stopped_{false};
   bool failed_ = false;         // a rank has
-  bool gave_up_ = false;        // on a rank that has not answered
+  bool aborted_ = false;        // on a rank that has not answered
   std::exception_ptr problem_;  // of this rank's tasks
 };
 

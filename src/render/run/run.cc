@@ -71,7 +71,7 @@ struct Runner {
 // Starts the clock, and trains the strategy or resumes the run.
 void Runner::Start() {
   clock.Start();
-  const bool restored = context->options.keeper != nullptr && Restore();
+  const bool restored = context->options.checkpointer != nullptr && Restore();
   RunStart start;
   start.have_samples = threads.Counts().samples > 0;
   start.planned_training = restored ? 0 : strategy.PlannedTraining();
@@ -84,7 +84,7 @@ void Runner::Start() {
   if (ranks) {
     Group().Share(ToBytes(
         RunTraining{strategy.trained(), strategy.training().changes, strategy.Tables()}));
-    ranks->Deal(start.have_samples, min_tile_side);
+    ranks->AssignTiles(start.have_samples, min_tile_side);
   }
   watch->Start();
   schedule->Start(restored);
@@ -92,8 +92,8 @@ void Runner::Start() {
 
 bool Runner::Restore() {
   RunState state = {{}, films};
-  if (!context->options.keeper->Restore(state)) return false;
-  clock.GoOn(state.counts.seconds);
+  if (!context->options.checkpointer->Restore(state)) return false;
+  clock.StartAt(state.counts.seconds);
   threads.Resume(state.counts);
   if (!state.trained) return !NeedsTraining(strategy.plan());
   strategy.Restore(std::move(state.training), state.tables);
@@ -106,7 +106,7 @@ void Runner::Keep(bool finished) {
       {Counts(), strategy.trained(), strategy.training(), strategy.Tables()},
       films,
       finished};
-  context->options.keeper->Keep(state);
+  context->options.checkpointer->Keep(state);
 }
 
 RunCounts Runner::Counts() {
@@ -128,7 +128,7 @@ void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
     training.changes = learned.changes;
     strategy.Restore(std::move(training), learned.tables);
   }
-  ranks->Deal(start.have_samples, min_tile_side);
+  ranks->AssignTiles(start.have_samples, min_tile_side);
   ranks->Serve([this](const Round& round) { strategy.BeginWith(round.begin); }, stop);
 }
 
@@ -165,14 +165,14 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
   const ThreadLimit threads(options.threads);
   Runner run(scene, plan, options, film);
   run.Start();
-  RunKeeper* const keeper = options.keeper;
+  Checkpointer* const checkpointer = options.checkpointer;
   while (!run.watch->Ended()) {
     const auto round = run.schedule->Next();
     if (!round) break;
     run.strategy.BeginWith(round->begin);
     run.Work().RunRound(*round, *run.watch);
     if (!run.watch->Ended()) {
-      if (keeper != nullptr && keeper->Due()) run.Keep(false);
+      if (checkpointer != nullptr && checkpointer->Due()) run.Keep(false);
       run.watch->ShowIfDue();
     }
     // The round may have been stopped before its end.
@@ -181,7 +181,7 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
   run.watch->Report();
   run.Work().Gather();
   // The last state is kept too, also where another rank has failed.
-  if (keeper != nullptr) run.Keep(run.watch->Reason() != StopReason::kInterrupted);
+  if (checkpointer != nullptr) run.Keep(run.watch->Reason() != StopReason::kInterrupted);
   run.Work().Finish();
   return run.Result();
 }

@@ -9,8 +9,8 @@
 
 namespace lanelight {
 
-/// Renders into `film`, without samples but those that options.keeper goes on from: its
-/// size must match the crop window of the scene, or the strip of options.windows, its
+/// Renders into `film`, without samples but those that options.checkpointer goes on from:
+/// its size must match the crop window of the scene, or the strip of options.windows, its
 /// groups the strategy (src/scene/prepare/parameters.h).
 RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
               FilmAccumulator& film);

@@ -30,7 +30,7 @@ std::optional<Round> RunSchedule::Next() {
 }
 
 void RunSchedule::Finish(const Round& round) {
-  if (pace_) pace_->Took(round.samples(), round_watch_.Seconds());
+  if (pace_) pace_->AddMeasurement(round.samples(), round_watch_.Seconds());
   const bool halfway = 2 * context_.clock.Elapsed() > context_.options.seconds;
   if (pace_ && reserved_ == 0 && halfway) TimeFit();
   CheckIfDue(round.end);
@@ -44,7 +44,7 @@ void RunSchedule::TimeFit() {
 }
 
 std::uint64_t RunSchedule::NextCheck(std::uint64_t done) const {
-  if (!context_.options.samples_needed) return kMostSamplesPerPixel;
+  if (!context_.options.samples_needed) return kMaxSamplesPerPixel;
   return CheckFrom(done + 1, context_.unit());
 }
 

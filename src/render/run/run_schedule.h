@@ -24,7 +24,7 @@ struct RunContext {
 
   /// Samples per pixel at most.
   std::uint64_t limit() const {
-    return options.spp > 0 ? options.spp : kMostSamplesPerPixel;
+    return options.spp > 0 ? options.spp : kMaxSamplesPerPixel;
   }
   /// Samples that belong together.
   std::uint32_t unit() const { return films.film().groups().unit; }

@@ -46,8 +46,8 @@ std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
 }  // namespace
 
 std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
-  const std::uint64_t turn = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
-  return std::uint32_t(seed ^ (seed >> 32) ^ (turn >> 32));
+  const std::uint64_t seed_offset = first_sample / kSamplesPerSeed * 0x9e3779b97f4a7c15u;
+  return std::uint32_t(seed ^ (seed >> 32) ^ (seed_offset >> 32));
 }
 
 RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
@@ -103,7 +103,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
 void RunStrategy::Restore(TrainingOutcome training,
                           const std::vector<TrainedTable>& tables) {
   training_ = std::move(training);
-  PutTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
+  ImportTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
   UseTraining();
   CheckTrained(plan_, tables_);
 }
@@ -122,7 +122,7 @@ double RunStrategy::Dependents() const {
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {
-  return trained_ ? TakeTraining(tables_) : std::vector<TrainedTable>();
+  return trained_ ? ExportTraining(tables_) : std::vector<TrainedTable>();
 }
 
 void RunStrategy::Describe(RunResult& result) const {

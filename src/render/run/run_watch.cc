@@ -10,7 +10,7 @@ void RunWatch::Start() {
   limit_.emplace(context_.options.seconds, now);
   pixels_ = context_.pixels();
   const bool shown = context_.options.on_film && context_.options.group == nullptr;
-  show_at_ = shown ? now + kShowSeconds * double(pixels_) / kShowShare
+  show_at_ = shown ? now + kDisplaySecondsPerPixel * double(pixels_) / kMaxDisplayFraction
                    : std::numeric_limits<double>::infinity();
 }
 
@@ -20,7 +20,7 @@ void RunWatch::ShowIfDue() {
   context_.films.film().FitControl();
   context_.options.on_film(context_.films.film());
   const double now = context_.clock.Elapsed();
-  show_at_ = now + (now - since) / kShowShare;
+  show_at_ = now + (now - since) / kMaxDisplayFraction;
 }
 
 bool RunWatch::OutOfTime() const {
@@ -36,9 +36,9 @@ bool RunWatch::Ended() {
 }
 
 bool RunWatch::Stopped() const {
-  const RunKeeper* const keeper = context_.options.keeper;
+  const Checkpointer* const checkpointer = context_.options.checkpointer;
   return Interrupted() || OutOfTime() || cancelled_ || ShowDue() ||
-         (keeper != nullptr && keeper->Due());
+         (checkpointer != nullptr && checkpointer->Due());
 }
 
 bool RunWatch::Cancelled() const {
@@ -83,7 +83,7 @@ void RunWatch::Report() {
   if (!context_.options.on_progress) return;
   Progress progress;
   progress.seconds = context_.clock.Elapsed();
-  progress.samples = context_.work.Taken();
+  progress.samples = context_.work.RenderedSamples();
   progress.fraction = Fraction(progress.seconds, progress.samples);
   context_.options.on_progress(progress);
 }

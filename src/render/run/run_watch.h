@@ -12,10 +12,10 @@
 
 namespace lanelight {
 
-/// Tasks wait while the film is shown, which takes at most kShowShare of the run's time
-/// if it takes as long as the last time; the first time is estimated by kShowSeconds per
-/// pixel.
-inline constexpr double kShowShare = 0.005, kShowSeconds = 2e-7;
+/// Tasks wait while the film is shown, which takes at most kMaxDisplayFraction of the
+/// run's time if it takes as long as the last time; the first time is estimated by
+/// kDisplaySecondsPerPixel per pixel.
+inline constexpr double kMaxDisplayFraction = 0.005, kDisplaySecondsPerPixel = 2e-7;
 
 class RunWatch : public TaskWatcher {
  public:

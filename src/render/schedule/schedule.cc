@@ -8,7 +8,7 @@
 namespace lanelight {
 namespace {
 
-constexpr double kTaskShare = 0.005;  // of the budget
+constexpr double kMaxTaskFraction = 0.005;  // of the budget
 
 std::uint64_t NextCheck(std::uint64_t look, std::uint32_t unit) {
   std::uint64_t step = unit;
@@ -33,28 +33,29 @@ int ChecksUpTo(std::uint64_t done, std::uint32_t unit) {
 }
 
 Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit) {
-  if (done >= per_task) return {done, done + kMostSamplesPerPixel, per_task};
+  if (done >= per_task) return {done, done + kMaxSamplesPerPixel, per_task};
   const auto samples = std::uint32_t(std::max<std::uint64_t>(3 * done, unit));
   return {done, done + samples, std::min(samples, per_task)};
 }
 
 std::uint32_t Pace::Whole(double samples) const {
   const double units = std::floor(samples / tasks_.unit);
-  const double most = tasks_.per_task / tasks_.unit;
-  return std::uint32_t(std::clamp(units, 1.0, std::max(1.0, most))) * tasks_.unit;
+  const double maximum = tasks_.per_task / tasks_.unit;
+  return std::uint32_t(std::clamp(units, 1.0, std::max(1.0, maximum))) * tasks_.unit;
 }
 
 Round Pace::Next(std::uint64_t done, double elapsed) const {
   if (speed_ == 0) return {done, done + tasks_.unit, tasks_.unit};
   // Seconds of one sample of all pixels of a tile.
   const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
-  const double most = Reach(elapsed) / 2;
-  const std::uint32_t per_task = Whole(std::min(most, kTaskShare * budget_ / tile));
-  const auto ranges = std::uint64_t(std::max(1.0, most / per_task));
+  const double maximum = Reach(elapsed) / 2;
+  const std::uint32_t per_task =
+      Whole(std::min(maximum, kMaxTaskFraction * budget_ / tile));
+  const auto ranges = std::uint64_t(std::max(1.0, maximum / per_task));
   return {done, done + per_task * ranges, per_task};
 }
 
-void Pace::Took(std::uint64_t samples, double seconds) {
+void Pace::AddMeasurement(std::uint64_t samples, double seconds) {
   speed_ = double(samples) / std::max(seconds, 1e-6);
 }
 

@@ -49,7 +49,7 @@ class Pace {
   /// Returns the round after `done` samples per pixel, `elapsed` seconds into the render.
   Round Next(std::uint64_t done, double elapsed) const;
   /// Notes that a round of so many samples per pixel took `seconds`.
-  void Took(std::uint64_t samples, double seconds);
+  void AddMeasurement(std::uint64_t samples, double seconds);
   /// Returns the samples per pixel that the time left allows; 0 before the first round.
   double Reach(double elapsed) const;
 

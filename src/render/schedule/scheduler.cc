@@ -12,8 +12,8 @@ constexpr std::uint64_t kMaxPixelsReleased = 1 << 18;
 }  // namespace
 
 void TileLevels::Add(const TileLevels& others) {
-  least = std::min(least, others.least);
-  most = std::max(most, others.most);
+  minimum = std::min(minimum, others.minimum);
+  maximum = std::max(maximum, others.maximum);
 }
 
 TileLevels LevelsOf(const std::vector<TileProgress>& tiles) {

@@ -30,7 +30,7 @@ struct TileProgress {
 
 /// Samples per pixel of the tile with the fewest, and of the tile with the most.
 struct TileLevels {
-  std::uint64_t least = ~std::uint64_t{0}, most = 0;
+  std::uint64_t minimum = ~std::uint64_t{0}, maximum = 0;
   void Add(const TileLevels& others);
 };
 TileLevels LevelsOf(const std::vector<TileProgress>& tiles);

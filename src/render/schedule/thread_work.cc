@@ -33,7 +33,7 @@ void ThreadWork::UseTiles(TilePartition partition) {
 
 void ThreadWork::Resume(const RunCounts& counts) {
   counts_ = counts;
-  taken_ = counts.samples;
+  rendered_samples_ = counts.samples;
   std::vector<PixelRect> tiles = scheduler_->tiles();
   if (options_.windows.empty()) DivideUnevenTiles(films_.film(), tiles);
   std::vector<TileProgress> progress;
@@ -67,7 +67,7 @@ void ThreadWork::RunRound(const Round& round, TaskWatcher& watcher) {
         const PixelRect& tile = scheduler_->tiles()[range->tile];
         TaskSamples& out = runner_.Samples();
         if (!runner_.Run(*range, tile, watcher, out)) return scheduler_->Cancel();
-        taken_ += out.counts.samples;
+        rendered_samples_ += out.counts.samples;
         scheduler_->Done(*range, out,
                          [&](TaskSamples& samples) { Merge(range->tile, samples); });
         watcher.TaskDone();

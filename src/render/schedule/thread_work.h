@@ -23,7 +23,7 @@ class RunClock {
  public:
   void Start() { watch_ = {}; }
   /// Adds the seconds that a resumed run took before.
-  void GoOn(double seconds) { before_ = seconds; }
+  void StartAt(double seconds) { before_ = seconds; }
 
   /// Seconds since Start().
   double Seconds() const { return watch_.Seconds(); }
@@ -51,7 +51,7 @@ class RoundRunner {
   /// Returns the counts of the samples in the films; excludes seconds of this process.
   virtual RunCounts Counts() const = 0;
   /// Returns the samples of all pixels together, merged or not. Safe from any thread.
-  virtual std::uint64_t Taken() const = 0;
+  virtual std::uint64_t RenderedSamples() const = 0;
   /// Returns whether another process was interrupted or has failed; no more rounds begin
   /// then.
   virtual bool Stopped() const { return false; }
@@ -59,11 +59,11 @@ class RoundRunner {
   virtual void Finish() {}
 
   /// Returns the samples per pixel that all tiles have.
-  std::uint64_t Done() const { return Levels().least; }
+  std::uint64_t Done() const { return Levels().minimum; }
   /// Returns whether all tiles have exactly so many samples per pixel.
   bool IsAt(std::uint64_t samples) const {
     const TileLevels levels = Levels();
-    return levels.least == samples && levels.most == samples;
+    return levels.minimum == samples && levels.maximum == samples;
   }
 };
 
@@ -77,7 +77,7 @@ class ThreadWork : public RoundRunner {
   void RunRound(const Round& round, TaskWatcher& watcher) override;
   TileLevels Levels() const override { return LevelsOf(scheduler_->Snapshot()); }
   RunCounts Counts() const override { return counts_; }
-  std::uint64_t Taken() const override { return taken_; }
+  std::uint64_t RenderedSamples() const override { return rendered_samples_; }
 
   Scheduler& scheduler() { return *scheduler_; }
   /// Returns the samples per pixel of a range that keeps a thread busy.
@@ -104,7 +104,7 @@ class ThreadWork : public RoundRunner {
   TaskRunner runner_;
   bool begun_ = false;   // the runner knows the tiles
   bool shared_ = false;  // other ranks have tiles
-  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> rendered_samples_{0};
   RunCounts counts_;
   std::mutex counts_mutex_;
 };

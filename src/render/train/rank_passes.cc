@@ -57,16 +57,16 @@ void RankPasses::Exchange(const std::vector<std::size_t>& begins,
   Head sum = OwnHead(samples);
   group_.Gather(group_.leads() ? "" : OwnPart(begins, samples),
                 [&](int rank, std::string_view bytes) {
-                  const auto take = [&bytes](auto* to, std::size_t count) {
+                  const auto read = [&bytes](auto* to, std::size_t count) {
                     const std::size_t size = count * sizeof(*to);
                     LL_CHECK_GE(bytes.size(), size);
                     std::memcpy(to, bytes.data(), size);
                     bytes.remove_prefix(size);
                   };
                   Head head;
-                  take(&head, 1);
+                  read(&head, 1);
                   sum.Add(head);
-                  ForEachTask(begins, rank, group_.ranks(), samples, take);
+                  ForEachTask(begins, rank, group_.ranks(), samples, read);
                   LL_CHECK(bytes.empty());
                 });
   const auto broadcast = [this](auto* values, std::size_t count) {

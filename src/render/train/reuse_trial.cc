@@ -17,30 +17,31 @@ namespace lanelight {
 namespace {
 
 constexpr std::uint32_t kBlockSpp = 8;
-constexpr int kSquare = 8;      // pixels per side
-constexpr double kClearBy = 1;  // standard errors
+constexpr int kSquare = 8;                 // pixels per side
+constexpr double kGainStandardErrors = 1;  // standard errors
 // Least gain after a filter, if reuse gains by pixels.
-constexpr double kMayLose = 0.95;
+constexpr double kMinFilteredGain = 0.95;
 
 // Places of pixels in the work, by the square of the image that they are in.
 using Squares = std::vector<std::vector<std::size_t>>;
 
 // Places of pixels in the work that count: light that the camera sees at the edge of a
 // lamp is integrated apart in the image, but not in a trial.
-std::vector<bool> Counted(const TriedStrategy& usual, const TrainingWork& work) {
+std::vector<bool> Counted(const TriedStrategy& baseline, const TrainingWork& work) {
   std::vector<bool> counted(work.pixels.size(), true);
-  const Plan plan = MakePlan(usual.scene, usual.options);
-  RunParameters run = MakeRunParameters(usual.scene, plan);
-  run.tables = &usual.tables;
+  const Plan plan = MakePlan(baseline.scene, baseline.options);
+  RunParameters run = MakeRunParameters(baseline.scene, plan);
+  run.tables = &baseline.tables;
   const RunOptions once;
-  TaskRunner runner(usual.scene, plan, run, once);
+  TaskRunner runner(baseline.scene, plan, run, once);
   runner.Begin(work.tiles.size());
-  if (runner.seen_lights() == nullptr) return counted;
-  ParallelFor(work.tiles.size(),
-              [&](std::size_t tile) { runner.FindSeenLights(tile, work.tiles[tile]); });
+  if (runner.visible_lights() == nullptr) return counted;
+  ParallelFor(work.tiles.size(), [&](std::size_t tile) {
+    runner.FindVisibleLights(tile, work.tiles[tile]);
+  });
   std::size_t first = 0;
   for (std::size_t tile = 0; tile < work.tiles.size(); ++tile) {
-    for (const std::uint32_t place : runner.seen_lights()->Of(tile)) {
+    for (const std::uint32_t place : runner.visible_lights()->Of(tile)) {
       counted[first + place] = false;
     }
     first += work.tiles[tile].pixels();
@@ -84,13 +85,13 @@ bool Takes(const PreparedScene& scene, const PlanOptions& options) {
 
 }  // namespace
 
-TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& usual,
+TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
                                          const PlanOptions& blocks,
                                          const TrainingWork& work, double must_gain) {
-  const TrainingSamples plain = Render(usual, usual.options, work);
-  const TrainingSamples shared = Render(usual, blocks, work);
+  const TrainingSamples plain = Render(baseline, baseline.options, work);
+  const TrainingSamples shared = Render(baseline, blocks, work);
   const ImageGuess image = GuessImage(scene_, plain, work);
-  const std::vector<bool> counted = Counted(usual, work);
+  const std::vector<bool> counted = Counted(baseline, work);
   const Squares tiles = SquaresOf(scene_, work, counted, kReuseTile);
   const Squares squares = SquaresOf(scene_, work, counted, kSquare);
   const auto by_tiles = [&](const TrainingSamples& samples, double price) {
@@ -110,19 +111,19 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& usual,
   out.per_pixel = std::exp(out.gain.log);
   out.filtered =
       std::exp(GainOf(by_squares(shared, kReusePrice), by_squares(plain, 1)).log);
-  const double clear = out.gain.least - kClearBy * out.gain.standard_error;
-  out.pays_per_pixel = clear > std::log(kMustGain) && out.per_pixel > must_gain;
-  out.pays = out.pays_per_pixel && out.filtered > kMayLose;
+  const double clear = out.gain.minimum - kGainStandardErrors * out.gain.standard_error;
+  out.gains_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
+  out.pays = out.gains_per_pixel && out.filtered > kMinFilteredGain;
   return out;
 }
 
-std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
+std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& baseline,
                                                   const TriedStrategy& chosen,
                                                   double gain, std::uint64_t samples) {
   std::vector<TriedBlocks> tried;
-  const TriedStrategy& beside = chosen.splits ? usual : chosen;
+  const TriedStrategy& beside = chosen.splits ? baseline : chosen;
   if (beside.splits) return tried;
-  const double must_gain = chosen.splits ? gain : kMustGain;
+  const double must_gain = chosen.splits ? gain : kMinChangeGain;
   for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
     const PlanOptions blocks = WithChanges(beside.scene, beside.options, changes);
     if (!Takes(beside.scene, blocks)) break;
@@ -131,7 +132,7 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& usual,
     if (watcher_.Stopped()) break;
     tried.push_back(found);
     tried.back().changes = changes;
-    if (found.pays || !found.pays_per_pixel) break;
+    if (found.pays || !found.gains_per_pixel) break;
   }
   return tried;
 }

@@ -11,24 +11,25 @@
 namespace lanelight {
 namespace {
 
-constexpr double kMissing = 3;  // standard errors
+constexpr double kMissingLightErrors = 3;  // standard errors
 
 // Minimum number of pixels that carry a candidate's error; its sum is then known to 25 %.
 // In last rounds of advice for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
 // carry its error (material-testball, media: 0.46x the efficiency in long renders,
 // although each of these rounds preferred it). It had 32 to 75 where it is efficient
 // (corridor, veach-ajar; 14 once).
-constexpr double kLeastPixels = 16;
+constexpr double kMinEffectivePixels = 16;
 
 // A mean over pixels whose standard error is below this part of it needs no second
 // estimate. Where all is that even, what stratified points gain also depends on the
 // numbers that decisions themselves use (a closed room), which copies know nothing of.
-constexpr double kSure = 0.1;
+constexpr double kConvergedRelativeError = 0.1;
 
-bool IsSure(const std::vector<double>& variances) {
+bool IsConverged(const std::vector<double>& variances) {
   double sum = 0, squares = 0;
   for (double v : variances) sum += v, squares += v * v;
-  return squares - sum * sum / double(variances.size()) <= kSure * kSure * sum * sum;
+  return squares - sum * sum / double(variances.size()) <=
+         kConvergedRelativeError * kConvergedRelativeError * sum * sum;
 }
 
 // Averages two estimates of the same; but one that has seen fewer bright samples adds
@@ -43,77 +44,81 @@ TrialMeasure Both(const TrialMeasure& own, TrialMeasure single) {
 
 // Returns whether only the roulette differs, and paths survive it with a higher
 // probability.
-bool LivesLonger(Strategy changed, const Strategy& usual) {
+bool HasMilderRoulette(Strategy changed, const Strategy& baseline) {
   const bool longer =
       changed.roulette == Roulette::kNone ||
-      (changed.roulette == usual.roulette && changed.Floor() >= usual.Floor() &&
-       changed.scale >= usual.scale && changed.First() >= usual.First());
-  if (usual.roulette != Roulette::kThroughput || !longer) return false;
+      (changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
+       changed.scale >= baseline.scale && changed.First() >= baseline.First());
+  if (baseline.roulette != Roulette::kThroughput || !longer) return false;
   const auto roulette = [](const Strategy& s) {
     return std::tuple(s.roulette, s.floor, s.first, s.scale);
   };
-  if (roulette(changed) == roulette(usual)) return false;
-  changed.roulette = usual.roulette;
-  changed.floor = usual.floor;
-  changed.first = usual.first;
-  changed.scale = usual.scale;
-  return changed == usual;
+  if (roulette(changed) == roulette(baseline)) return false;
+  changed.roulette = baseline.roulette;
+  changed.floor = baseline.floor;
+  changed.first = baseline.first;
+  changed.scale = baseline.scale;
+  return changed == baseline;
 }
 
 // Returns whether it splits paths whose records describe roulette on the throughput.
-bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& usual) {
-  const Strategy given = PlannedStrategy(usual.scene, usual.options);
-  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
-         given.scale == 1 && given.First() == kThroughputFirst &&
+bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
+  const Strategy baseline_strategy = PlannedStrategy(baseline.scene, baseline.options);
+  return baseline_strategy.roulette == Roulette::kThroughput &&
+         baseline_strategy.Floor() == 0 && baseline_strategy.scale == 1 &&
+         baseline_strategy.First() == kThroughputFirst &&
          tried.changes == "roulette=adjoint";
 }
 
 // Returns whether few pixels carry the error; without any error it is exact.
 bool IsFew(const std::vector<double>& variances) {
   const double pixels = EffectivePixels(variances);
-  return pixels > 0 && pixels < kLeastPixels;
+  return pixels > 0 && pixels < kMinEffectivePixels;
 }
 
 }  // namespace
 
-TrialGain TriedStrategy::Told() const {
-  return IsToldByTheRest() ? GainWithoutWorst(measure, usual) : GainOf(measure, usual);
+TrialGain TriedStrategy::EfficiencyGain() const {
+  return IgnoresWorstPixels() ? GainWithoutWorst(measure, baseline)
+                              : GainOf(measure, baseline);
 }
 
 TrialGain TriedStrategy::Gain() const {
-  TrialGain gain = Told();
-  if (!paired) gain.log = std::min(gain.log, std::log(usual.Score() / measure.Score()));
-  gain.log = std::min(gain.log, gain.least);
+  TrialGain gain = EfficiencyGain();
+  if (!paired)
+    gain.log = std::min(gain.log, std::log(baseline.Score() / measure.Score()));
+  gain.log = std::min(gain.log, gain.minimum);
   return gain;
 }
 
 bool TriedStrategy::MissesLight() const {
-  const double error = std::hypot(light.standard_error, usual_light.standard_error);
-  return light.sum + kMissing * error < usual_light.sum;
+  const double error = std::hypot(light.standard_error, baseline_light.standard_error);
+  return light.sum + kMissingLightErrors * error < baseline_light.sum;
 }
 
 bool TriedStrategy::IsCarriedByFew() const { return IsFew(measure.variances); }
 
-bool TriedStrategy::IsToldByTheRest() const {
-  return lives_longer && (IsCarriedByFew() || IsFew(usual.variances));
+bool TriedStrategy::IgnoresWorstPixels() const {
+  return milder_roulette && (IsCarriedByFew() || IsFew(baseline.variances));
 }
 
 double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
-  const TrialGain told = Told();
+  const TrialGain gain = EfficiencyGain();
   const double must = std::log(must_gain);
-  if (told.least - standard_errors * told.standard_error <= must || MissesLight()) {
+  if (gain.minimum - standard_errors * gain.standard_error <= must || MissesLight()) {
     return 0;
   }
-  if (IsCarriedByFew() && !IsToldByTheRest()) return 0;
-  // A pass without the usual strategy's bright samples may owe its gain to one of them.
-  if (!paired && !IsClearlyBetter(measure, usual, 1 / must_gain, standard_errors)) {
+  if (IsCarriedByFew() && !IgnoresWorstPixels()) return 0;
+  // A pass without the baseline strategy's bright samples may owe its gain to one of
+  // them.
+  if (!paired && !IsClearlyBetter(measure, baseline, 1 / must_gain, standard_errors)) {
     return 0;
   }
   return Gain().log - must;
 }
 
-TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
-                    const std::string& changes, double price) {
+TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& options,
+                           const std::string& changes, double price) {
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
@@ -132,8 +137,8 @@ StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& 
       planned_(planned),
       watcher_(training.stop) {}
 
-void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t turn) {
-  work_ = MakeTrainingWork(scene_, samples, spp, turn);
+void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t round) {
+  work_ = MakeTrainingWork(scene_, samples, spp, round);
   work_.spp -= work_.spp % kReplicates;
   image_.reset();
 }
@@ -177,39 +182,40 @@ TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
   return light;
 }
 
-bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& usual) {
+bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& baseline) {
   if (!tried.has_learned) {
     // Training may have changed the strategy.
     const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
     tried.options = WithChanges(tried.scene, tried.options, learned.changes);
     tried.has_learned = true;
   }
-  if (!Stopped()) Measure(tried, usual);
+  if (!Stopped()) Measure(tried, baseline);
   return !Stopped();
 }
 
-void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& usual) {
+void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline) {
   PlanOptions options = tried.options;
-  const bool records = RecordsSinglePaths(tried, usual);
+  const bool records = RecordsSinglePaths(tried, baseline);
   if (records) options.training = FeatureSet{Feature::kRecordsSinglePaths};
   const TrainingSamples samples = Render(tried, options, work_);
   if (Stopped()) return;
-  // Weights are those of the image that the usual strategy shows.
+  // Weights are those of the image that the baseline strategy shows.
   if (!image_) image_ = GuessImage(scene_, samples, work_);
   tried.measure = {tried.price * samples.Cost(),
                    RelativeVariances(samples, work_, *image_)};
   tried.light = LightOf(samples, tried.measure);
-  tried.usual = usual.measure;
-  tried.usual_light = usual.light;
-  tried.lives_longer = LivesLonger(PlannedStrategy(tried.scene, tried.options),
-                                   PlannedStrategy(usual.scene, usual.options));
-  tried.paired = records && !IsSure(usual.measure.variances);
+  tried.baseline = baseline.measure;
+  tried.baseline_light = baseline.light;
+  tried.milder_roulette =
+      HasMilderRoulette(PlannedStrategy(tried.scene, tried.options),
+                        PlannedStrategy(baseline.scene, baseline.options));
+  tried.paired = records && !IsConverged(baseline.measure.variances);
   if (!tried.paired) return;
-  TrialMeasure single = usual.measure;
+  TrialMeasure single = baseline.measure;
   single.variances =
       SinglePathVariances(samples, work_, *image_, tried.tables.path_values,
                           ExposureOf(scene_), tried.measure.variances);
-  tried.usual = Both(usual.measure, std::move(single));
+  tried.baseline = Both(baseline.measure, std::move(single));
 }
 
 }  // namespace lanelight

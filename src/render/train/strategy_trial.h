@@ -23,15 +23,15 @@ struct DecisionCandidate {
   const char* reason;   // when it is more efficient
   /// Processor time of a counted ray (TrainingSamples::Cost) over that without the
   /// change, and how far the logarithm of that scatters from scene to scene.
-  double price, price_spread;
+  double price, price_uncertainty;
 };
 
 /// Least gain for which a change is chosen: a wrong change costs more than a missed one.
-inline constexpr double kMustGain = 1.05;
+inline constexpr double kMinChangeGain = 1.05;
 
 /// Processor time of a counted ray with reuse=block relative to that without, and its
 /// scatter.
-inline constexpr double kReusePrice = 1.2, kReusePriceSpread = 0.27;
+inline constexpr double kReusePrice = 1.2, kReusePriceUncertainty = 0.27;
 
 // Costs are counted in rays, so that a choice depends on the scene only; prices make
 // up for what rays do not say. They are means over 32 scenes, 96 pixels wide, 64 spp, one
@@ -59,7 +59,7 @@ inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"light-selection=tree", "gains with many lights, each near a part of the scene", 1.1,
      0.4},
 };
-inline constexpr std::size_t kDecidedUnasked = 2;  // the first ones
+inline constexpr std::size_t kNumDefaultCandidates = 2;  // the first ones
 
 /// The image's light by one pass, pixels weighted as in relative errors.
 struct TrialLight {
@@ -68,7 +68,7 @@ struct TrialLight {
 
 /// A strategy that may be chosen.
 struct TriedStrategy {
-  std::string changes;  // of the usual strategy, which has none
+  std::string changes;  // of the baseline strategy, which has none
   double price = 1;     // DecisionCandidate::price
   PreparedScene scene;  // for all of the strategy that is not a change of the plan
   PlanOptions options;
@@ -76,29 +76,29 @@ struct TriedStrategy {
   /// The strategy as asked for splits paths, which path reuse cannot do.
   bool splits = false;
   bool has_learned = false;
-  /// Its paths live longer than those of the usual strategy, and nothing else differs. A
-  /// path that survives with a higher probability is divided by a larger number, so no
+  /// Its paths live longer than those of the baseline strategy, and nothing else differs.
+  /// A path that survives with a higher probability is divided by a larger number, so no
   /// sample varies more.
-  bool lives_longer = false;
-  TrialMeasure measure;  // of its own pass
-  bool paired = false;   // its paths have told of `usual` as well
-  TrialMeasure usual;    // of the usual strategy: what `measure` is compared with
-  TrialLight light, usual_light;
+  bool milder_roulette = false;
+  TrialMeasure measure;   // of its own pass
+  bool paired = false;    // its paths have told of `baseline` as well
+  TrialMeasure baseline;  // of the baseline strategy: what `measure` is compared with
+  TrialLight light, baseline_light;
 
-  /// Returns whether it finds clearly less light than the usual strategy: the rest comes
-  /// in bright samples too rare to be seen, so its variance is underestimated.
+  /// Returns whether it finds clearly less light than the baseline strategy: the rest
+  /// comes in bright samples too rare to be seen, so its variance is underestimated.
   bool MissesLight() const;
   /// Returns whether few pixels carry its error: more samples would find others, brighter
   /// ones too, whose share is unknown. A pair does not help: a bright sample that copies
   /// repeat is in both measures.
   bool IsCarriedByFew() const;
-  /// Returns whether few pixels carry its error or the usual one's, although it varies no
-  /// more (`lives_longer`): then all other pixels decide.
-  bool IsToldByTheRest() const;
+  /// Returns whether few pixels carry its error or the baseline one's, although it varies
+  /// no more (`milder_roulette`): then all other pixels decide.
+  bool IgnoresWorstPixels() const;
 
-  /// Returns its efficiency relative to the usual strategy by all pixels, or by all but
-  /// the worst thousandth if it is told by the rest.
-  TrialGain Told() const;
+  /// Returns its efficiency relative to the baseline strategy by all pixels, or by all
+  /// but the worst thousandth if it is told by the rest.
+  TrialGain EfficiencyGain() const;
   /// Returns the least gain without any one pixel and, unless it is paired, without the
   /// worst thousandth.
   TrialGain Gain() const;
@@ -109,13 +109,13 @@ struct TriedStrategy {
 
 /// Prepares a change of the strategy of `options` for a trial. Strategies that are tried
 /// together have the same scene and view.
-TriedStrategy ToTry(const PreparedScene& scene, const PlanOptions& options,
-                    const std::string& changes, double price);
+TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& options,
+                           const std::string& changes, double price);
 
 /// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
 struct TriedBlocks {
   const char* changes = "";  // as in --strategy
-  bool pays_per_pixel = false, pays = false;
+  bool gains_per_pixel = false, pays = false;
   /// Relative efficiency by pixels, and by squares of 8 x 8 pixels: errors of the pixels
   /// of a block have much in common, so a filter removes less of them.
   TrialGain gain;
@@ -130,22 +130,22 @@ class StrategyTrial {
                 std::uint32_t seed, std::uint64_t planned);
 
   /// Renders about so many samples of each strategy from here on, `spp` in each pixel;
-  /// each `turn` has other pixels.
-  void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t turn = 0);
+  /// each `round` has other pixels.
+  void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t round = 0);
   /// Trains the strategy if needed, renders the pixels and fills its measures. The first
-  /// one tried is the usual strategy. Returns false if the user has stopped it.
-  bool Try(TriedStrategy& tried, const TriedStrategy& usual);
+  /// one tried is the baseline strategy. Returns false if the user has stopped it.
+  bool Try(TriedStrategy& tried, const TriedStrategy& baseline);
 
-  /// Tries path reuse beside the chosen strategy, whose efficiency relative to the usual
-  /// one is `gain`. Where the chosen one splits paths, reuse takes its place beside the
-  /// usual one if it gains more; where both split, nothing is tried.
+  /// Tries path reuse beside the chosen strategy, whose efficiency relative to the
+  /// baseline one is `gain`. Where the chosen one splits paths, reuse takes its place
+  /// beside the baseline one if it gains more; where both split, nothing is tried.
   ///
   /// Renders about this many samples of whole tiles with blocks of 64 paths. Also renders
   /// blocks of 32 if 64 gain by pixels but lose after a filter: smaller blocks gain less
   /// by pixels and more after a filter. The last result is the one to use if it gains
   /// significantly by pixels, also without any one tile, and loses nothing by squares.
   /// Empty if the scene or the strategy refuses reuse, or after an interrupt.
-  std::vector<TriedBlocks> TryBlocks(const TriedStrategy& usual,
+  std::vector<TriedBlocks> TryBlocks(const TriedStrategy& baseline,
                                      const TriedStrategy& chosen, double gain,
                                      std::uint64_t samples);
 
@@ -162,9 +162,9 @@ class StrategyTrial {
  private:
   TrainingSamples Render(const TriedStrategy& tried, const PlanOptions& options,
                          const TrainingWork& work);
-  void Measure(TriedStrategy& tried, const TriedStrategy& usual);
+  void Measure(TriedStrategy& tried, const TriedStrategy& baseline);
   TrialLight LightOf(const TrainingSamples& samples, const TrialMeasure& measure) const;
-  TriedBlocks CompareBlocks(const TriedStrategy& usual, const PlanOptions& blocks,
+  TriedBlocks CompareBlocks(const TriedStrategy& baseline, const PlanOptions& blocks,
                             const TrainingWork& work, double must_gain);
 
   const PreparedScene& scene_;

@@ -39,7 +39,7 @@ namespace {
 constexpr std::uint64_t kCompared = 120;  // of so many planned samples one is compared
 constexpr std::uint64_t kTiled = 200;     // and so many with paths that serve blocks
 constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a quarter
-constexpr std::uint64_t kLeastToCompare = 256;
+constexpr std::uint64_t kMinComparedSamples = 256;
 // A change must gain its least gain and half a standard error. A change made by mistake
 // costs little; a missed one may cost a factor of three. On veach-ajar, trials of 4
 // million planned samples find adjoint in 16 seeds of 16 with half a standard error, and
@@ -53,24 +53,25 @@ class Decider {
       : scene_(context.scene),
         options_(context.plan.options),
         training_(context.options),
-        planned_(std::min(context.options.planned_samples, kMostDecidedBy)),
+        planned_(std::min(context.options.planned_samples, kMaxTrialSamples)),
         tables_(context.tables),
         trial_(scene_, training_, context.seed, planned_ / kLearned) {}
 
   TrainingOutcome Run() {
     Add("", 1);
-    for (const DecisionCandidate& c : std::span(kDecisionCandidates, kDecidedUnasked)) {
+    for (const DecisionCandidate& c :
+         std::span(kDecisionCandidates, kNumDefaultCandidates)) {
       Add(c.changes, c.price);
     }
     TriedStrategy* chosen = &entries_.front();
     if (entries_.size() == 1) {
       note_ = "no candidate changes this render";
-    } else if (planned_ / kCompared < kLeastToCompare) {
+    } else if (planned_ / kCompared < kMinComparedSamples) {
       note_ = "the image has too few samples to compare";
     } else {
       chosen = Compare();
     }
-    if (!trial_.Stopped() && planned_ / kCompared >= kLeastToCompare)
+    if (!trial_.Stopped() && planned_ / kCompared >= kMinComparedSamples)
       TryBlocksBeside(*chosen);
     if (!trial_.Stopped()) TrainFor(*chosen);
     outcome_.samples = trial_.spent().samples;
@@ -81,7 +82,7 @@ class Decider {
  private:
   // Unless the scene refuses it, or another does the same there.
   void Add(const std::string& changes, double price) {
-    TriedStrategy entry = ToTry(scene_, options_, changes, price);
+    TriedStrategy entry = PrepareTrial(scene_, options_, changes, price);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
       if (std::ranges::find(keys_, key) != keys_.end()) return;
@@ -118,12 +119,12 @@ class Decider {
 
   TriedStrategy* Choose() {
     TriedStrategy* chosen = &entries_.front();
-    double most = 0;
+    double maximum = 0;
     for (TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
-      const double beyond = entry.Beyond(kMustGain, kStandardErrors);
-      if (beyond <= most) continue;
-      most = beyond;
+      const double beyond = entry.Beyond(kMinChangeGain, kStandardErrors);
+      if (beyond <= maximum) continue;
+      maximum = beyond;
       chosen = &entry;
     }
     Explain();
@@ -135,7 +136,7 @@ class Decider {
     for (const TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
       others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
-                            std::exp(entry.Told().log));
+                            std::exp(entry.EfficiencyGain().log));
     }
     note_ = fmt::format("efficiency over the given strategy ({} samples): {}",
                         trial_.samples(), others);
@@ -167,7 +168,7 @@ class Decider {
 }  // namespace
 
 std::uint64_t DecidedBy(std::uint64_t pixels) {
-  return std::clamp(pixels * kTrainingSpp, kLeastDecidedBy, kMostDecidedBy);
+  return std::clamp(pixels * kTrainingSpp, kMinTrialSamples, kMaxTrialSamples);
 }
 
 TrainingOutcome TrainDecision(const TrainingContext& context) {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t kMaxTrainingSamples = 240'000;
 // Fewer samples than this in a pass say too little of variances to choose by them.
-constexpr std::uint64_t kLeastPassSamples = 256;
+constexpr std::uint64_t kMinPassSamples = 256;
 // A splitting rule is chosen if the passes find it this much better: copies cost more
 // than their rays, and the passes are short.
 constexpr double kMargin = 0.87;
@@ -65,7 +65,7 @@ class Pilot {
   }
 
   TrainingOutcome Run() {
-    if (efficiency_ && samples_ < kLeastPassSamples && !options_.keep_roulette) {
+    if (efficiency_ && samples_ < kMinPassSamples && !options_.keep_roulette) {
       outcome_.changes = Change(Roulette::kThroughput);
       outcome_.note = "none, the image has too few samples: roulette=throughput";
       return outcome_;
@@ -127,12 +127,13 @@ class Pilot {
                           std::max(events, 1.0));
     for (std::size_t i = 0; i < samples.records.size(); ++i) {
       const PathRecord& r = samples.records[i];
-      const double most =
+      const double maximum =
           ImageGuess::kClamp * image_->Brightness(work_.pixels[i / work_.spp]);
       for (int k = 0; k < kRecordedVertices; ++k) {
         const PathRecord::Vertex& v = r.vertices[k];
         if (v.cell == kNoCell || !(v.at > 0)) continue;
-        const double gathered = std::clamp<double>((r.end - v.got) * exposure, 0, most);
+        const double gathered =
+            std::clamp<double>((r.end - v.got) * exposure, 0, maximum);
         const double cost = std::max(1.0, double(r.depth) - k) * cost_of_event;
         records.Add(v.cell, gathered / v.at, cost);
       }

@@ -10,7 +10,7 @@ namespace lanelight {
 namespace {
 
 struct Training {
-  Feature asks;
+  Feature trigger;
   TrainingOutcome (*train)(const TrainingContext&);
 };
 
@@ -35,7 +35,7 @@ void TrainingOutcome::Add(const TrainingOutcome& next) {
 bool NeedsTraining(const Plan& plan) {
   if (plan.features.Has(Feature::kDecides)) return true;
   for (const Training& t : kTrainings) {
-    if (plan.features.Has(t.asks)) return true;
+    if (plan.features.Has(t.trigger)) return true;
   }
   return false;
 }
@@ -44,7 +44,7 @@ TrainingOutcome Train(const TrainingContext& context) {
   if (context.plan.features.Has(Feature::kDecides)) return TrainDecision(context);
   TrainingOutcome all;
   for (const Training& t : kTrainings) {
-    if (!context.plan.features.Has(t.asks)) continue;
+    if (!context.plan.features.Has(t.trigger)) continue;
     all.Add(t.train(context));
   }
   return all;
@@ -57,13 +57,13 @@ constexpr char kSurvive[] = "path_values_survive";
 constexpr char kSplit[] = "path_values_split";
 constexpr char kInverse[] = "path_values_inverse";
 // Left out of the state where nothing is known.
-constexpr char kShadowWorth[] = "shadow_worth_inverse";
+constexpr char kShadowThresholdColumn[] = "shadow_worth_inverse";
 
 constexpr std::uint64_t kHeadSize = 13;
 
 }  // namespace
 
-std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
+std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
   const PathValues& p = tables.path_values;
   const CellGrid& g = p.grid;
   std::vector<double> head;
@@ -80,10 +80,10 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
       {kInverse,
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
-  const AlignedVector<float>& shadow = tables.shadow_worth.inverse;
+  const AlignedVector<float>& shadow = tables.shadow_threshold.inverse;
   if (!shadow.empty()) {
     trained.push_back(
-        {kShadowWorth,
+        {kShadowThresholdColumn,
          "inverse worth of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
   }
@@ -162,13 +162,13 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
 
 }  // namespace
 
-void PutTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                 StrategyTables& tables) {
+void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
+                    StrategyTables& tables) {
   PutPathValues(trained, pixels, tables.path_values);
-  if (!HasTable(trained, kShadowWorth)) return;
-  const std::vector<double>& shadow = TableOf(trained, kShadowWorth);
-  CheckPixels(kShadowWorth, shadow.size(), pixels);
-  Put(shadow, tables.shadow_worth.inverse);
+  if (!HasTable(trained, kShadowThresholdColumn)) return;
+  const std::vector<double>& shadow = TableOf(trained, kShadowThresholdColumn);
+  CheckPixels(kShadowThresholdColumn, shadow.size(), pixels);
+  Put(shadow, tables.shadow_threshold.inverse);
 }
 
 void CheckTrained(const Plan& plan, const StrategyTables& tables) {

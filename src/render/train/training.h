@@ -28,8 +28,8 @@ struct TrainingOptions {
 
 /// Least and most planned samples of the trial run of decide=pilot: fewer do not show the
 /// rare bright samples that matter.
-inline constexpr std::uint64_t kMostDecidedBy = std::uint64_t{1} << 25;
-inline constexpr std::uint64_t kLeastDecidedBy = std::uint64_t{1} << 23;
+inline constexpr std::uint64_t kMaxTrialSamples = std::uint64_t{1} << 25;
+inline constexpr std::uint64_t kMinTrialSamples = std::uint64_t{1} << 23;
 /// Returns the planned samples of the trial run for an image of so many pixels, without a
 /// time budget.
 std::uint64_t DecidedBy(std::uint64_t pixels);
@@ -48,7 +48,7 @@ struct TrainingContext {
 // trains what it compares, and what it has chosen.
 #define LANELIGHT_TRAININGS(X) \
   X(PathValues, kPathValues)   \
-  X(ShadowWorth, kContributionShadowRoulette)
+  X(ShadowThreshold, kContributionShadowRoulette)
 
 #define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
 LANELIGHT_TRAININGS(X)
@@ -66,13 +66,13 @@ const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
                                    const std::string& name);
 
 /// Returns what Train has stored in the tables.
-std::vector<TrainedTable> TakeTraining(const StrategyTables& tables);
+std::vector<TrainedTable> ExportTraining(const StrategyTables& tables);
 
 /// Restores them bit by bit into tables of MakeStrategyTables, for an image of so many
 /// pixels (the full one). Kernels do not check what they look up: throws InputError for
 /// tables that are missing, have a wrong size, or do not match each other.
-void PutTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                 StrategyTables& tables);
+void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
+                    StrategyTables& tables);
 
 /// Throws InputError if kernels of the plan read tables that are still empty.
 void CheckTrained(const Plan& plan, const StrategyTables& tables);

@@ -41,7 +41,7 @@ class Pass {
         work_(work),
         ranks_(pass.ranks),
         watcher_(ranks_ != nullptr ? &ranks_->watcher() : pass.watcher),
-        copies_(plan_.features.Has(Feature::kSplitting) ? kMostCopies : 1) {
+        max_split_(plan_.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1) {
     wavefronts_.resize(std::size_t(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
@@ -101,7 +101,7 @@ class Pass {
     work.pixels = work_.pixels.data() + first;
     work.num_pixels = std::uint32_t(pixels);
     work.samples = work_.spp;
-    const std::uint32_t count = work.num_pixels * work_.spp, rows = count * copies_;
+    const std::uint32_t count = work.num_pixels * work_.spp, rows = count * max_split_;
     const auto planes = std::size_t(run_.planes.count());
     std::vector<float> values(rows * planes);
     std::optional<BlockReuse> reuse;
@@ -112,7 +112,7 @@ class Pass {
     wavefront->wave().Begin(work, {values.data(), rows});
     if (!RunPhase(wavefront->wave(), plan_.paths(), nullptr, watcher_)) return;
     if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
-    if (copies_ > 1) FoldCopies(values.data(), rows, run_.planes);
+    if (max_split_ > 1) SumSplitPaths(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t sample = first * work_.spp + i;
       samples_.colors[sample] = {values[i], values[count + i], values[2 * count + i]};
@@ -131,7 +131,7 @@ class Pass {
   const TrainingWork& work_;
   RankPasses* const ranks_;
   const TaskWatcher* const watcher_;
-  const std::uint32_t copies_;
+  const std::uint32_t max_split_;
   std::vector<std::unique_ptr<Wavefront>> wavefronts_;
   TrainingSamples samples_;
 };
@@ -139,7 +139,7 @@ class Pass {
 }  // namespace
 
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
-                              std::uint32_t spp, std::uint64_t turn) {
+                              std::uint32_t spp, std::uint64_t round) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.view->film), scene.view->film.width, &all);
@@ -152,7 +152,7 @@ TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
   const std::uint64_t run = RunLength(count, spp), runs = count / run;
   TrainingWork work;
   work.spp = spp;
-  std::uint64_t jitter = turn * 0x9e3779b97f4a7c15u;
+  std::uint64_t jitter = round * 0x9e3779b97f4a7c15u;
   for (std::uint64_t i = 0; i < runs; ++i) {
     // One of each of equal stretches, at a place of its own in each.
     const std::uint64_t begin = i * (all.size() / run) / runs;
@@ -189,7 +189,7 @@ TrainingWork FewOf(const TrainingWork& work) {
   const std::size_t run = RunLength(work.pixels.size(), work.spp);
   const std::size_t step = std::clamp<std::size_t>(work.pixels.size() / run / 16, 1, 16);
   TrainingWork few;
-  few.spp = std::max(work.spp * std::uint32_t(step) / 16, TrainingWork::kLeastSpp);
+  few.spp = std::max(work.spp * std::uint32_t(step) / 16, TrainingWork::kMinSpp);
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     if (i / run % step == 0) few.pixels.push_back(work.pixels[i]);
   }

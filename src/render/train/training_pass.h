@@ -35,11 +35,11 @@ struct TrainingPass {
 /// Pixels of a pass, and samples of each: at least four, so that it shows the
 /// variance within a pixel.
 struct TrainingWork {
-  static constexpr std::uint32_t kLeastSpp = 4;
+  static constexpr std::uint32_t kMinSpp = 4;
   std::vector<std::uint32_t> pixels;  // y * width + x
   /// The tiles that these are the pixels of, one after the other; may be empty.
   std::vector<PixelRect> tiles;
-  std::uint32_t spp = kLeastSpp;
+  std::uint32_t spp = kMinSpp;
 
   std::size_t samples() const { return pixels.size() * spp; }
 };
@@ -62,10 +62,10 @@ struct TrainingSamples {
 };
 
 /// Chooses about `samples` samples (at least four), spread evenly over the rendered
-/// window, `spp` or more per pixel. Each `turn` has other pixels, unless all are taken.
+/// window, `spp` or more per pixel. Each `round` has other pixels, unless all are taken.
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
-                              std::uint32_t spp = TrainingWork::kLeastSpp,
-                              std::uint64_t turn = 0);
+                              std::uint32_t spp = TrainingWork::kMinSpp,
+                              std::uint64_t round = 0);
 
 /// Chooses whole tiles, as reuse=block needs them.
 TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,

@@ -11,20 +11,22 @@ namespace {
 
 // Scores of a pixel under both strategies.
 struct PixelScores {
-  double other, usual;
+  double other, baseline;
   // Orders by the worse of both scores.
   bool operator<(const PixelScores& o) const {
-    const double own = std::max(other, usual), its = std::max(o.other, o.usual);
-    return own != its ? own < its : std::min(other, usual) < std::min(o.other, o.usual);
+    const double own = std::max(other, baseline), its = std::max(o.other, o.baseline);
+    return own != its ? own < its
+                      : std::min(other, baseline) < std::min(o.other, o.baseline);
   }
 };
 
 // Returns the scores of the pixels that count.
-std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& usual) {
-  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
+std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& baseline) {
+  LL_CHECK_EQ(other.variances.size(), baseline.variances.size());
   std::vector<PixelScores> pixels;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
-    pixels.push_back({other.cost * other.variances[i], usual.cost * usual.variances[i]});
+    pixels.push_back(
+        {other.cost * other.variances[i], baseline.cost * baseline.variances[i]});
   }
   std::sort(pixels.begin(), pixels.end());
   pixels.resize(KeptOf(pixels.size()));
@@ -47,38 +49,40 @@ double TrialMeasure::Variance() const {
 
 double TrialMeasure::Score() const { return cost * RobustMean(variances); }
 
-TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& usual) {
-  LL_CHECK_EQ(other.variances.size(), usual.variances.size());
-  const double others = other.Variance(), usuals = usual.Variance();
-  const auto log_ratio = [&](double without_usual, double without_other) {
-    constexpr double kMost = 100;
-    const double u = usuals - without_usual, o = others - without_other;
+TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline) {
+  LL_CHECK_EQ(other.variances.size(), baseline.variances.size());
+  const double other_variance = other.Variance(), baseline_variance = baseline.Variance();
+  const auto log_ratio = [&](double without_baseline, double without_other) {
+    constexpr double kMaxLogGain = 100;
+    const double u = baseline_variance - without_baseline,
+                 o = other_variance - without_other;
     if (o <= 0 && u <= 0) return 0.0;
-    if (u <= 0) return -kMost;
-    return o <= 0 ? kMost : std::log(usual.cost * u / (other.cost * o));
+    if (u <= 0) return -kMaxLogGain;
+    return o <= 0 ? kMaxLogGain : std::log(baseline.cost * u / (other.cost * o));
   };
   TrialGain gain;
-  gain.log = gain.least = gain.most = log_ratio(0, 0);
-  if (others <= 0 || usuals <= 0) return gain;
+  gain.log = gain.minimum = gain.maximum = log_ratio(0, 0);
+  if (other_variance <= 0 || baseline_variance <= 0) return gain;
   double squares = 0;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
-    const double d = other.variances[i] / others - usual.variances[i] / usuals;
+    const double d =
+        other.variances[i] / other_variance - baseline.variances[i] / baseline_variance;
     squares += d * d;
-    const double without = log_ratio(usual.variances[i], other.variances[i]);
-    gain.least = std::min(gain.least, without);
-    gain.most = std::max(gain.most, without);
+    const double without = log_ratio(baseline.variances[i], other.variances[i]);
+    gain.minimum = std::min(gain.minimum, without);
+    gain.maximum = std::max(gain.maximum, without);
   }
   gain.standard_error = std::sqrt(squares);
   return gain;
 }
 
-TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& usual) {
-  TrialMeasure kept = {other.cost, {}}, kept_usual = {usual.cost, {}};
-  for (const PixelScores& pixel : Pixels(other, usual)) {
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline) {
+  TrialMeasure kept = {other.cost, {}}, kept_baseline = {baseline.cost, {}};
+  for (const PixelScores& pixel : Pixels(other, baseline)) {
     kept.variances.push_back(pixel.other / other.cost);
-    kept_usual.variances.push_back(pixel.usual / usual.cost);
+    kept_baseline.variances.push_back(pixel.baseline / baseline.cost);
   }
-  return GainOf(kept, kept_usual);
+  return GainOf(kept, kept_baseline);
 }
 
 double EffectivePixels(const std::vector<double>& variances) {
@@ -87,17 +91,17 @@ double EffectivePixels(const std::vector<double>& variances) {
   return squares > 0 ? sum * sum / squares : 0;
 }
 
-bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& usual, double margin,
-                     double standard_errors) {
-  const std::vector<PixelScores> pixels = Pixels(other, usual);
+bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& baseline,
+                     double margin, double standard_errors) {
+  const std::vector<PixelScores> pixels = Pixels(other, baseline);
   double sum = 0, squares = 0;
   for (const PixelScores& pixel : pixels) {
-    const double loss = pixel.other - margin * pixel.usual;
+    const double loss = pixel.other - margin * pixel.baseline;
     sum += loss, squares += loss * loss;
   }
   const double n = double(pixels.size());
   const double error = std::sqrt(std::max(0.0, squares - sum * sum / n));
-  return sum + standard_errors * error < 0 && other.Score() < margin * usual.Score();
+  return sum + standard_errors * error < 0 && other.Score() < margin * baseline.Score();
 }
 
 }  // namespace lanelight

@@ -20,10 +20,10 @@ struct TrialMeasure {
 };
 
 /// Returns whether `other` is better on the same pixels: its variance times cost is below
-/// `margin` times that of `usual`, by so many standard errors of the difference pixel by
-/// pixel. Omits the worst thousandth of the pixels, by either.
-bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& usual, double margin,
-                     double standard_errors = 2);
+/// `margin` times that of `baseline`, by so many standard errors of the difference pixel
+/// by pixel. Omits the worst thousandth of the pixels, by either.
+bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& baseline,
+                     double margin, double standard_errors = 2);
 
 /// Relative efficiency of a strategy, by all pixels.
 struct TrialGain {
@@ -31,14 +31,14 @@ struct TrialGain {
   double standard_error = 0;  // of it, by the scatter of both over the pixels
   /// Least and largest gain when any one pixel is omitted: one bright sample may be in
   /// both measures (copies of paths) and carry them without any scatter.
-  double least = 0, most = 0;
+  double minimum = 0, maximum = 0;
 };
 /// Returns the gain on the same pixels: none without error in either, the least number if
-/// none of the usual error was seen (variances may be negative), the largest if none of
-/// the other's was.
-TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& usual);
+/// none of the baseline error was seen (variances may be negative), the largest if none
+/// of the other's was.
+TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline);
 /// Returns the gain without the worst thousandth of the pixels, by either.
-TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& usual);
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline);
 
 /// Returns the effective number of pixels: 1 if a single one carries all variance, 0
 /// without variance. Its inverse is the squared relative error of the variances' sum.

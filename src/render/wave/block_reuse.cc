@@ -11,8 +11,8 @@ namespace lanelight {
 namespace {
 
 // The vectors of every kind of receiving material may be padded.
-constexpr std::uint32_t kMostReceivers =
-    kMostReusedPaths + kMostLanes * std::uint32_t(kNumShadeKinds);
+constexpr std::uint32_t kMaxReceivers =
+    kMaxReusedPaths + kMaxLanes * std::uint32_t(kNumShadeKinds);
 
 std::uint32_t KindsOf(const FeatureSet& features) {
   std::uint32_t kinds = 0;
@@ -26,7 +26,7 @@ std::uint32_t KindsOf(const FeatureSet& features) {
 class Placer {
  public:
   Placer(std::uint32_t* at, std::size_t entries)
-      : at_(at), stride_((entries + 2 * kMostLanes - 1) / kMostLanes * kMostLanes) {}
+      : at_(at), stride_((entries + 2 * kMaxLanes - 1) / kMaxLanes * kMaxLanes) {}
 
   template <typename T>
   void Place(T*& column) {
@@ -81,11 +81,11 @@ std::size_t BlockReuse::bytes() const {
 
 void BlockReuse::PlacePairs() {
   const std::uint32_t receivers =
-      std::min(kMostReceivers, paths_ + kMostLanes * KindsOf(plan_.features));
+      std::min(kMaxReceivers, paths_ + kMaxLanes * KindsOf(plan_.features));
   const std::uint32_t rows =
       plan_.features.Has(Feature::kReuseGlossy) ? 2 * paths_ : paths_;
-  const std::size_t most = std::size_t{receivers} * paths_;
-  const std::size_t stride = Placer(nullptr, most).stride();
+  const std::size_t maximum = std::size_t{receivers} * paths_;
+  const std::size_t stride = Placer(nullptr, maximum).stride();
   const std::size_t of_pairs = Placer(nullptr, std::size_t{receivers} * rows).stride();
   const std::size_t small = Placer(nullptr, receivers).stride();
   pairs_.resize(of_pairs * kColumnsOf<PairColumns> + stride * kRayColumns + small * 4);
@@ -93,7 +93,7 @@ void BlockReuse::PlacePairs() {
 #define X(type, name, meaning) placer.Place(block_.pairs.name);
   LANELIGHT_PAIR_COLUMNS(X)
 #undef X
-  Placer rays(placer.end(), most);
+  Placer rays(placer.end(), maximum);
   PathColumns& ray = wave_.path;
   for (float** column :
        {&ray.p_x, &ray.p_y, &ray.p_z, &ray.ng_x, &ray.ng_y, &ray.ng_z, &ray.p_error,
@@ -108,7 +108,7 @@ void BlockReuse::PlacePairs() {
   Placer rest(rays.end(), receivers);
   rest.Place(block_.receivers);
   for (float*& sums : block_.sums) rest.Place(sums);
-  wave_.capacity = std::uint32_t(most);
+  wave_.capacity = std::uint32_t(maximum);
 }
 
 void BlockReuse::MakeRoom(std::uint32_t samples, const PathColumns& paths) {
@@ -166,20 +166,20 @@ void BlockReuse::Connect(const PixelRect& tile, Wave& paths, StageClock* clock) 
 // The brightness c for which the sum of min(1, sent / c) over the second vertices of the
 // tile is kKeptSuffixes of those that send light. A multiple of their mean is not it: a
 // rare bright one would have all others played for.
-float BlockReuse::SurelyKept(std::uint32_t sample) {
+float BlockReuse::CertainlyKept(std::uint32_t sample) {
   const std::uint32_t pixels = wave_.work.num_pixels;
   sent_.clear();
   for (std::uint32_t i = 0; i < pixels; ++i) {
-    const float most = MostSent(wave_, sample * pixels + i);
-    if (most > 0) sent_.push_back(most);
+    const float maximum = MaxSent(wave_, sample * pixels + i);
+    if (maximum > 0) sent_.push_back(maximum);
   }
   const double kept = kKeptSuffixes * double(sent_.size());
   double c = std::numeric_limits<double>::infinity();
   for (;;) {
     double dim = 0, bright = 0;
-    for (const float most : sent_) {
-      if (most < c) {
-        dim += most;
+    for (const float maximum : sent_) {
+      if (maximum < c) {
+        dim += maximum;
       } else {
         ++bright;
       }
@@ -194,20 +194,20 @@ float BlockReuse::SurelyKept(std::uint32_t sample) {
 void BlockReuse::ConnectSample(const BlockKey& key, std::uint32_t sample,
                                StageClock* clock) {
   LayOutBlocks(key, layout_, paths_, order_);
-  members_.resize(order_.places.size() + kMostLanes);
+  members_.resize(order_.places.size() + kMaxLanes);
   const std::uint32_t first = sample * wave_.work.num_pixels;
   for (std::size_t i = 0; i < order_.places.size(); ++i) {
     members_[i] = first + order_.places[i];
   }
   // Vectors read past the end.
-  std::fill_n(members_.end() - kMostLanes, kMostLanes, first);
+  std::fill_n(members_.end() - kMaxLanes, kMaxLanes, first);
   block_.sample = sample;
   block_.records = members_.data();
   block_.size = wave_.work.num_pixels;
   // Only glossy second vertices are prepared for the whole tile.
   const Phase* const tile = plan_.Find(PhaseId::kTile);
   if (tile != nullptr) RunPhase(wave_, *tile, clock);
-  block_.surely_kept = SurelyKept(sample);
+  block_.certainly_kept = CertainlyKept(sample);
   const Phase& blocks = *plan_.Find(PhaseId::kBlock);
   std::uint32_t begin = 0;
   std::size_t b = 0;

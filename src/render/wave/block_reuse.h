@@ -50,7 +50,7 @@ class BlockReuse {
  private:
   void MakeRoom(std::uint32_t samples, const PathColumns& paths);
   void PlacePairs();
-  float SurelyKept(std::uint32_t sample);
+  float CertainlyKept(std::uint32_t sample);
   void ConnectSample(const BlockKey& key, std::uint32_t sample, StageClock* clock);
 
   const Plan& plan_;

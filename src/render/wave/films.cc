@@ -29,10 +29,10 @@ void Films::Add(const TileSamples& tile) {
   if (response_) Respond(tile);
   const std::vector<std::uint32_t>& pixels = tile.pixels;
   const std::size_t stride = pixels.size() * tile.count;
-  constexpr int kMostPlanes = FilmAccumulator::kMostPlanes;
+  constexpr int kMaxPlanes = FilmAccumulator::kMaxPlanes;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const float* planes[kMostPlanes];
-    for (int p = 0; p < std::min(planes_.count(), kMostPlanes); ++p) {
+    const float* planes[kMaxPlanes];
+    for (int p = 0; p < std::min(planes_.count(), kMaxPlanes); ++p) {
       planes[p] = tile.values + std::size_t(p) * stride + i * tile.count;
     }
     film_.AddSamples(int(pixels[i]) % tile.width, int(pixels[i]) / tile.width, planes,

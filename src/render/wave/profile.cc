@@ -76,7 +76,7 @@ void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& re
   for (const StageProfile& s : result.stages) result.counters |= s.counted_items > 0;
   if (clock->counter_error() != 0) result.counter_error = clock->counter_error();
   const std::uint64_t dropped = clock->dropped();
-  result.trace.threads.push_back({clock->TakeEvents(), dropped});
+  result.trace.threads.push_back({clock->ReleaseEvents(), dropped});
 }
 
 }  // namespace lanelight

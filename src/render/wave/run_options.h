@@ -20,7 +20,7 @@ struct Progress {
 };
 
 /// Most samples per pixel.
-inline constexpr std::uint64_t kMostSamplesPerPixel = std::uint64_t{1} << 40;
+inline constexpr std::uint64_t kMaxSamplesPerPixel = std::uint64_t{1} << 40;
 /// Sample indices in kernels have 32 bits: so many later they begin again, under another
 /// seed. Whole turns of the longest randomisations (src/scene/prepare/parameters.h).
 inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
@@ -75,7 +75,7 @@ struct RunOptions {
   /// (src/render/train/training.h), or what the time budget allows.
   std::uint64_t planned_samples = 0;
   /// Keeps the state during the run; may be null.
-  RunKeeper* keeper = nullptr;
+  Checkpointer* checkpointer = nullptr;
   /// The ranks that render, without `windows`; null: this process alone.
   RankGroup* group = nullptr;
 };

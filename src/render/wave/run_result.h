@@ -32,10 +32,10 @@ struct StageProfile {
 
 /// The parts of a task besides its stages. Items are samples.
 enum class TaskPart : int {
-  kSetUp,   // lists the pixels of the tile, empties the wavefront
-  kCopies,  // adds up the copies of paths that split
-  kSeen,    // directly visible lights, with seen-lights=apart
-  kFilm,    // adds the samples to the film
+  kSetUp,          // lists the pixels of the tile, empties the wavefront
+  kCopies,         // adds up the copies of paths that split
+  kVisibleLights,  // directly visible lights, with seen-lights=apart
+  kFilm,           // adds the samples to the film
   kCount
 };
 inline constexpr int kNumTaskParts = int(TaskPart::kCount);

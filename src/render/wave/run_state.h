@@ -70,9 +70,9 @@ struct RunState : RunRecord {
 };
 
 /// Stores the state of a running run.
-class RunKeeper {
+class Checkpointer {
  public:
-  virtual ~RunKeeper() = default;
+  virtual ~Checkpointer() = default;
   /// Called before the run begins. Returns true if it has loaded a state to resume from;
   /// the films' columns then hold its samples.
   virtual bool Restore(RunState& state) = 0;

@@ -10,12 +10,12 @@ StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
       stages_(stages),
       totals_(stages + kNumTaskParts),
       events_(options.trace_events),
-      want_counters_(options.counters) {
+      use_counters_(options.counters) {
   next_event_ = events_.data();
   end_event_ = next_event_ + events_.size();
 }
 
-UntouchedVector<TraceEvent> StageClock::TakeEvents() {
+UntouchedVector<TraceEvent> StageClock::ReleaseEvents() {
   if (!events_.empty()) {
     events_.resize(std::size_t(next_event_ - events_.data()));
   }
@@ -24,11 +24,11 @@ UntouchedVector<TraceEvent> StageClock::TakeEvents() {
 }
 
 void StageClock::StartTask() {
-  if (want_counters_ && thread_ != std::this_thread::get_id()) {
+  if (use_counters_ && thread_ != std::this_thread::get_id()) {
     thread_ = std::this_thread::get_id();
     group_.emplace(HardwareEvents());
     if (group_->error() != 0) counter_error_ = group_->error();
-    want_counters_ = group_->available();
+    use_counters_ = group_->available();
   }
   counting_ = false;
   task_cpu_ = ThreadCpuSeconds();
@@ -47,7 +47,7 @@ void StageClock::EndTask() {
 }
 
 void StageClock::StartWave() {
-  if (!want_counters_) return;
+  if (!use_counters_) return;
   random_ = random_ * 6364136223846793005u + 1442695040888963407u;
   counting_ = first_ || (random_ >> 59) == 0;
   first_ = false;

@@ -72,7 +72,7 @@ class StageClock {
   double cpu_seconds() const { return cpu_seconds_; }
   std::uint64_t ticks() const { return ticks_; }
   /// Hands out the trace, once, after the last task.
-  UntouchedVector<TraceEvent> TakeEvents();
+  UntouchedVector<TraceEvent> ReleaseEvents();
   /// Events for which there was no room; 0 without a trace.
   std::uint64_t dropped() const { return events_.empty() ? 0 : without_event_; }
   /// errno if the processor's counters are missing; 0 if they are there or not wanted.
@@ -94,7 +94,7 @@ class StageClock {
   std::uint64_t task_start_ = 0, ticks_ = 0;
   double task_cpu_ = 0, cpu_seconds_ = 0;
   // Counters follow the thread; threads may take over each other's workspaces.
-  bool want_counters_, first_ = true;
+  bool use_counters_, first_ = true;
   std::thread::id thread_;
   std::optional<CounterGroup> group_;
   CounterValues at_{};

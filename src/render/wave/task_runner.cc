@@ -15,8 +15,8 @@
 
 namespace lanelight {
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
-  constexpr std::uint32_t kMost = 16;
-  const std::uint32_t together = std::min(kMost, plan.wavefront);
+  constexpr std::uint32_t kMaxTogether = 16;
+  const std::uint32_t together = std::min(kMaxTogether, plan.wavefront);
   return scene.strategy.pairs == Pairs::kAntithetic ? together & ~1u : together;
 }
 
@@ -30,12 +30,12 @@ TaskRunner::TaskRunner(const PreparedScene& scene, const Plan& plan,
 
 void TaskRunner::Begin(std::size_t tiles) {
   if (plan_.Find(PhaseId::kVisibleLights) == nullptr) return;
-  seen_lights_ = std::make_unique<SeenLightEdges>(scene_, tiles);
+  visible_lights_ = std::make_unique<VisibleLightEdges>(scene_, tiles);
 }
 
-void TaskRunner::FindSeenLights(std::size_t tile, const PixelRect& rect) {
+void TaskRunner::FindVisibleLights(std::size_t tile, const PixelRect& rect) {
   Workspace& space = ThreadWorkspace();
-  seen_lights_->Find(tile, rect, *space.seen_lights, space.Clock());
+  visible_lights_->Find(tile, rect, *space.visible_lights, space.Clock());
 }
 
 Workspace& TaskRunner::ThreadWorkspace() {
@@ -64,7 +64,8 @@ TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
 
 SampleBuffer TaskRunner::Buffer(const TileWork& work, TaskSamples& out) const {
   const bool splits = plan_.features.Has(Feature::kSplitting);
-  const std::uint32_t rows = work.num_pixels * work.samples * (splits ? kMostCopies : 1);
+  const std::uint32_t rows =
+      work.num_pixels * work.samples * (splits ? kMaxSplitPaths : 1);
   const std::size_t size = std::size_t{rows} * std::size_t(run_.planes.count());
   if (out.values.size() < size) out.values.resize(size);
   // A sample that has not split leaves the rows of its further copies alone.
@@ -93,25 +94,25 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
     if (plan_.features.Has(Feature::kSplitting)) {
-      FoldCopies(out.values.data(), buffer.stride, run_.planes);
+      SumSplitPaths(out.values.data(), buffer.stride, run_.planes);
       if (clock) clock->FinishPart(TaskPart::kCopies, stride);
     }
-    if (seen_lights_) SeeLights(range, rect, out, space);
+    if (visible_lights_) AddVisibleLights(range, rect, out, space);
   }
   if (clock) clock->EndTask();
   return ended;
 }
 
-void TaskRunner::SeeLights(const SampleRange& range, const PixelRect& rect,
-                           TaskSamples& out, Workspace& space) const {
-  const SeenLightTask seen = {
+void TaskRunner::AddVisibleLights(const SampleRange& range, const PixelRect& rect,
+                                  TaskSamples& out, Workspace& space) const {
+  const VisibleLightTask seen = {
       range.tile,  space.pixels,      range.first % kSamplesPerSeed,
       range.count, out.values.data(), space.pixels.size() * range.count};
   StageClock* const clock = space.Clock();
-  seen_lights_->Find(range.tile, rect, *space.seen_lights, clock);
+  visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
   const bool corrected =
-      seen_lights_->Correct(seen, *space.seen_lights, clock, out.counts);
-  if (clock && corrected) clock->FinishPart(TaskPart::kSeen, seen.stride);
+      visible_lights_->Correct(seen, *space.visible_lights, clock, out.counts);
+  if (clock && corrected) clock->FinishPart(TaskPart::kVisibleLights, seen.stride);
 }
 
 void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {

@@ -13,7 +13,7 @@
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/run_state.h"
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/render/wave/tiles.h"
@@ -33,14 +33,14 @@ struct Workspace {
       reuse.emplace(plan, PlannedStrategy(scene, plan.options));
     }
     if (plan.Find(PhaseId::kVisibleLights))
-      seen_lights.emplace(scene, plan, run, wavefront);
+      visible_lights.emplace(scene, plan, run, wavefront);
   }
   /// Null if nothing is timed.
   StageClock* Clock() { return clock ? &*clock : nullptr; }
 
   Wavefront wavefront;
   std::optional<BlockReuse> reuse;
-  std::optional<SeenLightRays> seen_lights;
+  std::optional<VisibleLightRays> visible_lights;
   std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
   TaskSamples samples;
@@ -62,11 +62,11 @@ class TaskRunner {
   void Begin(std::size_t tiles);
   /// Returns the edges of directly visible lights; null if these are not integrated
   /// apart.
-  const SeenLightEdges* seen_lights() const { return seen_lights_.get(); }
+  const VisibleLightEdges* visible_lights() const { return visible_lights_.get(); }
 
   // Safe from different threads:
   /// Finds the edges of directly visible lights in a tile, once.
-  void FindSeenLights(std::size_t tile, const PixelRect& rect);
+  void FindVisibleLights(std::size_t tile, const PixelRect& rect);
   /// Renders a range of samples of a tile, whose pixels are `rect` of the full image.
   /// Returns false, and no samples, if the watcher has cancelled it.
   bool Run(const SampleRange& range, const PixelRect& rect, const TaskWatcher& watcher,
@@ -83,14 +83,14 @@ class TaskRunner {
   Workspace& ThreadWorkspace();
   TileWork SetUp(const SampleRange& range, const PixelRect& rect, Workspace& space) const;
   SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
-  void SeeLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
-                 Workspace& space) const;
+  void AddVisibleLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
+                        Workspace& space) const;
 
   const PreparedScene& scene_;
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
-  std::unique_ptr<SeenLightEdges> seen_lights_;  // null: not apart
+  std::unique_ptr<VisibleLightEdges> visible_lights_;  // null: not apart
   std::vector<std::unique_ptr<Workspace>> workspaces_;
 };
 

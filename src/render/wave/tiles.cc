@@ -20,21 +20,21 @@ constexpr int kLargestTile = 64;
 constexpr std::size_t kTilesPerPart = 64;
 
 // The bits of v, with a zero before each.
-std::uint64_t Spread(int v) {
+std::uint64_t SpreadBits(int v) {
   std::uint64_t bits = 0;
   for (int i = 0; i < 32; ++i) bits |= std::uint64_t(v >> i & 1) << (2 * i);
   return bits;
 }
 
 std::uint64_t AlongZ(const PixelRect& tile) {
-  return Spread(tile.x0) | Spread(tile.y0) << 1;
+  return SpreadBits(tile.x0) | SpreadBits(tile.y0) << 1;
 }
 
-TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int most_side) {
+TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int max_side) {
   TilePartition partition;
   partition.samples = std::uint32_t(std::clamp<std::uint64_t>(spp, 1, 32));
   partition.side = 16;
-  while (partition.side < most_side &&
+  while (partition.side < max_side &&
          std::uint64_t(partition.side) * partition.side * 4 * partition.samples <=
              kSamplesOfTask) {
     partition.side *= 2;
@@ -50,9 +50,9 @@ TilePartition Partition(const PixelRect& pixels, std::uint64_t spp, int most_sid
 
 // Cut into smaller ones until there are enough, along the curve.
 std::vector<PixelRect> CutTiles(const std::vector<PixelRect>& tiles, std::size_t wanted,
-                                int least_side) {
+                                int min_side) {
   std::vector<PixelRect> all = tiles;
-  for (int side = kLargestTile; side > least_side && all.size() < wanted;) {
+  for (int side = kLargestTile; side > min_side && all.size() < wanted;) {
     side /= 2;
     all.clear();
     for (const PixelRect& tile : tiles) {
@@ -83,9 +83,9 @@ TilePartition PartitionOfTiles(const std::vector<PixelRect>& tiles,
                                std::uint64_t planned_spp) {
   TilePartition partition;
   partition.tiles = tiles;
-  std::uint64_t most = 1;
-  for (const PixelRect& tile : tiles) most = std::max(most, tile.pixels());
-  partition.samples = SamplesPerTask(most, planned_spp);
+  std::uint64_t maximum = 1;
+  for (const PixelRect& tile : tiles) maximum = std::max(maximum, tile.pixels());
+  partition.samples = SamplesPerTask(maximum, planned_spp);
   return partition;
 }
 
@@ -133,22 +133,22 @@ std::vector<PixelRect> TilesOf(const PixelRect& window, int side) {
   return tiles;
 }
 
-std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
-                                              const std::vector<int>& threads,
-                                              int least_side) {
+std::vector<std::vector<PixelRect>> DistributeTiles(const std::vector<PixelRect>& tiles,
+                                                    const std::vector<int>& threads,
+                                                    int min_side) {
   // Each rank has as many turns as threads.
-  std::vector<std::size_t> turns;
-  const int most = *std::ranges::max_element(threads);
-  for (int t = 0; t < most; ++t) {
+  std::vector<std::size_t> owners;
+  const int maximum = *std::ranges::max_element(threads);
+  for (int t = 0; t < maximum; ++t) {
     for (std::size_t r = 0; r < threads.size(); ++r) {
-      if (t < threads[r]) turns.push_back(r);
+      if (t < threads[r]) owners.push_back(r);
     }
   }
   std::vector<std::vector<PixelRect>> parts(threads.size());
   const std::size_t wanted = parts.size() > 1 ? kTilesPerPart * parts.size() : 0;
-  const std::vector<PixelRect> all = CutTiles(tiles, wanted, least_side);
+  const std::vector<PixelRect> all = CutTiles(tiles, wanted, min_side);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    parts[turns[i % turns.size()]].push_back(all[i]);
+    parts[owners[i % owners.size()]].push_back(all[i]);
   }
   return parts;
 }

@@ -45,10 +45,10 @@ inline std::uint64_t PixelsOf(const std::vector<PixelRect>& tiles) {
 
 /// Deals tiles to ranks in proportion to their threads, in turn along a Z-order curve,
 /// whose neighbours cost about the same. Where there are few tiles they are halved, down
-/// to `least_side`. Parts may be empty.
-std::vector<std::vector<PixelRect>> DealTiles(const std::vector<PixelRect>& tiles,
-                                              const std::vector<int>& threads,
-                                              int least_side);
+/// to `min_side`. Parts may be empty.
+std::vector<std::vector<PixelRect>> DistributeTiles(const std::vector<PixelRect>& tiles,
+                                                    const std::vector<int>& threads,
+                                                    int min_side);
 
 /// Lists the pixel indices (y * image_width + x) of a tile in 4x4 blocks, so that a
 /// vector of lanes starts with neighbouring rays.

@@ -53,9 +53,9 @@ RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   run.width = std::uint32_t(scene.view->film.width);
   run.height = std::uint32_t(scene.view->film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
-  run.points = MakePointsParameters(strategy.points);
+  run.points = MakeSamplerParameters(strategy.points);
   run.points.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
-  run.pairs = MakePairParameters(strategy);
+  run.pairs = MakeAntitheticParameters(strategy);
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);
   run.candidates = CandidatesOf(strategy, plan.features);
@@ -103,16 +103,16 @@ Wave Wavefront::Narrowed(const FeatureSet& features) const {
   return wave;
 }
 
-void FoldCopies(float* values, std::uint32_t rows, const SamplePlanes& planes) {
-  const std::size_t samples = rows / kMostCopies;
-  LL_CHECK_EQ(samples * kMostCopies, rows);
+void SumSplitPaths(float* values, std::uint32_t rows, const SamplePlanes& planes) {
+  const std::size_t samples = rows / kMaxSplitPaths;
+  LL_CHECK_EQ(samples * kMaxSplitPaths, rows);
   const auto fold = [&](int plane, bool sums) {
     const float* from = values + std::size_t(plane) * rows;
     float* to = values + std::size_t(plane) * samples;
     for (std::size_t i = 0; i < samples; ++i) {
-      float sum = from[i * kMostCopies];
-      for (std::uint32_t c = 1; c < kMostCopies && sums; ++c) {
-        sum += from[i * kMostCopies + c];
+      float sum = from[i * kMaxSplitPaths];
+      for (std::uint32_t c = 1; c < kMaxSplitPaths && sums; ++c) {
+        sum += from[i * kMaxSplitPaths + c];
       }
       to[i] = sum;
     }

@@ -36,9 +36,9 @@ class Wavefront {
 };
 
 /// Adds up the rows of split paths, in place and in a fixed order, so that the sum does
-/// not depend on which path ended first: rows sample * kMostCopies + copy of a plane of
-/// `rows` become rows `sample` of a plane of rows / kMostCopies. Planes that are not sums
-/// (SamplePlanes::Sums) keep the first row.
-void FoldCopies(float* values, std::uint32_t rows, const SamplePlanes& planes);
+/// not depend on which path ended first: rows sample * kMaxSplitPaths + copy of a plane
+/// of `rows` become rows `sample` of a plane of rows / kMaxSplitPaths. Planes that are
+/// not sums (SamplePlanes::Sums) keep the first row.
+void SumSplitPaths(float* values, std::uint32_t rows, const SamplePlanes& planes);
 
 }  // namespace lanelight

@@ -8,7 +8,7 @@ namespace {
 
 // Least relative gain that justifies leaving the order along rays, which keeps the rays
 // of a packet together longest.
-constexpr float kLeastGain = 0.005f;
+constexpr float kMinGain = 0.005f;
 
 // Returns the expected cost of visiting slots 0 ^ first, 1 ^ first, ...
 float CostFrom(std::uint32_t first, const ChildOdds (&odds)[kBvhWidth]) {
@@ -30,15 +30,15 @@ float BlockingOdds(float area, float half_area_of_box) {
 void SetBlockerOrder(const ChildOdds (&odds)[kBvhWidth], WideNode& node) {
   node.shadow_octants = kBvhWidth - 1;
   node.shadow_first = 0;
-  float along_rays = 0, least = INFINITY;
+  float along_rays = 0, minimum = INFINITY;
   std::uint32_t best = 0;
   for (std::uint32_t first = 0; first < kBvhWidth; ++first) {
     const float cost = CostFrom(first, odds);
     along_rays += cost / kBvhWidth;
-    if (cost < least) least = cost, best = first;
+    if (cost < minimum) minimum = cost, best = first;
   }
   // The negation also catches areas that overflow.
-  if (!(least < (1 - kLeastGain) * along_rays)) return;
+  if (!(minimum < (1 - kMinGain) * along_rays)) return;
   node.shadow_octants = 0;
   node.shadow_first = best;
 }

@@ -25,7 +25,7 @@ template <typename Blocks>
 Bvh BuildShapes(std::vector<BuildItem> items, const LeafLimit& limit,
                 BuildQuality quality, Blocks blocks, AlignedVector<WideNode>& nodes) {
   const auto first_node = nodes.size();
-  BuiltTree tree = BuildTree(std::move(items), limit, quality, nodes);
+  BuiltBvh tree = BuildTree(std::move(items), limit, quality, nodes);
   tree.bvh.slack = kShapeSlack;
   std::vector<std::uint32_t> refs;
   refs.reserve(tree.leaves.size());

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "src/base/core/hash.h"
-#include "src/scene/accel/tree_report.h"
+#include "src/scene/accel/bvh_report.h"
 #include "src/scene/geometry/accel.h"
 
 namespace lanelight {
@@ -28,24 +28,24 @@ inline constexpr int LeafTrianglesFor(int lanes) {
 /// threads. Shapes with a non-finite coordinate are left out (they cannot be hit).
 Accel BuildAccel(const Geometry& geometry, const AccelOptions& options = {});
 
-using TreeKey = Hash128;
+using BvhKey = Hash128;
 
 /// Returns XXH3 (128 bits) of everything that BuildAccel reads: positions of shapes,
 /// groups, instances and options.
-TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options);
+BvhKey KeyOf(const Geometry& geometry, const AccelOptions& options);
 
-struct KnownTree {
-  TreeKey key;
+struct CachedBvh {
+  BvhKey key;
   Accel accel;
 };
 
-struct FoundTree {
+struct ReusedBvh {
   Accel accel;
-  TreeReport report;
+  BvhReport report;
 };
 
 /// Returns the tree of `known` (or null) if its shapes are equal; else builds one.
-FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
-                   const KnownTree* known);
+ReusedBvh FindBvh(const Geometry& geometry, const AccelOptions& options,
+                  const CachedBvh* known);
 
 }  // namespace lanelight

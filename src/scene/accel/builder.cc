@@ -80,7 +80,7 @@ class TreeBuilder {
     if (count == 1) return range.begin;
     BuildItem* items = items_ + range.begin;
     const float area = box.HalfArea();
-    const bool may_cut = count >= cuts_.least && range.room() > count / 16;
+    const bool may_cut = count >= cuts_.minimum && range.room() > count / 16;
     ObjectSplit split;
     if (depth < kMaxSahDepth) {
       split = FindObjectSplit(
@@ -130,8 +130,8 @@ class TreeBuilder {
     range.end = range.limit = middle;
     if (second.room() == 0) return second;
     const double left = AreaOf(range), all = left + AreaOf(second);
-    const double share = all > 0 && std::isfinite(all) ? left / all : 0.5;
-    const auto room = static_cast<std::uint32_t>(share * second.room());
+    const double fraction = all > 0 && std::isfinite(all) ? left / all : 0.5;
+    const auto room = static_cast<std::uint32_t>(fraction * second.room());
     std::memmove(static_cast<void*>(items_ + middle + room), items_ + middle,
                  second.count() * sizeof(BuildItem));
     range.limit += room;
@@ -149,8 +149,8 @@ class TreeBuilder {
 };
 
 // Returns the ids of all items, leaf by leaf, and makes `leaves` refer to them.
-std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
-                                   std::vector<LeafRange>& leaves) {
+std::vector<std::uint32_t> CollectIds(const std::vector<BuildItem>& items,
+                                      std::vector<LeafRange>& leaves) {
   std::vector<std::uint32_t> ids;
   std::size_t count = 0;
   for (const LeafRange& leaf : leaves) count += leaf.end - leaf.begin;
@@ -166,9 +166,9 @@ std::vector<std::uint32_t> TakeIds(const std::vector<BuildItem>& items,
 
 }  // namespace
 
-BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
-                    BuildQuality quality, AlignedVector<WideNode>& nodes) {
-  BuiltTree result;
+BuiltBvh BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
+                   BuildQuality quality, AlignedVector<WideNode>& nodes) {
+  BuiltBvh result;
   if (items.empty()) return result;
   const auto count = static_cast<std::uint32_t>(items.size());
   CutPlan cuts;
@@ -182,7 +182,7 @@ BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
   BinaryTree& tree = builder.tree();
   if (!fast) ReinsertSubtrees(tree);
   result.bvh = Collapse(tree, items, limit.items == 0, nodes, result.leaves);
-  result.ids = TakeIds(items, result.leaves);
+  result.ids = CollectIds(items, result.leaves);
   return result;
 }
 

@@ -39,13 +39,13 @@ struct BuildItem {
   Vec3f Center2() const { return box.lo + box.hi; }
 };
 
-/// Shapes of one leaf: BuiltTree::ids[begin, end). `capacity`: how many a leaf of its
+/// Shapes of one leaf: BuiltBvh::ids[begin, end). `capacity`: how many a leaf of its
 /// kind holds.
 struct LeafRange {
   std::uint32_t begin = 0, end = 0, capacity = 0;
 };
 
-struct BuiltTree {
+struct BuiltBvh {
   Bvh bvh;                         // leaf references index `leaves`
   std::vector<LeafRange> leaves;   // in the order of the tree
   std::vector<std::uint32_t> ids;  // of the items of leaf after leaf
@@ -69,8 +69,8 @@ struct LeafLimit {
 
 /// Sorts `items` into a tree whose leaves keep to `limit` and appends its nodes to
 /// `nodes`. Runs in parallel; the result does not depend on the number of threads.
-BuiltTree BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
-                    BuildQuality quality, AlignedVector<WideNode>& nodes);
+BuiltBvh BuildTree(std::vector<BuildItem> items, const LeafLimit& limit,
+                   BuildQuality quality, AlignedVector<WideNode>& nodes);
 
 /// Appends its nodes to `nodes`. `group_boxes` bound the triangles of each group,
 /// `groups` are their trees. The depth of the result counts the nodes below instances

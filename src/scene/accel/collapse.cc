@@ -187,15 +187,15 @@ void PlanCollapse(BinaryTree& tree, std::uint32_t node) {
   const float* b = tree[n.child + 1].cost;
   n.area = tree[n.child].area + tree[n.child + 1].area;
   for (int roots = 2; roots <= kBvhWidth; ++roots) {
-    float least = INFINITY;
+    float minimum = INFINITY;
     for (int k = 1; k < roots; ++k) {
       const float cost = a[k - 1] + b[roots - k - 1];
       // The first always, since costs of huge scenes overflow.
-      if (k > 1 && !(cost < least)) continue;
-      least = cost;
+      if (k > 1 && !(cost < minimum)) continue;
+      minimum = cost;
       n.left[roots - 1] = static_cast<std::uint8_t>(k);
     }
-    n.cost[roots - 1] = least;
+    n.cost[roots - 1] = minimum;
   }
   // Fewer trees than allowed are as good; left = 0 says so, except under a wide node.
   n.cost[0] = kWideNodeCost * n.box.HalfArea() + n.cost[kBvhWidth - 1];

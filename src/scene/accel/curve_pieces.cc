@@ -12,7 +12,7 @@ namespace {
 // Halvings at most: where a curve bends, until the points of a piece lie within
 // 1 / kStraight of its length of even spacing on its chord; where it is long, until a
 // piece is kLong times as long as wide, but into four, as each takes some 75 bytes.
-constexpr int kMostBent = 6, kMostLong = 2;
+constexpr int kMaxBendHalvings = 6, kMaxLengthHalvings = 2;
 constexpr double kStraight = 8, kLong = 8;
 constexpr std::size_t kCurveGrain = 1024;
 
@@ -53,14 +53,14 @@ int HalvingsOf(const CurveRecord& curve) {
     bend = std::max(bend, Length(second));
   }
   const double width = std::max({curve.width[0], curve.width[1], 1e-30f});
-  const auto halvings = [](double pieces, int most) {
+  const auto halvings = [](double pieces, int maximum) {
     return pieces > 1
-               ? std::clamp(static_cast<int>(std::ceil(std::log2(pieces))), 0, most)
+               ? std::clamp(static_cast<int>(std::ceil(std::log2(pieces))), 0, maximum)
                : 0;
   };
   const double pieces = length / (kLong * width);
-  return std::max(halvings(kStraight * bend / std::max(length, 1e-30), kMostBent),
-                  halvings(std::min(pieces, 0x1p10), kMostLong));
+  return std::max(halvings(kStraight * bend / std::max(length, 1e-30), kMaxBendHalvings),
+                  halvings(std::min(pieces, 0x1p10), kMaxLengthHalvings));
 }
 
 struct PointAndSlope {

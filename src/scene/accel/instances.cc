@@ -72,8 +72,8 @@ Hull HullOf(const Geometry& geometry, std::uint32_t group, const Bvh& bvh,
             const AccelBox& box, const AlignedVector<WideNode>& nodes) {
   const std::size_t maps =
       geometry.instances.size() + kMotionParts * geometry.motions.size();
-  const std::size_t share = kHullMaps / maps;
-  const std::size_t limit = std::clamp(share, std::size_t{1}, kHullBoxes);
+  const std::size_t boxes_per_map = kHullMaps / maps;
+  const std::size_t limit = std::clamp(boxes_per_map, std::size_t{1}, kHullBoxes);
   const Geometry::TriangleGroup range = geometry.groups[group];
   if (3 * std::size_t{range.end - range.begin} <= limit) return Corners(geometry, range);
   return TreeBoxes(bvh, box, limit, nodes);
@@ -84,7 +84,7 @@ template <typename Number>
 AccelBox Transformed(const Number* m, const Hull& hull) {
   AccelBox result;
   for (int r = 0; r < 3; ++r) {
-    double least = INFINITY, largest = -INFINITY;
+    double minimum = INFINITY, largest = -INFINITY;
     for (const AccelBox& box : hull) {
       double lo = m[4 * r + 3], hi = lo;
       for (int c = 0; c < 3; ++c) {
@@ -93,10 +93,10 @@ AccelBox Transformed(const Number* m, const Hull& hull) {
         lo += std::min(a, b);
         hi += std::max(a, b);
       }
-      least = std::min(least, lo);
+      minimum = std::min(minimum, lo);
       largest = std::max(largest, hi);
     }
-    result.lo[r] = std::nextafter(static_cast<float>(least), -INFINITY);
+    result.lo[r] = std::nextafter(static_cast<float>(minimum), -INFINITY);
     result.hi[r] = std::nextafter(static_cast<float>(largest), INFINITY);
   }
   return result;

@@ -26,13 +26,13 @@ std::uint32_t HashOf(const float p[3]) {
 // The distinct vertices of a leaf, in order of appearance.
 class LeafVertices {
  public:
-  explicit LeafVertices(int most) : most_(most) {}
+  explicit LeafVertices(int max_vertices) : max_vertices_(max_vertices) {}
 
-  // Fills `corner` as in SharedLeaf; false if there are more than `most`.
+  // Fills `corner` as in SharedLeaf; false if there are more than `max_vertices`.
   bool Add(const TriangleRecord& triangle, std::uint8_t corner[3]) {
     for (int k = 0; k < 3; ++k) {
       const int i = Find(triangle.p[k]);
-      if (i == most_) return false;
+      if (i == max_vertices_) return false;
       corner[k] = static_cast<std::uint8_t>(i);
     }
     return true;
@@ -49,27 +49,27 @@ class LeafVertices {
       const int i = slot_[at] - 1;
       if (std::memcmp(p_[i], p, sizeof(p_[i])) == 0) return i;
     }
-    if (count_ == most_) return most_;
+    if (count_ == max_vertices_) return max_vertices_;
     std::memcpy(p_[count_], p, sizeof(p_[count_]));
     slot_[at] = static_cast<std::uint8_t>(count_ + 1);
     return count_++;
   }
 
-  const int most_;
+  const int max_vertices_;
   float p_[kLeafTriangles][3];
   std::uint8_t slot_[kSlots] = {};  // by hash: index of a vertex + 1, 0 = none
   int count_ = 0;
 };
 
-// Returns how many triangles a shared leaf of at most `most` typically holds, limited by
-// its lanes or vertices. Vertices are distinguished by a hash.
+// Returns how many triangles a shared leaf of at most `max_vertices` typically holds,
+// limited by its lanes or vertices. Vertices are distinguished by a hash.
 std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
                           const AlignedVector<TriangleRecord>& records,
-                          std::uint32_t most) {
-  constexpr std::uint32_t kSlots = 512, kMost = kSlots / 6;
+                          std::uint32_t max_vertices) {
+  constexpr std::uint32_t kSlots = 512, kMaxTriangles = kSlots / 6;
   std::uint32_t slots[kSlots] = {};
   std::uint32_t vertices = 0;
-  count = std::min(count, kMost);
+  count = std::min(count, kMaxTriangles);
   for (std::uint32_t i = 0; i < count; ++i) {
     for (const auto& p : records[items[i].id].p) {
       const std::uint32_t hash = HashOf(p) | 1;  // 0 is a free slot
@@ -79,12 +79,12 @@ std::uint32_t TypicalLeaf(const BuildItem* items, std::uint32_t count,
       slots[at] = hash;
     }
   }
-  return std::clamp<std::uint32_t>(most * count / vertices, 1, most);
+  return std::clamp<std::uint32_t>(max_vertices * count / vertices, 1, max_vertices);
 }
 
 bool FitsLeaf(const BuildItem* items, std::uint32_t count,
-              const AlignedVector<TriangleRecord>& records, int most) {
-  LeafVertices vertices(most);
+              const AlignedVector<TriangleRecord>& records, int max_vertices) {
+  LeafVertices vertices(max_vertices);
   std::uint8_t corner[3];
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!vertices.Add(records[items[i].id], corner)) return false;
@@ -130,20 +130,20 @@ void FillLeaf(SeparateLeaf& leaf, const std::uint32_t* ids, std::uint32_t count,
 LeafLimit TriangleLimit(const AlignedVector<TriangleRecord>& records,
                         int leaf_triangles) {
   constexpr std::uint32_t kSeparate = SeparateLeaf::kLanes;
-  const auto most = static_cast<std::uint32_t>(leaf_triangles);
+  const auto max_vertices = static_cast<std::uint32_t>(leaf_triangles);
   // A small leaf costs about as much as a level of the tree: 0.35 to 0.75 were slower.
   const float node_cost =
       leaf_triangles == SmallLeaf::kLanes ? 1.0f : LeafLimit().node_cost;
-  return {most, node_cost,
+  return {max_vertices, node_cost,
           [&records, leaf_triangles](const BuildItem* items, std::uint32_t count,
                                      std::uint32_t capacity) {
             return capacity == kSeparate
                        ? count <= kSeparate
                        : FitsLeaf(items, count, records, leaf_triangles);
           },
-          [&records, most](const BuildItem* items, std::uint32_t count) {
-            const std::uint32_t shared = TypicalLeaf(items, count, records, most);
-            if (shared <= most / 2) return kSeparate;
+          [&records, max_vertices](const BuildItem* items, std::uint32_t count) {
+            const std::uint32_t shared = TypicalLeaf(items, count, records, max_vertices);
+            if (shared <= max_vertices / 2) return kSeparate;
             // The vertices of a small leaf are full before its lanes are.
             return shared == kSeparate ? kSeparate - 1 : shared;
           },

@@ -17,7 +17,7 @@ namespace lanelight {
 /// Four numbers as one vector of the baseline target, the fourth unused.
 typedef float Float4 __attribute__((vector_size(16)));
 
-inline Float4 Least(Float4 a, Float4 b) { return a < b ? a : b; }
+inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
 inline Float4 Largest(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 Load4(const float* p) {
   Float4 v;
@@ -34,14 +34,14 @@ struct WideBox {
   Float4 hi{-INFINITY, -INFINITY, -INFINITY, -INFINITY};
 
   void Extend(Float4 l, Float4 h) {
-    lo = Least(lo, l);
+    lo = Min(lo, l);
     hi = Largest(hi, h);
   }
   void Extend(Float4 p) { Extend(p, p); }
   void Extend(const WideBox& b) { Extend(b.lo, b.hi); }
   void Clip(Float4 l, Float4 h) {
     lo = Largest(lo, l);
-    hi = Least(hi, h);
+    hi = Min(hi, h);
   }
   /// Half the surface area; 0 for an empty box.
   float HalfArea() const {

@@ -13,9 +13,9 @@ namespace {
 // boxes, and some more in small trees; and for each among this many times as many. More
 // rounds or larger parts gain less than 1 %.
 constexpr int kRounds = 3;
-constexpr std::size_t kOneIn = 64, kAndAlso = 512, kAmong = 4;
+constexpr std::size_t kSearchDivisor = 64, kSearchExtra = 512, kSearchCandidates = 4;
 // Largest number of nodes visited per subtree; without it, overlapping boxes need all.
-constexpr int kLooks = 4096;
+constexpr int kMaxVisitedNodes = 4096;
 // Moves keep to this depth, which a tree fresh from the builder may exceed by little.
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kSearchGrain = 64;
@@ -93,12 +93,12 @@ class Reinserter {
         return area != n.area ? area < n.area : rank > n.rank;
       }
     };
-    const std::size_t count = tree_.size() / kOneIn + kAndAlso;
+    const std::size_t count = tree_.size() / kSearchDivisor + kSearchExtra;
     std::vector<std::uint32_t> large;
     std::priority_queue<Node> open;
     std::size_t rank = 0;
     open.push({Area(0), rank++, 0});
-    for (std::size_t i = 0; i < kAmong * count && !open.empty(); ++i) {
+    for (std::size_t i = 0; i < kSearchCandidates * count && !open.empty(); ++i) {
       const std::uint32_t at = open.top().at;
       open.pop();
       if (at != 0 && large.size() < count) large.push_back(at);
@@ -115,15 +115,15 @@ class Reinserter {
   // and looks into the other side of every ancestor.
   Move Search(std::size_t rank, std::vector<Open>& stack) const {
     const std::uint32_t from = large_[rank];
-    Move best{kLeastGain * Area(0), rank, from, 0};
+    Move best{kMinGain * Area(0), rank, from, 0};
     const std::uint32_t beside = Sibling(from);
     std::uint32_t above = Parent(from), other = beside;
     float saved = Area(above);  // that node is not needed then
     AccelBox rest;              // what `above` holds without the subtree
-    int looks = kLooks;
+    int looks = kMaxVisitedNodes;
     for (;;) {
       stack.assign(1, {other, saved});
-      LookInto(from, beside, stack, looks, best);
+      VisitChildren(from, beside, stack, looks, best);
       rest.Extend(tree_[other].box);
       if (above == 0) return best;
       if (above != Parent(from)) saved += Area(above) - rest.HalfArea();
@@ -132,8 +132,8 @@ class Reinserter {
     }
   }
 
-  void LookInto(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
-                int& looks, Move& best) const {
+  void VisitChildren(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
+                     int& looks, Move& best) const {
     const AccelBox& box = tree_[from].box;
     const float area = box.HalfArea();
     while (!stack.empty() && --looks >= 0) {
@@ -204,7 +204,7 @@ class Reinserter {
   }
 
   // Smaller gains are rounding errors.
-  static constexpr float kLeastGain = 1e-6f;
+  static constexpr float kMinGain = 1e-6f;
 
   BinaryTree& tree_;
   std::vector<std::uint32_t>& changed_;

@@ -65,7 +65,7 @@ class Slabs {
 };
 
 void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs,
-                std::uint32_t leaf_size, std::uint32_t most, SpatialSplit& best) {
+                std::uint32_t leaf_size, std::uint32_t maximum, SpatialSplit& best) {
   std::array<WideBox, kSlabs> right;
   std::array<std::uint32_t, kSlabs> right_count;
   WideBox box;
@@ -81,7 +81,7 @@ void SweepSlabs(const std::array<Slab, kSlabs>& bins, const Slabs& slabs,
   for (int b = 1; b < kSlabs; ++b) {
     box.Extend(bins[b - 1].box);
     count += bins[b - 1].enter;
-    if (count == 0 || right_count[b] == 0 || count + right_count[b] > most) continue;
+    if (count == 0 || right_count[b] == 0 || count + right_count[b] > maximum) continue;
     const float cost = box.HalfArea() * Blocks(count, leaf_size) +
                        right[b].HalfArea() * Blocks(right_count[b], leaf_size);
     if (cost < best.cost) {
@@ -151,7 +151,7 @@ SpatialSplit FindSpatialSplit(const BuildItem* items, ItemRange range,
                               const AccelBox& box, const TriangleRecord* triangles,
                               std::uint32_t leaf_size) {
   SpatialSplit best;
-  const std::uint32_t most = range.count() + range.room();
+  const std::uint32_t maximum = range.count() + range.room();
   for (int axis = 0; axis < 3; ++axis) {
     const Slabs slabs(box, axis);
     if (!slabs.ok()) continue;
@@ -159,7 +159,7 @@ SpatialSplit FindSpatialSplit(const BuildItem* items, ItemRange range,
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
       slabs.Add(items[i], triangles, bins);
     }
-    SweepSlabs(bins, slabs, leaf_size, most, best);
+    SweepSlabs(bins, slabs, leaf_size, maximum, best);
   }
   return best;
 }

@@ -95,10 +95,10 @@ CutPlan PlanCuts(const std::vector<BuildItem>& items, const TriangleRecord* tria
   const auto count = static_cast<std::uint32_t>(items.size());
   // Lower levels gain from less overlap too, so a plane may cost more at first.
   if (Waste(items, triangles) > kWaste) {
-    return {.room = count / 4 * 3, .least = CutPlan::kLargeRange, .gain = 1.1f};
+    return {.room = count / 4 * 3, .minimum = CutPlan::kLargeRange, .gain = 1.1f};
   }
   // Elsewhere most such cuts lose: they come early, and halve what is better left whole.
-  return {.room = count / 4, .least = 32, .gain = 0.9f, .small_gain = 0.8f};
+  return {.room = count / 4, .minimum = 32, .gain = 0.9f, .small_gain = 0.8f};
 }
 
 }  // namespace lanelight

@@ -60,7 +60,7 @@ CutBoxes CutTriangle(const TriangleRecord& triangle, const AccelBox& box, int ax
 struct CutPlan {
   std::uint32_t room = 0;  // items that may be added
   /// Smallest number of items of a range that may be cut.
-  std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t minimum = std::numeric_limits<std::uint32_t>::max();
   /// A plane is used if it costs less than this times the best split without cuts, in
   /// ranges of at least kLargeRange items and in smaller ones.
   float gain = 0, small_gain = 0;

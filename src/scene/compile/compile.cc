@@ -129,21 +129,21 @@ void NoteUnlitInsides(const SceneDescription& description,
   }
 }
 
-void FindTrees(const CompileOptions& options, CompiledScene& scene) {
+void FindBvhs(const CompileOptions& options, CompiledScene& scene) {
   const AccelOptions accel = {.quality = options.build,
                               .leaf_triangles = options.leaf_triangles};
-  FoundTree tree = FindTree(scene.geometry, accel, options.known_tree);
+  ReusedBvh tree = FindBvh(scene.geometry, accel, options.cached_bvh);
   scene.accel = std::move(tree.accel);
-  if (options.tree_report != nullptr) *options.tree_report = tree.report;
+  if (options.bvh_report != nullptr) *options.bvh_report = tree.report;
 }
 
 }  // namespace
 
-std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene) {
+std::shared_ptr<const CachedBvh> CachedBvhOf(const CompiledScene& scene) {
   const AccelOptions options = {.quality = scene.accel.quality,
                                 .leaf_triangles = scene.accel.leaf_triangles};
-  return std::make_shared<const KnownTree>(
-      KnownTree{KeyOf(scene.geometry, options), scene.accel});
+  return std::make_shared<const CachedBvh>(
+      CachedBvh{KeyOf(scene.geometry, options), scene.accel});
 }
 
 CompiledScene CompileScene(const SceneDescription& description,
@@ -155,7 +155,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.filter = CompileFilter(description.filter);
 
   Placement placement = PlaceShapes(description, options.copied_triangles);
-  LeaveOutSmall(placement, scene.notes);
+  DropTooSmallShapes(placement, scene.notes);
   scene.center = placement.frame.center;
   scene.scale = placement.frame.scale;
   view.camera = CompileCamera(description.camera, description.film, placement.frame);
@@ -214,7 +214,7 @@ CompiledScene CompileScene(const SceneDescription& description,
   scene.features = SceneFeatures(scene);
   NoteNothingToHit(description, scene);
   NoteUnlitInsides(description, materials.index, scene);
-  FindTrees(options, scene);
+  FindBvhs(options, scene);
   return scene;
 }
 

@@ -10,9 +10,9 @@
 namespace lanelight {
 
 struct CompiledScene;     // src/scene/compiled/scene.h
-struct KnownTree;         // src/scene/accel/build.h
+struct CachedBvh;         // src/scene/accel/build.h
 struct SceneDescription;  // src/scene/description/description.h
-struct TreeReport;        // src/scene/accel/tree_report.h
+struct BvhReport;         // src/scene/accel/bvh_report.h
 
 struct CompileOptions {
   std::optional<Scattering> scattering;  // overrides every diffuse material
@@ -20,8 +20,8 @@ struct CompileOptions {
   int leaf_triangles = kLeafTriangles;  // as in AccelOptions
   /// As in PlaceShapes.
   std::uint64_t copied_triangles = 0;
-  const KnownTree* known_tree = nullptr;  // may be of the same shapes; may be null
-  TreeReport* tree_report = nullptr;      // filled in; may be null
+  const CachedBvh* cached_bvh = nullptr;  // may be of the same shapes; may be null
+  BvhReport* bvh_report = nullptr;        // filled in; may be null
 };
 
 /// Throws InputError if the scene cannot be rendered (a missing image, a shape that the
@@ -31,6 +31,6 @@ CompiledScene CompileScene(const SceneDescription& description,
                            const CompileOptions& options = {});
 
 /// The trees of a scene, for another one that may have the same shapes.
-std::shared_ptr<const KnownTree> TreesOf(const CompiledScene& scene);
+std::shared_ptr<const CachedBvh> CachedBvhOf(const CompiledScene& scene);
 
 }  // namespace lanelight

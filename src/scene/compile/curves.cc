@@ -13,7 +13,7 @@ namespace lanelight {
 namespace {
 
 // Beyond this stretch float32 cannot square what kernels square.
-constexpr double kMostStretch = 0x1p30;
+constexpr double kMaxStretch = 0x1p30;
 
 // Returns the factor of widths: the cube root of the factor of volumes.
 double ScaleOf(const Transform& transform) {
@@ -50,7 +50,7 @@ CurveSpace SpaceOf(const Shape& shape, const Transform& transform) {
       space.scene_from_object[k] = static_cast<float>(transform(row, column) / scale);
     }
   }
-  if (!(longest <= kMostStretch)) {
+  if (!(longest <= kMaxStretch)) {
     throw InputError(shape.where,
                      "the transform of this curve flattens it; give directions scales "
                      "that differ by less than 1e9");
@@ -64,7 +64,7 @@ bool HasRibbon(const std::vector<Curve>& curves) {
 }
 
 // Below this angle (radians) spherical and linear interpolation of normals are equal.
-constexpr double kLeastTurn = 1e-3;
+constexpr double kMinAngle = 1e-3;
 
 RibbonRecord RibbonOf(const PlacedShape& placed, const Curve& curve) {
   RibbonRecord record{};
@@ -78,7 +78,7 @@ RibbonRecord RibbonOf(const PlacedShape& placed, const Curve& curve) {
     Store(n[end], record.normal[end]);
   }
   const double angle = std::atan2(Length(Cross(n[0], n[1])), Dot(n[0], n[1]));
-  if (angle < kLeastTurn) return record;
+  if (angle < kMinAngle) return record;
   record.angle = static_cast<float>(angle);
   record.inverse_sine = static_cast<float>(1 / std::sin(angle));
   return record;
@@ -113,11 +113,11 @@ Box CurveBox(const Shape& shape, const Transform& transform) {
 void AddCurves(const PlacedShape& placed, const WorldFrame& frame, std::uint32_t material,
                Geometry& geometry) {
   const std::vector<Curve>& curves = *placed.shape->curves;
-  if (curves.size() > kMostCurves - geometry.curves.size()) {
+  if (curves.size() > kMaxCurves - geometry.curves.size()) {
     throw InputError(placed.shape->where,
                      fmt::format("too many curves; {} are supported in one scene, with "
                                  "those of each instance",
-                                 kMostCurves));
+                                 kMaxCurves));
   }
   const Transform to_scene = frame.After(placed.transform);
   const double scale = ScaleOf(placed.transform) * frame.scale;

@@ -22,7 +22,7 @@ namespace lanelight {
 namespace {
 
 // A smaller fraction of an image above its mean is rounding.
-constexpr double kLeastExcess = 1e-5;
+constexpr double kMinExcess = 1e-5;
 
 // Running sums of `weights`, normalised, as `size + 1` floats that start at 0 and end
 // at 1. Without any weight the distribution is uniform.
@@ -75,7 +75,7 @@ std::vector<double> AboveMean(const std::vector<double>& luminance) {
   for (std::size_t i = 0; i < above.size(); ++i) {
     above[i] = std::max(0.0, luminance[i] - mean);
   }
-  return Sum(above) > kLeastExcess * sum ? above : luminance;
+  return Sum(above) > kMinExcess * sum ? above : luminance;
 }
 
 // The probabilities are those of the rounded sums, which is what the kernel samples.

@@ -39,7 +39,7 @@ void AddMaterial(const MaterialTable& m, std::size_t i, FeatureSet& features) {
   if (m.coat[i] >= 0) AddCoat(m, i, features);
   if (kind == ShadeKind::kMeasured) {
     const auto record = static_cast<std::size_t>(m.measured.of_material[i]);
-    if (m.measured.records[record].turns != 0) features.Add(Feature::kTangents);
+    if (m.measured.records[record].is_anisotropic != 0) features.Add(Feature::kTangents);
   }
   if (m.color0_texture[i] >= 0 || m.color1_texture[i] >= 0) {
     features.Add({Feature::kTextures, Feature::kUv});

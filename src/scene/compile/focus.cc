@@ -22,7 +22,7 @@ constexpr double kMeshRange = 4096;
 constexpr double kLargestCoordinate = 0x1p30;
 
 // A shape as the camera sees it: its distance, and the position of its relevant part.
-struct Seen {
+struct ShapeInView {
   double reach;
   Box box;
 };
@@ -45,20 +45,20 @@ bool IsLarge(const PlacedShape& sphere, const Foot& foot) {
 }
 
 // A large sphere is seen as its nearest point.
-Seen SeenSphere(const PlacedShape& placed, const Box& box, Vec3d eye) {
+ShapeInView SphereInView(const PlacedShape& placed, const Box& box, Vec3d eye) {
   const Foot foot = FootOf(placed, eye);
   if (!IsLarge(placed, foot)) return {Farthest(box, eye), box};
-  Seen seen{foot.distance, {}};
+  ShapeInView seen{foot.distance, {}};
   seen.box.Add(foot.point);
   return seen;
 }
 
 // A mesh close to the camera is likewise reduced to its nearest vertex.
-Seen SeenMesh(const PlacedShape& placed, const Box& box, Vec3d eye) {
+ShapeInView MeshInView(const PlacedShape& placed, const Box& box, Vec3d eye) {
   const double reach = Farthest(box, eye);
   const Vec3d outside = Max(Max(box.min - eye, eye - box.max), {});
   if (!(Length(outside) * kMeshRange < reach)) return {reach, box};
-  Seen near{kInfinity, {}};
+  ShapeInView near{kInfinity, {}};
   Vec3d nearest;
   for (const Vec3d& vertex : placed.mesh->positions) {
     const Vec3d p = placed.transform.Point(vertex);
@@ -72,13 +72,13 @@ Seen SeenMesh(const PlacedShape& placed, const Box& box, Vec3d eye) {
   return near;
 }
 
-std::vector<Seen> AllSeen(Vec3d eye, const Placement& p) {
-  std::vector<Seen> all, meshes(p.meshes.size());
-  const auto add = [&](const Seen& seen) {
+std::vector<ShapeInView> ShapesInView(Vec3d eye, const Placement& p) {
+  std::vector<ShapeInView> all, meshes(p.meshes.size());
+  const auto add = [&](const ShapeInView& seen) {
     if (!seen.box.empty() && std::isfinite(seen.reach)) all.push_back(seen);
   };
   for (const auto* spheres : {&p.spheres, &p.large_spheres}) {
-    for (const PlacedShape& s : *spheres) add(SeenSphere(s, ShapeBox(s), eye));
+    for (const PlacedShape& s : *spheres) add(SphereInView(s, ShapeBox(s), eye));
   }
   for (const auto* shapes : {&p.disks, &p.curves}) {
     for (const PlacedShape& shape : *shapes) {
@@ -87,21 +87,22 @@ std::vector<Seen> AllSeen(Vec3d eye, const Placement& p) {
     }
   }
   ParallelFor(p.meshes.size(), [&](std::size_t i) {
-    meshes[i] = SeenMesh(p.meshes[i], ShapeBox(p.meshes[i]), eye);
+    meshes[i] = MeshInView(p.meshes[i], ShapeBox(p.meshes[i]), eye);
   });
-  for (const Seen& mesh : meshes) add(mesh);
+  for (const ShapeInView& mesh : meshes) add(mesh);
   for (const PlacedInstance& instance : p.instances) {
     add({Farthest(instance.bounds, eye), instance.bounds});
   }
-  std::ranges::sort(all, [](const Seen& a, const Seen& b) { return a.reach < b.reach; });
+  std::ranges::sort(
+      all, [](const ShapeInView& a, const ShapeInView& b) { return a.reach < b.reach; });
   return all;
 }
 
 // The shapes up to the first gap in their distances.
-Box NearPart(const std::vector<Seen>& all) {
+Box NearPart(const std::vector<ShapeInView>& all) {
   Box box;
   double reach = 0;
-  for (const Seen& seen : all) {
+  for (const ShapeInView& seen : all) {
     if (reach > 0 && seen.reach > kFocusRange * reach) break;
     reach = std::max(seen.reach, reach);
     box.Add(seen.box);
@@ -132,7 +133,7 @@ void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
   for (const PlacedShape& placed : placement.spheres) {
     const double radius = RadiusOf(placed);
     const Foot foot = FootOf(placed, placement.eye);
-    if (!(foot.distance * kMostEmitterRange < radius)) continue;
+    if (!(foot.distance * kMaxEmitterRange < radius)) continue;
     notes.push_back(
         {placed.shape->where,
          fmt::format("an emitting sphere {:.2g} times larger than the camera's "
@@ -140,13 +141,13 @@ void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
                      "that distance; right up to {:.0e}, beyond that use a disk "
                      "or a mesh for the part that is near",
                      radius / foot.distance, radius / foot.distance * 0x1p-22,
-                     kMostEmitterRange)});
+                     kMaxEmitterRange)});
   }
 }
 
 WorldFrame FocusFrame(const Placement& placement) {
   const Vec3d eye = placement.eye;
-  const std::vector<Seen> all = AllSeen(eye, placement);
+  const std::vector<ShapeInView> all = ShapesInView(eye, placement);
   const Box near = NearPart(all);
   if (near.empty()) return FrameOf(placement.bounds);
   const double size = placement.bounds.HalfDiagonal();

@@ -30,9 +30,9 @@ Foot FootOn(Vec3d center, double radius, Vec3d eye);
 void SeparateLargeSpheres(Placement& placement);
 
 /// Appends a note about emitting spheres that are too large. From a radius of
-/// kMostEmitterRange times the camera's distance on, their surface is off by more than 1
+/// kMaxEmitterRange times the camera's distance on, their surface is off by more than 1
 /// % of that distance. Needs `eye`.
-inline constexpr double kMostEmitterRange = 4e4;
+inline constexpr double kMaxEmitterRange = 4e4;
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes);
 
 /// Returns the frame of the scene; needs `eye` and `bounds`.
@@ -52,6 +52,6 @@ inline constexpr double kFarthestInScene = 0x1p62, kSmallestInScene = 0x1p-62;
 void RequireInScene(Vec3d p, const SourceLocation& where, const char* what);
 
 /// Removes the spheres, disks and instances that are too small or too flat.
-void LeaveOutSmall(Placement& placement, std::vector<Note>& notes);
+void DropTooSmallShapes(Placement& placement, std::vector<Note>& notes);
 
 }  // namespace lanelight

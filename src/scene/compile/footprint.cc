@@ -34,17 +34,17 @@ void MeasureDirections(const CompiledCamera& camera, const Film& film,
     return Normalize(InScene(camera, camera.base) + InScene(camera, camera.dx) * x +
                      InScene(camera, camera.dy) * y);
   };
-  double least_x = 4, least_y = 4, cosine = 1;
+  double min_x = 4, min_y = 4, cosine = 1;
   for (int i = 0; i <= kGrid * kGrid + 2 * kGrid; ++i) {
     const double x = film.width * (i % (kGrid + 1)) / double{kGrid};
     const double y = film.height * (i / (kGrid + 1)) / double{kGrid};
     const Vec3d d = direction(x, y);
-    least_x = std::min(least_x, Length(direction(x + 1, y) - d));
-    least_y = std::min(least_y, Length(direction(x, y + 1) - d));
+    min_x = std::min(min_x, Length(direction(x + 1, y) - d));
+    min_y = std::min(min_y, Length(direction(x, y + 1) - d));
     cosine = std::min(cosine, Dot(d, ToDouble(out->forward)));
   }
-  out->angle_x = static_cast<float>(least_x);
-  out->angle_y = static_cast<float>(least_y);
+  out->angle_x = static_cast<float>(min_x);
+  out->angle_y = static_cast<float>(min_y);
   // Pixel filters reach beyond the film.
   out->min_cosine = static_cast<float>(std::max(0.01, 0.9 * cosine));
 }

@@ -93,7 +93,7 @@ void CompileMeshes(const std::vector<Job>& jobs,
   });
   if (!has_normals.load()) g.normals = {};
   g.turned_tangents = std::ranges::any_of(
-      jobs, [](const Job& job) { return job.placed->mesh->turns_tangents; });
+      jobs, [](const Job& job) { return job.placed->mesh->rotates_tangents; });
 }
 
 void SetFaceAreas(const Job& job, const Geometry& g) {

@@ -19,13 +19,13 @@ constexpr int kBuiltInSize = 256;
 
 // Returns a value above 0 inside a regular polygon with a corner at (0, radius).
 double InPolygon(double x, double y, int sides, double radius) {
-  double least = 1;
+  double minimum = 1;
   for (int i = 0; i < sides; ++i) {
     const double a = kPi / 2 + (2 * i + 1) * kPi / sides;
     const double inner = radius * std::cos(kPi / sides);
-    least = std::min(least, 1 - (x * std::cos(a) + y * std::sin(a)) / inner);
+    minimum = std::min(minimum, 1 - (x * std::cos(a) + y * std::sin(a)) / inner);
   }
-  return least;
+  return minimum;
 }
 
 // A star of five tips, one at (-1, 0): inside at least four of the lines along its sides.
@@ -39,10 +39,10 @@ bool InStar(double x, double y) {
   return inside >= 4;
 }
 
-using Share = std::function<double(double x, double y)>;
+using Coverage = std::function<double(double x, double y)>;
 
 // pbrt flips its images vertically, so its pentagon stands on a tip.
-Share BuiltIn(const std::string& name) {
+Coverage BuiltIn(const std::string& name) {
   if (name == "gaussian") {
     return [](double x, double y) {
       return std::max(0.0, std::exp(-x * x - y * y) - std::exp(-1.0));
@@ -58,11 +58,11 @@ Share BuiltIn(const std::string& name) {
   return nullptr;
 }
 
-void Rasterise(const Share& share, LensSystem& lenses) {
+void Rasterise(const Coverage& coverage, LensSystem& lenses) {
   lenses.aperture_size = kBuiltInSize;
   for (int row = 0; row < kBuiltInSize; ++row) {
     for (int column = 0; column < kBuiltInSize; ++column) {
-      lenses.aperture.push_back(static_cast<float>(share(
+      lenses.aperture.push_back(static_cast<float>(coverage(
           (2 * column + 1.0) / kBuiltInSize - 1, (2 * row + 1.0) / kBuiltInSize - 1)));
     }
   }
@@ -92,8 +92,8 @@ void ReadPicture(const Camera& camera, LensSystem& lenses) {
 
 void StoreAperture(const Camera& camera, LensSystem& lenses) {
   if (camera.aperture.empty()) return;
-  if (const Share share = BuiltIn(camera.aperture)) {
-    Rasterise(share, lenses);
+  if (const Coverage coverage = BuiltIn(camera.aperture)) {
+    Rasterise(coverage, lenses);
   } else {
     ReadPicture(camera, lenses);
   }

@@ -18,12 +18,12 @@ namespace {
 // photographs, become zero, as in pbrt; so does what is not a number.
 struct BadValues {
   std::size_t negative = 0, not_a_number = 0;
-  float least = 0;
+  float minimum = 0;
 
   float Cut(float v) {
     not_a_number += std::isnan(v);
     negative += v < 0;
-    if (v < least) least = v;
+    if (v < minimum) minimum = v;
     return v > 0 ? v : 0.0f;
   }
   void AddNotes(const LightFile& file, std::size_t values,
@@ -34,7 +34,7 @@ struct BadValues {
                                                "count as 0",
                                                count, values, file.what, what)});
     };
-    add(negative, fmt::format("negative (the least is {})", least));
+    add(negative, fmt::format("negative (the least is {})", minimum));
     add(not_a_number, "not a number");
   }
 };

@@ -172,9 +172,9 @@ class LightCompiler {
 // that no second pass is needed.
 void ApplyFloor(std::vector<double>& weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const double least = std::min(kMinPmf, 0.01 / static_cast<double>(weights.size()));
+  const double minimum = std::min(kMinPmf, 0.01 / static_cast<double>(weights.size()));
   // If the sum underflows, all lights get the same weight.
-  for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * least * sum) : 1;
+  for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * minimum * sum) : 1;
 }
 
 // Returns whether each direction or point has a colour of its own. Goniometric images are

@@ -125,14 +125,14 @@ void AddMaterialRow(const MaterialRow& row, CompiledMaterials& out) {
   t.alpha_remap.push_back(row.remap ? 1 : 0);
   t.mix0.push_back(row.mix[0]);
   t.mix1.push_back(row.mix[1]);
-  t.displacement_texture.push_back(row.relief.displacement);
-  t.normal_map_texture.push_back(row.relief.normal_map);
+  t.displacement_texture.push_back(row.bump_maps.displacement);
+  t.normal_map_texture.push_back(row.bump_maps.normal_map);
   t.names.push_back(row.name);
   for (Index texture :
        {row.color0.texture, row.color1.texture, row.alpha_x.texture, row.alpha_y.texture,
         row.alpha2_x.texture, row.alpha2_y.texture, row.coat_thickness.texture,
-        row.coat_albedo.texture, row.coat_g.texture, row.relief.displacement,
-        row.relief.normal_map}) {
+        row.coat_albedo.texture, row.coat_g.texture, row.bump_maps.displacement,
+        row.bump_maps.normal_map}) {
     if (texture != kNone) out.textures.push_back(texture);
   }
   if (out.spectra != nullptr) AddMaterialSpectra(row, *out.spectra, t);

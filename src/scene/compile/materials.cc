@@ -16,7 +16,7 @@ class Builder {
       : d_(d),
         spectra_(spectra),
         build_(d, options),
-        reliefs_(d.textures, build_.derived()),
+        bump_maps_(d.textures, build_.derived()),
         index_(d.materials.size(), -1) {}
 
   // Depth first and without recursion, since mixes may be nested deeply.
@@ -57,7 +57,7 @@ class Builder {
       out.textures.push_back(static_cast<Index>(d_.textures.size() + out.derived.size()));
       out.derived.push_back(t);
     }
-    DropUnusedReliefs(out.table);
+    DropUnusedBumpMaps(out.table);
     return out;
   }
 
@@ -98,7 +98,7 @@ class Builder {
     if (m.kind == MaterialKind::kMix) return Mix(m, sides);
     MaterialRow row = build_.RowOf(m);
     row.name = m.name;
-    row.relief = reliefs_.Of(m, build_.constants());
+    row.bump_maps = bump_maps_.Of(m, build_.constants());
     return Push(std::move(row));
   }
 
@@ -135,7 +135,7 @@ class Builder {
       if (index_[i] < 0 || !microfacets) continue;
       MaterialRow row = build_.RegularRowOf(m);
       row.name = m.name;
-      row.relief = rows_[static_cast<std::size_t>(index_[i])].relief;
+      row.bump_maps = rows_[static_cast<std::size_t>(index_[i])].bump_maps;
       table.regular[static_cast<std::size_t>(index_[i])] = Push(std::move(row));
     }
     if (rows_.size() == count) return table.regular.clear();
@@ -166,7 +166,7 @@ class Builder {
   const SceneDescription& d_;
   SpectrumRows* const spectra_;
   RowBuilder build_;
-  Reliefs reliefs_;
+  BumpMapCompiler bump_maps_;
   std::vector<std::int32_t> index_;
   std::vector<MaterialRow> rows_;
 };

@@ -57,7 +57,7 @@ struct MaterialRow {
   std::uint32_t coat_depth = 0;
   bool remap = false;
   std::int32_t mix[2] = {-1, -1};
-  Relief relief;
+  BumpMaps bump_maps;
   std::shared_ptr<const MeasuredReflectance> measured;
   std::string name;
 };
@@ -84,8 +84,8 @@ class RowBuilder {
   RowBuilder(const SceneDescription& d, const CompileOptions& options)
       : d_(d), options_(options), constants_(d.textures) {}
 
-  /// A material that is no mix; without name and relief. Throws InputError for an index
-  /// of refraction that is not positive.
+  /// A material that is no mix; without name and bump maps. Throws InputError for an
+  /// index of refraction that is not positive.
   MaterialRow RowOf(const Material& m);
   /// Returns the rougher row that Integrator::regularize uses.
   MaterialRow RegularRowOf(const Material& m);

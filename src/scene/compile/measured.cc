@@ -37,7 +37,7 @@ class MeasuredBuilder {
     record.thetas = static_cast<std::int32_t>(m.theta.size());
     record.phi_at = Nodes(m.phi);
     record.theta_at = Nodes(m.theta);
-    record.turns = m.isotropic() ? 0 : 1;
+    record.is_anisotropic = m.isotropic() ? 0 : 1;
     record.parts = m.parts();
     record.ndf = Grid(m.ndf, 1);
     record.sigma = Grid(m.sigma, 1);

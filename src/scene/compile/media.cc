@@ -51,8 +51,9 @@ void LimitDensity(const MediumGrid& grid, MediumRecord& record) {
   double largest = 0;
   for (const float majorant : grid.majorants)
     largest = std::max<double>(largest, majorant);
-  const double most = std::max({record.sigma_t[0], record.sigma_t[1], record.sigma_t[2]});
-  const double factor = std::min(1.0, kFarthestInScene / (most * largest));
+  const double maximum =
+      std::max({record.sigma_t[0], record.sigma_t[1], record.sigma_t[2]});
+  const double factor = std::min(1.0, kFarthestInScene / (maximum * largest));
   for (int c = 0; c < 3; ++c) {
     record.sigma_t[c] = static_cast<float>(record.sigma_t[c] * factor);
     record.sigma_s[c] = static_cast<float>(record.sigma_s[c] * factor);
@@ -117,12 +118,13 @@ class MediumBuilder {
     std::vector<float> e = EmissionOf(m);
     // The scale of the record, if the file's numbers are in the range of float32.
     const Rgb extinction = m.sigma_a + m.sigma_s;
-    int most = 0;
+    int maximum = 0;
     for (int c = 1; c < 3; ++c) {
-      if (extinction[c] > extinction[most]) most = c;
+      if (extinction[c] > extinction[maximum]) maximum = c;
     }
-    const double unit =
-        extinction[most] > 0 ? double(record.sigma_t[most]) / extinction[most] : 0;
+    const double unit = extinction[maximum] > 0
+                            ? double(record.sigma_t[maximum]) / extinction[maximum]
+                            : 0;
     std::optional<SlabAlbedos> albedos;
     std::vector<float> reflectance;
     if (m.by_reflectance) {
@@ -179,7 +181,7 @@ MediumTable CompileMedia(const SceneDescription& d, const Placement& placement,
   MediumTable table = builder.Finish(placement, notes);
   table.camera = camera;
   table.sides.assign(sides.begin(), sides.end());
-  DropUnusedReliefs(materials.table);  // phase functions have none
+  DropUnusedBumpMaps(materials.table);  // phase functions have none
   return table;
 }
 

@@ -54,16 +54,16 @@ double MeanCollisions(const MediumRecord& medium, const MediumGrid* grid,
     const double scale = grid->source == MediumSource::kColors ? 1 : largest;
     return scale * MeanMajorant(*grid) * mean_chord;
   }
-  double most = 0;
+  double maximum = 0;
   for (int c = 0; c < 3; ++c) {
     const double extinction = medium.sigma_t[c],
                  absorbed = extinction - medium.sigma_s[c];
     double events = extinction * mean_chord;
     if (absorbed > 0) events = std::min(events, extinction / absorbed);
     if (medium.inside == 0) events = std::min<double>(events, max_depth);
-    most = std::max(most, medium.scatters != 0 ? events : 0);
+    maximum = std::max(maximum, medium.scatters != 0 ? events : 0);
   }
-  return most;
+  return maximum;
 }
 
 void NoteDenseMedia(const SceneDescription& description, const Placement& placement,

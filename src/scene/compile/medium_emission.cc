@@ -22,12 +22,12 @@ constexpr int kEntries = 4096;
 void AddColors(const Medium& medium, double largest, BlackbodyTable& table) {
   const double kelvin =
       (largest - medium.temperature_offset) * medium.temperature_scale * (1 + 1e-5);
-  const double most = std::max(kelvin, 1.01 * kLeastKelvin);
-  const double step = std::log(most / kLeastKelvin) / (kEntries - 1);
+  const double max_kelvin = std::max(kelvin, 1.01 * kMinKelvin);
+  const double step = std::log(max_kelvin / kMinKelvin) / (kEntries - 1);
   table.entries_per_log = static_cast<float>(1 / step);
   table.colors.reserve(3 * kEntries);
   for (int i = 0; i < kEntries; ++i) {
-    const Rgb color = RgbOfBlackbody(kLeastKelvin * std::exp(step * i));
+    const Rgb color = RgbOfBlackbody(kMinKelvin * std::exp(step * i));
     for (int c = 0; c < 3; ++c) table.colors.push_back(static_cast<float>(color[c]));
   }
 }
@@ -99,11 +99,11 @@ double LargestOf(const VoxelSpectrum& spectrum) {
   static const double high = SigmoidPlace(CarriedWavelengths().centre.back());
   const double c0 = spectrum.c[0], c1 = spectrum.c[1], c2 = spectrum.c[2];
   const auto at = [&](double t) { return (c0 * t + c1) * t + c2; };
-  double most = std::max(at(low), at(high));
+  double max_kelvin = std::max(at(low), at(high));
   const double flat = -c1 / (2 * c0);
-  if (flat > low && flat < high) most = std::max(most, at(flat));
+  if (flat > low && flat < high) max_kelvin = std::max(max_kelvin, at(flat));
   const double rounding = (std::abs(c0) + std::abs(c1) + std::abs(c2)) * 0x1p-23;
-  const double sigmoid = 0.5 + 0.5 * most / std::sqrt(1 + most * most);
+  const double sigmoid = 0.5 + 0.5 * max_kelvin / std::sqrt(1 + max_kelvin * max_kelvin);
   return spectrum.scale * std::min(1.0, sigmoid + rounding);
 }
 

@@ -74,18 +74,18 @@ double BoundOfSparse(const PlacedSparseGrid& placed, const int cell[3]) {
   int low[3], high[3];
   const float* m = placed.index_from_box;
   for (int r = 0; r < 3; ++r) {
-    double least = m[4 * r + 3], most = least;
+    double minimum = m[4 * r + 3], maximum = minimum;
     for (int c = 0; c < 3; ++c) {
       const double a = m[4 * r + c] * static_cast<double>(cell[c]) / kMajorantCells;
       const double b = m[4 * r + c] * (cell[c] + 1.0) / kMajorantCells;
-      least += std::min(a, b), most += std::max(a, b);
+      minimum += std::min(a, b), maximum += std::max(a, b);
     }
     // The box of two grids may be far from one of them. Nor may a bound be NaN.
-    if (!(least > -kFarthestVoxel && most < kFarthestVoxel))
+    if (!(minimum > -kFarthestVoxel && maximum < kFarthestVoxel))
       return placed.grid->largest();
     // One more on both sides: the kernels round.
-    low[r] = static_cast<int>(std::floor(least)) - 1;
-    high[r] = static_cast<int>(std::floor(most)) + 2;
+    low[r] = static_cast<int>(std::floor(minimum)) - 1;
+    high[r] = static_cast<int>(std::floor(maximum)) + 2;
   }
   return placed.grid->LargestIn(low, high);
 }

@@ -42,9 +42,12 @@ class MeshCompiler {
     model_.material = material;
     model_.light = -1;
     // Round shapes that have become triangles have dp/dv of their own, as in pbrt.
-    const bool given = placed.shape->kind == ShapeKind::kMesh && !mesh_.normals.empty();
-    const std::uint32_t normals = mesh_.turns_tangents ? kTurnedTangents : kMeshNormals;
-    model_.flags = (IsAlphaTested(placed) ? kAlphaTested : 0) | (given ? normals : 0);
+    const bool shape_normals =
+        placed.shape->kind == ShapeKind::kMesh && !mesh_.normals.empty();
+    const std::uint32_t normals =
+        mesh_.rotates_tangents ? kRotatedTangents : kMeshNormals;
+    model_.flags =
+        (IsAlphaTested(placed) ? kAlphaTested : 0) | (shape_normals ? normals : 0);
   }
 
   /// Returns true if the triangle has vertex normals of its own.

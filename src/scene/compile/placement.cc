@@ -99,7 +99,7 @@ std::optional<PlacedShape> Place(const SceneDescription& d,
 }
 
 void AddToWorld(const SceneDescription& d, PlacedShape placed, Placement& placement) {
-  SetMesh(SeenTolerance(placed, d.camera, d.film), &placed);
+  SetMesh(CameraTolerance(placed, d.camera, d.film), &placed);
   if (placed.mesh != nullptr) return placement.meshes.push_back(placed);
   switch (placed.shape->kind) {
     case ShapeKind::kMesh:
@@ -261,8 +261,8 @@ std::vector<ObjectUse> PlaceObjects(const SceneDescription& d,
 
 // Rays need maps for each instance that they come near; triangles in the world need
 // memory.
-void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
-  if (most == 0) return;
+void ChooseCopied(std::uint64_t max_copies, std::vector<ObjectUse>& uses) {
+  if (max_copies == 0) return;
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t i = 0; i < uses.size(); ++i) {
     if (uses[i].count == 0 || uses[i].moves) continue;
@@ -270,8 +270,8 @@ void ChooseCopied(std::uint64_t most, std::vector<ObjectUse>& uses) {
   }
   std::ranges::sort(order);
   for (const auto& [more, i] : order) {
-    if (more > most) return;
-    most -= more;
+    if (more > max_copies) return;
+    max_copies -= more;
     uses[i].copied = true;
   }
 }

@@ -38,8 +38,8 @@ bool HasSize(const PlacedShape& placed, double scale) {
          kSmallestInScene * kSmallestInScene;
 }
 
-void LeaveOut(const char* what, double scale, std::vector<PlacedShape>& shapes,
-              std::vector<Note>& notes) {
+void DropTooSmall(const char* what, double scale, std::vector<PlacedShape>& shapes,
+                  std::vector<Note>& notes) {
   std::erase_if(shapes, [&](const PlacedShape& placed) {
     // A radius that is not positive, and a ring without any width, are refused later.
     const Shape& shape = *placed.shape;
@@ -94,9 +94,9 @@ void RequireInScene(Vec3d p, const SourceLocation& where, const char* what) {
                              : ""));
 }
 
-void LeaveOutSmall(Placement& placement, std::vector<Note>& notes) {
-  LeaveOut("sphere", placement.frame.scale, placement.spheres, notes);
-  LeaveOut("disk", placement.frame.scale, placement.disks, notes);
+void DropTooSmallShapes(Placement& placement, std::vector<Note>& notes) {
+  DropTooSmall("sphere", placement.frame.scale, placement.spheres, notes);
+  DropTooSmall("disk", placement.frame.scale, placement.disks, notes);
   std::erase_if(placement.instances, [&](const PlacedInstance& instance) {
     CheckMotion(instance, placement);
     if (CanBeEntered(instance, placement)) return false;

@@ -11,7 +11,7 @@ namespace lanelight {
 namespace {
 
 constexpr double kRounding = 0x1p-22;  // of the largest coordinate: four half ulp
-constexpr double kMostRounded = 1e-4, kAlwaysSmall = 2e-5;  // of the shorter side
+constexpr double kMaxRounding = 1e-4, kMinTolerance = 2e-5;  // of the shorter side
 
 using Point = std::array<float, 3>;
 using Edge = std::array<Point, 2>;  // its ends in order, whichever way it is run through
@@ -29,8 +29,8 @@ double Largest(const TriangleRecord& t) {
 
 // Returns the allowed deviation of a corner.
 double Tolerance(const TriangleRecord& t, double shorter) {
-  const double rounding = std::min(kRounding * Largest(t), kMostRounded * shorter);
-  return std::max(rounding, kAlwaysSmall * shorter);
+  const double rounding = std::min(kRounding * Largest(t), kMaxRounding * shorter);
+  return std::max(rounding, kMinTolerance * shorter);
 }
 
 // The corner opposite the longest side, and the sides from there in winding order.

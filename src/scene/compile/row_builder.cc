@@ -15,7 +15,7 @@ namespace {
 constexpr double kSmoothAlpha = 1e-3;
 // Reflectance of a metal that is given as a colour: k of 1 would be infinite.
 constexpr double kMaxMetalReflectance = 0.9999;
-constexpr double kLeastHairRoughness = 0.01;
+constexpr double kMinHairRoughness = 0.01;
 
 bool IsTextured(const ColorValue& v) { return v.texture != kNone; }
 bool IsTextured(const FloatValue& v) { return v.texture != kNone; }
@@ -209,8 +209,8 @@ void RowBuilder::Hair(const Material& m, MaterialRow& row) {
   CheckEta(m);
   row.kind = ShadeKind::kHair;
   row.eta = m.interface_eta;
-  row.alpha_x.constant = std::max(m.beta_m, kLeastHairRoughness);
-  row.alpha_y.constant = std::max(m.beta_n, kLeastHairRoughness);
+  row.alpha_x.constant = std::max(m.beta_m, kMinHairRoughness);
+  row.alpha_y.constant = std::max(m.beta_n, kMinHairRoughness);
   row.alpha2_x.constant = m.tilt / 180 * std::numbers::pi;
   row.color0 = Reflectance(m.reflectance);
   if (m.has_reflectance) return;

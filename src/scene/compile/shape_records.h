@@ -33,13 +33,13 @@ bool CompileMesh(const PlacedShape& placed, const WorldFrame& frame,
 /// Returns the box of the points of all curves of a shape, widened by half their width.
 Box CurveBox(const Shape& shape, const Transform& transform);
 
-/// Appends the curves of a shape. Throws InputError beyond kMostCurves, and where the
+/// Appends the curves of a shape. Throws InputError beyond kMaxCurves, and where the
 /// transform flattens them so far that float32 overflows.
 void AddCurves(const PlacedShape& placed, const WorldFrame& frame, std::uint32_t material,
                Geometry& geometry);
 
 /// Limit per scene, including copies of instances, that 32-bit offsets can address.
-inline constexpr std::size_t kMostCurves = std::size_t{1} << 26;
+inline constexpr std::size_t kMaxCurves = std::size_t{1} << 26;
 
 /// Throw InputError if a radius is not positive. The transform keeps the shape (others
 /// are tessellated: src/scene/compile/tessellate.h). Lights are left at -1.

@@ -15,7 +15,7 @@ constexpr int kNodes = 10;          // of each part of the directions
 constexpr int kTerms = 2 * kNodes;  // of the phase function
 constexpr int kAlbedos = 33;
 constexpr double kThinLayer = 0x1p-26;
-constexpr int kMostDoublings = 60;
+constexpr int kMaxDoublings = 60;
 
 using Row = std::vector<double>;
 using Matrix = std::vector<Row>;
@@ -143,7 +143,7 @@ double Largest(const Matrix& a) {
 
 // Returns the reflectance of a half space, by doubling a layer until nothing passes.
 Matrix Deep(Layer layer) {
-  for (int i = 0; i < kMostDoublings && Largest(layer.t) > 1e-7; ++i) {
+  for (int i = 0; i < kMaxDoublings && Largest(layer.t) > 1e-7; ++i) {
     const Matrix many = Solve(OneMinus(layer.r * layer.r), layer.t);
     const Matrix back = layer.t * layer.r * many;
     layer.t = layer.t * many;
@@ -197,14 +197,15 @@ double SlabAlbedos::Of(double reflectance) const {
       std::clamp<std::ptrdiff_t>(below - reflectances_.begin() - 2, 0, kAlbedos - 4);
   double s = 0;
   for (std::ptrdiff_t i = first; i < first + 4; ++i) {
-    double share = NodeOf(static_cast<std::size_t>(i));
+    double fraction = NodeOf(static_cast<std::size_t>(i));
     for (std::ptrdiff_t j = first; j < first + 4; ++j) {
       const double at = reflectances_[static_cast<std::size_t>(j)];
       if (i != j) {
-        share *= (reflectance - at) / (reflectances_[static_cast<std::size_t>(i)] - at);
+        fraction *=
+            (reflectance - at) / (reflectances_[static_cast<std::size_t>(i)] - at);
       }
     }
-    s += share;
+    s += fraction;
   }
   return std::clamp(1 - s * s, 0.0, 1.0);
 }

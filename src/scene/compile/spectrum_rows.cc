@@ -143,8 +143,7 @@ void SpectrumRows::NeedSigmoids() {
   for (const auto& row : PolynomialThrough()) {
     for (double v : row) table_.polynomial.push_back(static_cast<float>(v));
   }
-  table_.per_half_tangent =
-      static_cast<float>(1 / HalfTangentOfGrey(1 - kLeastUpsampled));
+  table_.per_half_tangent = static_cast<float>(1 / HalfTangentOfGrey(1 - kMinUpsampled));
   const std::vector<float>& sigmoids = UpsamplingTable();
   table_.sigmoids.assign(sigmoids.begin(), sigmoids.end());
 }

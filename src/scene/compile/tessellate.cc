@@ -11,9 +11,9 @@ namespace {
 
 // Largest aspect of a triangle on a cylinder; longer ones have loose boxes.
 constexpr double kLongest = 64;
-constexpr double kMostRows = 256;
+constexpr double kMaxRows = 256;
 // Fewest columns around poles and centres, where u is off by half a triangle's width.
-constexpr int kLeastColumns = 64;
+constexpr int kMinColumns = 64;
 // Relative tolerance for hand-written matrices.
 constexpr double kRoundTolerance = 1e-5;
 
@@ -96,7 +96,7 @@ TriangleMesh TessellateCylinder(const Shape& shape, double tolerance) {
   const double height = shape.z_max - shape.z_min;
   LL_CHECK(std::isfinite(height));
   const double wanted = width > 0 ? std::ceil(height / (kLongest * width)) : 1;
-  const int rows = static_cast<int>(std::clamp(wanted, 1.0, kMostRows));
+  const int rows = static_cast<int>(std::clamp(wanted, 1.0, kMaxRows));
   return Grid(shape, columns, rows).Make([&](double v) {
     const double z = v == 1 ? shape.z_max : shape.z_min + v * height;
     return Grid::Row{shape.radius, z, 1, 0};
@@ -109,7 +109,7 @@ TriangleMesh TessellateSphere(const Shape& shape, double tolerance) {
   const double last = std::acos(std::clamp(shape.z_max / r, -1.0, 1.0));
   // A triangle's distance adds up from both directions.
   const int columns =
-      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance / 2));
+      std::max(kMinColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance / 2));
   const int rows = StepsOf(first - last, tolerance / 2);
   return Grid(shape, columns, rows).Make([&](double v) {
     const double theta = v == 1 ? last : first + v * (last - first);
@@ -121,7 +121,7 @@ TriangleMesh TessellateSphere(const Shape& shape, double tolerance) {
 
 TriangleMesh TessellateDisk(const Shape& shape, double tolerance) {
   const int columns =
-      std::max(kLeastColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance));
+      std::max(kMinColumns, StepsOf(shape.phi_max / 180 * kPi, tolerance));
   return Grid(shape, columns, 1).Make([&](double v) {
     return Grid::Row{v == 0 ? shape.radius : shape.inner_radius, shape.height, 0, 1};
   });

@@ -28,9 +28,9 @@ inline constexpr double kFinestSphere = 4e-5, kFinestCylinder = 1e-5;
 inline constexpr double kCoarsest = 1e-3, kOfObjects = 1e-4;
 /// Bounds of the tolerance: this fraction of a pixel, as the camera sees the shape from
 /// its nearest side.
-inline constexpr double kSeenPixels = 0.02;
+inline constexpr double kTolerancePixels = 0.02;
 
 /// Returns the tolerance for a sphere, disk or cylinder in the world.
-double SeenTolerance(const PlacedShape& placed, const Camera& camera, const Film& film);
+double CameraTolerance(const PlacedShape& placed, const Camera& camera, const Film& film);
 
 }  // namespace lanelight

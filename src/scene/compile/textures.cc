@@ -130,7 +130,8 @@ std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
   return kept;
 }
 
-Relief Reliefs::Of(const Material& material, const TextureConstants& constants) {
+BumpMaps BumpMapCompiler::Of(const Material& material,
+                             const TextureConstants& constants) {
   if (material.normal_map.empty()) {
     return {constants.Fold(material.displacement).texture, kNone};
   }
@@ -140,7 +141,7 @@ Relief Reliefs::Of(const Material& material, const TextureConstants& constants) 
   return {kNone, it->second};
 }
 
-void DropUnusedReliefs(MaterialTable& table) {
+void DropUnusedBumpMaps(MaterialTable& table) {
   DropUnused(table.displacement_texture);
   DropUnused(table.normal_map_texture);
 }

@@ -41,20 +41,20 @@ std::vector<Texture> KeepUsedTextures(const std::vector<Texture>& textures,
                                       const std::vector<Index>& used);
 
 /// The effect of a material on the shading normal: at most one of the two textures.
-struct Relief {
+struct BumpMaps {
   Index displacement = kNone, normal_map = kNone;
 };
 
-/// Finds the relief of materials. Normal maps are files: each becomes a texture of its
-/// own in `derived`, which are numbered after those of the description.
-class Reliefs {
+/// Finds the bump and normal maps of materials. Normal maps are files: each becomes a
+/// texture of its own in `derived`, which are numbered after those of the description.
+class BumpMapCompiler {
  public:
-  Reliefs(const std::vector<Texture>& textures, std::vector<Texture>& derived)
+  BumpMapCompiler(const std::vector<Texture>& textures, std::vector<Texture>& derived)
       : first_(textures.size()), derived_(derived) {}
 
   /// A constant height has no slope and is left out. A normal map goes before a height,
   /// as in pbrt-v4.
-  Relief Of(const Material& material, const TextureConstants& constants);
+  BumpMaps Of(const Material& material, const TextureConstants& constants);
 
  private:
   std::size_t first_;
@@ -63,7 +63,7 @@ class Reliefs {
 };
 
 /// Empties the columns that no material uses.
-void DropUnusedReliefs(MaterialTable& table);
+void DropUnusedBumpMaps(MaterialTable& table);
 
 /// Returns whether the texture itself, without operands, depends on position or normal.
 bool UsesPlace(const Texture& texture);

@@ -29,7 +29,7 @@ static_assert(sizeof(MeasuredWarp) == 20);
 struct MeasuredRecord {
   std::int32_t phis, thetas;      // of known directions
   std::int32_t phi_at, theta_at;  // their angles, radians
-  std::uint32_t turns;            // 1: azimuths of normals do not count from theirs
+  std::uint32_t is_anisotropic;   // 1: azimuths of normals do not count from theirs
   std::int32_t parts;             // MeasuredReflectance::parts
   MeasuredGrid ndf, sigma;
   MeasuredWarp vndf, luminance;
@@ -59,7 +59,7 @@ inline constexpr int kCoatAlphas = 25, kCoatDepths = 13;
 inline constexpr float kRoughestCoat = 1e4f;
 
 /// Largest asymmetry of the phase function of a coat's medium.
-inline constexpr float kMostCoatAsymmetry = 0.9999f;
+inline constexpr float kMaxCoatAsymmetry = 0.9999f;
 
 /// One column per parameter, one entry per material. A texture index >= 0 replaces the
 /// constant. What color0 and color1 are depends on the kind:

@@ -73,7 +73,7 @@ struct PlacedSparseGrid {
   float index_from_box[12] = {};
 };
 
-/// Colours of black bodies (RgbOfBlackbody) of kLeastKelvin to `most`, evenly in the
+/// Colours of black bodies (RgbOfBlackbody) of kMinKelvin to `maximum`, evenly in the
 /// logarithm of the temperature, which is (t - offset) * scale.
 struct BlackbodyTable {
   float offset = 0, scale = 1;
@@ -81,7 +81,7 @@ struct BlackbodyTable {
   AlignedVector<float> colors;  // three each; none with kSpectral: Planck's law
 };
 /// Cooler black bodies emit nothing, as in pbrt.
-inline constexpr float kLeastKelvin = 100;
+inline constexpr float kMinKelvin = 100;
 
 /// The factors of a medium's emission at a point; each may be empty.
 struct MediumEmission {

@@ -31,7 +31,7 @@ struct SpectrumTable {
   // Filled if colours vary by path: PolynomialThrough(), row by row, and
   // UpsamplingTable().
   AlignedVector<float> polynomial, sigmoids;
-  float per_half_tangent = 0;  // 1 / HalfTangentOfGrey(1 - kLeastUpsampled)
+  float per_half_tangent = 0;  // 1 / HalfTangentOfGrey(1 - kMinUpsampled)
 };
 
 }  // namespace lanelight

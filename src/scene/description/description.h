@@ -148,7 +148,7 @@ struct TriangleMesh {
   std::vector<bool> continues;
   // dp/du is rotated from the normal of the face to the shading normal instead of
   // projected, as pbrt-v4 does on bilinear patches with normals.
-  bool turns_tangents = false;
+  bool rotates_tangents = false;
 };
 
 /// A cubic Bezier curve in object space with a linearly varying width. u runs along it

@@ -17,11 +17,11 @@ std::string SceneName(const std::string& path) {
 
 std::vector<std::string> SceneNames(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
-  std::set<std::string> taken;
+  std::set<std::string> used;
   for (const std::string& path : paths) {
     const std::string name = SceneName(fs::absolute(path).string());
     names.push_back(name);
-    for (int i = 2; !taken.insert(names.back()).second; ++i) {
+    for (int i = 2; !used.insert(names.back()).second; ++i) {
       names.back() = name + "-" + std::to_string(i);
     }
   }

@@ -23,14 +23,14 @@ struct TriangleRecord {
   float p[3][3];
   std::uint32_t material;
   std::int32_t light;   // index into LightTable::lights, -1 = not emitting
-  std::uint32_t flags;  // kAlphaTested, kMeshNormals, kTurnedTangents
+  std::uint32_t flags;  // kAlphaTested, kMeshNormals, kRotatedTangents
 };
 static_assert(sizeof(TriangleRecord) == 48);
 inline constexpr std::uint32_t kAlphaTested = 1;
 /// The file gives normals, which change the axes of bumps (kernels/surface/bumps.cc).
 inline constexpr std::uint32_t kMeshNormals = 2;
-/// The mesh has TriangleMesh::turns_tangents.
-inline constexpr std::uint32_t kTurnedTangents = 4;
+/// The mesh has TriangleMesh::rotates_tangents.
+inline constexpr std::uint32_t kRotatedTangents = 4;
 
 /// Sphere record: 16 words. `normal_sign` -1: normal points inward (ReverseOrientation).
 struct SphereRecord {
@@ -135,7 +135,7 @@ struct Geometry {
   AlignedVector<float>
       normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
                 // Unit; triangles without normals hold their face normal.
-  bool turned_tangents = false;  // some triangles are kTurnedTangents
+  bool turned_tangents = false;  // some triangles are kRotatedTangents
   AlignedVector<float> uvs;      // 6 per triangle; empty if not needed
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;

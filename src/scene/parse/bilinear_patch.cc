@@ -142,7 +142,7 @@ void AddPatch(const BilinearPatch& patch, TriangleMesh* mesh) {
   } else {
     AddGrid(patch, mesh);
   }
-  mesh->turns_tangents |= patch.n.has_value();
+  mesh->rotates_tangents |= patch.n.has_value();
   if (!mesh->normals.empty()) mesh->normals.resize(mesh->positions.size());
   mesh->continues.push_back(false);
   mesh->continues.resize(mesh->indices.size() / 3, true);

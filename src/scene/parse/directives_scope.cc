@@ -147,12 +147,12 @@ void RunReverseOrientation(ParseState& state, Statement&) {
 void RunColorSpace(ParseState& state, Statement& statement) {
   static const std::vector<std::string> kSpaces = {"srgb", "dci-p3", "rec2020",
                                                    "aces2065-1"};
-  const auto [given, where] = statement.Name();
-  std::string name = given;  // in letters of either case, as in pbrt-v4
+  const auto [original, where] = statement.Name();
+  std::string name = original;  // in letters of either case, as in pbrt-v4
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (std::find(kSpaces.begin(), kSpaces.end(), name) == kSpaces.end()) {
     return state.AddWarning(where, "unknown color space {} is ignored; known: {}",
-                            Quoted(given), QuotedList(kSpaces));
+                            Quoted(original), QuotedList(kSpaces));
   }
   state.graphics.color_space = name;
 }

@@ -31,7 +31,7 @@ class Refiner {
       : mesh_(mesh), world_from_object_(world_from_object), edge_length_(edge_length) {}
 
   void Run() {
-    Check(LeastFaces());
+    Check(MinFaces());
     const std::vector<std::uint32_t> faces = std::move(mesh_.indices);
     mesh_.indices.clear();
     for (std::size_t i = 0; i < faces.size(); i += 3) {
@@ -66,15 +66,15 @@ class Refiner {
   }
 
   static void Check(double faces) {
-    if (faces <= kMostDisplaced) return;
+    if (faces <= kMaxDisplacedTriangles) return;
     throw InputError(
         "displacement makes more than {} triangles of this mesh; a larger \"edgelength\" "
         "makes fewer",
-        kMostDisplaced);
+        kMaxDisplacedTriangles);
   }
 
   // Of triangles with sides up to the length, the equilateral one is largest.
-  double LeastFaces() const {
+  double MinFaces() const {
     double area = 0;
     for (std::size_t i = 0; i < mesh_.indices.size(); i += 3) {
       const auto p = [&](std::size_t k) {

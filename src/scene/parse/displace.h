@@ -41,13 +41,13 @@ class HeightTexture {
 };
 
 /// Triangles that displacement makes of one mesh at most.
-inline constexpr double kMostDisplaced = 5e7;
+inline constexpr double kMaxDisplacedTriangles = 5e7;
 
 /// As pbrt-v4: triangles are cut in two across their longest side until no side is as
 /// long as `edge_length` in the world; every vertex moves along its normal, in object
 /// space, by the texture's value; normals are then means of the faces around each vertex.
 /// The mesh needs surface coordinates. `world_from_object` only measures. Throws
-/// InputError without a place if that makes more than kMostDisplaced triangles.
+/// InputError without a place if that makes more than kMaxDisplacedTriangles triangles.
 TriangleMesh Displace(const TriangleMesh& mesh, const Transform& world_from_object,
                       double edge_length, const HeightTexture& height);
 

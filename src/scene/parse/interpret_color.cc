@@ -76,20 +76,20 @@ Rgb ColorOf(ParseState& state, const ParamSet& params, const Param& param,
 OwnSpectrum SpectrumOf(const ParseState& state, const ParamSet& params,
                        const Param& param, SpectrumUse use) {
   if (param.type == ParamType::kRgb) return nullptr;
-  const auto share = [](Spectrum spectrum) {
+  const auto fraction = [](Spectrum spectrum) {
     return std::make_shared<const Spectrum>(std::move(spectrum));
   };
   const bool unbounded = use == SpectrumUse::kUnbounded;
   if (param.type == ParamType::kBlackbody) {
     const bool light = !unbounded && use != SpectrumUse::kAlbedo;
     const double kelvin = param.numbers[0];
-    return share(light ? BlackbodySpectrum(kelvin) : NormalizedBlackbody(kelvin));
+    return fraction(light ? BlackbodySpectrum(kelvin) : NormalizedBlackbody(kelvin));
   }
   if (!param.strings.empty()) {
-    if (const auto named = SpectrumOfName(param.strings[0])) return share(*named);
+    if (const auto named = SpectrumOfName(param.strings[0])) return fraction(*named);
   }
   const SpectrumSamples samples = SamplesOf(state, params, param);
-  return share(SpectrumFromSamples(samples.wavelengths, samples.values, unbounded));
+  return fraction(SpectrumFromSamples(samples.wavelengths, samples.values, unbounded));
 }
 
 Rgb PlainColor(ParseState& state, ParamSet& params, std::string_view name, Rgb absent,

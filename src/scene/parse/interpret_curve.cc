@@ -103,8 +103,8 @@ std::vector<Curve> InterpretCurve(ParseState& state, ParamSet& params) {
     const Segment p = SegmentOf(points, i * step, basis, degree);
     std::copy(p.begin(), p.end(), curve.p);
     for (std::size_t end = 0; end < 2; ++end) {
-      const double share = static_cast<double>(i + end) / static_cast<double>(n);
-      curve.width[end] = (1 - share) * first + share * last;
+      const double fraction = static_cast<double>(i + end) / static_cast<double>(n);
+      curve.width[end] = (1 - fraction) * first + fraction * last;
       if (!normals.empty()) curve.normal[end] = normals[i + end];
     }
     curve.type = type;

@@ -15,7 +15,7 @@ namespace lanelight {
 namespace {
 
 constexpr int kLargestSide = 65536;  // pixels
-constexpr double kMostPixels = 1 << 30;
+constexpr double kMaxPixels = 1 << 30;
 
 const std::vector<std::string> kCameras = {
     "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d",     "canon_eos_200d_mkii",
@@ -50,8 +50,8 @@ void ReadCrop(ParamSet& params, Film* film) {
   bool outside = false;
   for (int i = 0; i < 4; ++i) {
     const int side = i < 2 ? film->width : film->height;
-    const double most = part != nullptr ? 1 : side;
-    const double value = std::clamp(param.numbers[i], 0.0, most);
+    const double max_coordinate = part != nullptr ? 1 : side;
+    const double value = std::clamp(param.numbers[i], 0.0, max_coordinate);
     outside = outside || value != param.numbers[i];
     crop[i] = static_cast<int>(part != nullptr ? std::ceil(value * side) : value);
   }
@@ -72,10 +72,10 @@ void ReadSensor(ParseState& state, ParamSet& params, Film* film) {
   const std::string sensor = params.String("sensor", "cie1931");
   double kelvin = params.Float("whitebalance", 0);
   const Param* balance = params.Find("whitebalance", {});
-  if (kelvin != 0 && !(kelvin >= kLeastWhiteKelvin && kelvin <= kMostWhiteKelvin)) {
+  if (kelvin != 0 && !(kelvin >= kMinWhiteKelvin && kelvin <= kMaxWhiteKelvin)) {
     params.Fail(*balance,
                 "the temperature {} is not 0 (none) and outside {} to {} kelvin", kelvin,
-                kLeastWhiteKelvin, kMostWhiteKelvin);
+                kMinWhiteKelvin, kMaxWhiteKelvin);
   }
   if (sensor != "cie1931") {
     const SourceLocation& where = params.Find("sensor", {})->where;
@@ -102,18 +102,18 @@ void ReadGbuffer(ParseState&, ParamSet& params, Film* film) {
 }
 
 void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
-  constexpr int kMostBuckets = 1024;
-  constexpr double kLeastWidth = 0.01;  // nm: names of channels have three digits
+  constexpr int kMaxBuckets = 1024;
+  constexpr double kMinBucketWidth = 0.01;  // nm: names of channels have three digits
   SpectralBuckets& buckets = film->buckets;
-  buckets.count = params.Integer("nbuckets", 16, {1, kMostBuckets});
+  buckets.count = params.Integer("nbuckets", 16, {1, kMaxBuckets});
   const Limits range = {kFirstNm, kLastNm};
   buckets.first = params.Float("lambdamin", kFirstNm, range);
   buckets.last = params.Float("lambdamax", kLastNm, range);
-  if (buckets.last - buckets.first < kLeastWidth * buckets.count) {
+  if (buckets.last - buckets.first < kMinBucketWidth * buckets.count) {
     throw InputError(
         params.where(),
         "{} buckets from \"lambdamin\" {} to \"lambdamax\" {} nm are narrower than {} nm",
-        buckets.count, buckets.first, buckets.last, kLeastWidth);
+        buckets.count, buckets.first, buckets.last, kMinBucketWidth);
   }
   // The first and the last bin are the wide ones.
   const auto& edge = CarriedWavelengths().edge;
@@ -137,9 +137,9 @@ void InterpretFilm(ParseState& state, const std::string& type, ParamSet& params)
   Lookup(kTypes, type, params.where(), "film")(state, params, &film);
   film.width = params.Integer("xresolution", 1280, {1, kLargestSide});
   film.height = params.Integer("yresolution", 720, {1, kLargestSide});
-  if (static_cast<double>(film.width) * film.height > kMostPixels) {
+  if (static_cast<double>(film.width) * film.height > kMaxPixels) {
     throw InputError(params.where(), "{} x {} pixels; at most {} are supported",
-                     film.width, film.height, kMostPixels);
+                     film.width, film.height, kMaxPixels);
   }
   film.filename = params.String("filename", film.filename);
   ReadCrop(params, &film);

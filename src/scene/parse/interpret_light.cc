@@ -19,8 +19,8 @@ Rgb LightColor(ParseState& state, ParamSet& params, const char* name,
                OwnSpectrum* spectrum, SpectrumUse use = SpectrumUse::kIlluminant) {
   const Rgb absent = ToSrgb(state.graphics.color_space, kWhite, use);
   const Rgb color = PlainColor(state, params, name, absent, use);
-  const Param* given = params.Find(name, {});
-  if (given != nullptr) *spectrum = SpectrumOf(state, params, *given, use);
+  const Param* value_param = params.Find(name, {});
+  if (value_param != nullptr) *spectrum = SpectrumOf(state, params, *value_param, use);
   return color;
 }
 
@@ -186,7 +186,7 @@ void InterpretLight(ParseState& state, const std::string& type, ParamSet& params
   light.kind = kind;
   light.where = params.where();
   light.world_from_light = state.graphics.ctm;
-  NoteStill(state, light.where, "light");
+  NoteIgnoredMotion(state, light.where, "light");
   read(state, params, &light);
   params.CheckAllUsed();
   CheckEmission(params, light.emission);

@@ -137,8 +137,8 @@ void ReadHairColor(ParseState& state, ParamSet& params, Material* material) {
     if (std::string_view(color) != "color") ignore({"color"}, color);
     return ignore({pigments[0], pigments[1]}, color);
   }
-  const bool given = params.Has(pigments[0]) || params.Has(pigments[1]);
-  const double eumelanin = params.Float(pigments[0], given ? 0 : 1.3, kNotNegative);
+  const bool has_pigment = params.Has(pigments[0]) || params.Has(pigments[1]);
+  const double eumelanin = params.Float(pigments[0], has_pigment ? 0 : 1.3, kNotNegative);
   const double pheomelanin = params.Float(pigments[1], 0, kNotNegative);
   material->sigma_a = kEumelanin * eumelanin + kPheomelanin * pheomelanin;
 }

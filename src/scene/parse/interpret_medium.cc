@@ -121,7 +121,7 @@ void InterpretMedium(ParseState& state, const std::string& name, ParamSet& param
   medium.name = name;
   medium.where = params.where();
   medium.world_from_medium = state.graphics.ctm;
-  NoteStill(state, medium.where, "medium");
+  NoteIgnoredMotion(state, medium.where, "medium");
   const SourceLocation& where = params.Need("type", ParamType::kString).where;
   const std::string type = params.String("type", "");
   const auto& [kind, read] = Lookup(kMediumTypes, type, where, "type of medium");

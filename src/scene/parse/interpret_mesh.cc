@@ -46,18 +46,18 @@ TriangleMesh ReadFaces(ParamSet& params, std::size_t corners) {
     for (std::uint32_t i = 0; i < corners; ++i) mesh.indices.push_back(i);
     return mesh;
   }
-  const std::size_t given = indices->numbers.size(), excess = given % corners;
-  if (given < corners) {
-    params.Fail(*indices, "{} indices; a face takes {}", given, corners);
+  const std::size_t num_indices = indices->numbers.size(), excess = num_indices % corners;
+  if (num_indices < corners) {
+    params.Fail(*indices, "{} indices; a face takes {}", num_indices, corners);
   }
   if (excess != 0) {
     params.Warn(
         *indices,
-        fmt::format("{} indices; they come in groups of {}; the last {} discarded", given,
-                    corners, excess));
+        fmt::format("{} indices; they come in groups of {}; the last {} discarded",
+                    num_indices, corners, excess));
   }
-  mesh.indices.reserve(given - excess);
-  for (std::size_t i = 0; i < given - excess; ++i) {
+  mesh.indices.reserve(num_indices - excess);
+  for (std::size_t i = 0; i < num_indices - excess; ++i) {
     const double index = indices->numbers[i];
     if (index < 0 || index >= static_cast<double>(mesh.positions.size())) {
       params.Fail(*indices, "index {} (number {}) is not one of the {} vertices", index,
@@ -81,16 +81,16 @@ BilinearPatch PatchOf(const TriangleMesh& in, std::size_t first) {
 }
 
 // Limits the memory that a mistyped level can take.
-constexpr double kMostTriangles = 1e8;
+constexpr double kMaxTriangles = 1e8;
 
 int SubdivisionLevels(ParamSet& params, std::size_t faces) {
-  constexpr int kMost = 12;
-  const int levels = params.Integer("levels", 3, {0, kMost});
+  constexpr int kMaxLevels = 12;
+  const int levels = params.Integer("levels", 3, {0, kMaxLevels});
   const double triangles = std::ldexp(static_cast<double>(faces), 2 * levels);
-  if (triangles <= kMostTriangles) return levels;
+  if (triangles <= kMaxTriangles) return levels;
   params.Fail(*params.Find("levels", {}),
               "{} levels make {:g} triangles of {}; at most {:g} are supported", levels,
-              triangles, faces, kMostTriangles);
+              triangles, faces, kMaxTriangles);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace lanelight {
 namespace {
 
-constexpr int kMostSamples = std::numeric_limits<int>::max();
+constexpr int kMaxSamples = std::numeric_limits<int>::max();
 
 // Names, and their parameters that have no effect here.
 using Ignored = std::vector<std::pair<const char*, std::vector<const char*>>>;
@@ -61,12 +61,12 @@ void InterpretSampler(ParseState& state, const std::string& type, ParamSet& para
   const Points points = Lookup(kSamplers, type, params.where(), "sampler");
   Sampler sampler = state.scene.sampler;
   if (type == "stratified") {
-    constexpr int kMostStrata = 32768;
-    sampler.spp = params.Integer("xsamples", 4, {1, kMostStrata}) *
-                  params.Integer("ysamples", 4, {1, kMostStrata});
+    constexpr int kMaxStrata = 32768;
+    sampler.spp = params.Integer("xsamples", 4, {1, kMaxStrata}) *
+                  params.Integer("ysamples", 4, {1, kMaxStrata});
     params.Ignore("jitter", "strata are always jittered");
   } else {
-    sampler.spp = params.Integer("pixelsamples", 16, {1, kMostSamples});
+    sampler.spp = params.Integer("pixelsamples", 16, {1, kMaxSamples});
   }
   const int seed = params.Integer("seed", -1, {0, std::numeric_limits<int>::max()});
   if (seed >= 0) sampler.seed = static_cast<std::uint64_t>(seed);

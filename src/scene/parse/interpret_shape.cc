@@ -15,10 +15,10 @@ void ReadPhi(ParamSet& params, Shape* shape) {
   shape->phi_max = std::min(params.Float("phimax", 360, kNotNegative), 360.0);
 }
 
-// `most` limits their distance from the middle. pbrt accepts them in either order.
-void ReadHeights(ParamSet& params, double absent, double most, Shape* shape) {
-  const double a = std::clamp(params.Float("zmin", -absent), -most, most);
-  const double b = std::clamp(params.Float("zmax", absent), -most, most);
+// `max_height` limits their distance from the middle. pbrt accepts them in either order.
+void ReadHeights(ParamSet& params, double absent, double max_height, Shape* shape) {
+  const double a = std::clamp(params.Float("zmin", -absent), -max_height, max_height);
+  const double b = std::clamp(params.Float("zmax", absent), -max_height, max_height);
   shape->z_min = std::min(a, b);
   shape->z_max = std::max(a, b);
 }
@@ -54,12 +54,13 @@ void ReadDisk(ParseState&, ParamSet& params, Shape* shape) {
 
 // Longest side of displaced triangles. pbrt-v4 has the second name on GPUs only.
 double EdgeLength(ParseState& state, ParamSet& params) {
-  constexpr const char* kOfGpus = "displacement.edgelength";
+  constexpr const char* kGpuParameter = "displacement.edgelength";
   const Limits limits = {kTiny, kHuge};
-  const double other = params.Float(kOfGpus, 1, limits);
-  if (const Param* given = params.Find(kOfGpus, {})) {
-    state.AddNote(given->where, "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
-                  kOfGpus);
+  const double other = params.Float(kGpuParameter, 1, limits);
+  if (const Param* gpu_param = params.Find(kGpuParameter, {})) {
+    state.AddNote(gpu_param->where,
+                  "pbrt-v4 takes \"{}\" on GPUs only; write \"edgelength\"",
+                  kGpuParameter);
   }
   return params.Float("edgelength", other, limits) * state.edge_scale;
 }
@@ -200,7 +201,7 @@ void AddShape(ParseState& state, const std::string& type, ParamSet& params,
 }
 
 // Why a shape that moves in the file cannot move here; empty if it can.
-std::string WhyStill(const ParseState& state, ShapeKind kind, Index material) {
+std::string ReasonNotMoving(const ParseState& state, ShapeKind kind, Index material) {
   if (const char* why = WhyCannotMove(kind)) return why;
   const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
                      state.scene.materials[material].kind != MaterialKind::kInterface;
@@ -215,7 +216,8 @@ void InterpretShape(ParseState& state, const std::string& type, ParamSet& params
   const Transform& ctm = state.graphics.ctm;
   if (!state.graphics.Moves()) return AddShape(state, type, params, ctm);
   const ShapeKind kind = Lookup(kShapes, type, params.where(), "shape").kind;
-  const std::string why = WhyStill(state, kind, CurrentMaterial(state, params.where()));
+  const std::string why =
+      ReasonNotMoving(state, kind, CurrentMaterial(state, params.where()));
   if (!why.empty()) {
     state.Unsupported(params.where(), why);
     return AddShape(state, type, params, ctm);

@@ -10,11 +10,11 @@ namespace lanelight {
 namespace {
 
 // Throws if the file states the inside in two ways.
-void Exclude(ParamSet& params, const Param* given, const char* name,
+void Exclude(ParamSet& params, const Param* value_param, const char* name,
              const std::vector<const char*>& others) {
   for (const char* other : others) {
-    if (given == nullptr || !params.Has(other)) continue;
-    params.Fail(*given, "\"{}\" and \"{}\" exclude each other", name, other);
+    if (value_param == nullptr || !params.Has(other)) continue;
+    params.Fail(*value_param, "\"{}\" and \"{}\" exclude each other", name, other);
   }
 }
 
@@ -29,15 +29,15 @@ void ReadNamed(ParamSet& params, const Param& name, Medium* inside) {
 }
 
 void ReadByReflectance(ParseState& state, ParamSet& params, Medium* inside) {
-  const Param* given = params.Find("reflectance", {});
-  Exclude(params, given, "reflectance", {"sigma_a", "sigma_s"});
+  const Param* value_param = params.Find("reflectance", {});
+  Exclude(params, value_param, "reflectance", {"sigma_a", "sigma_s"});
   inside->by_reflectance = true;
   inside->reflectance =
       TexturedColor(state, params, "reflectance", {1, 1, 1}, SpectrumUse::kAlbedo);
   const Rgb mfp = PlainColor(state, params, "mfp", {1, 1, 1}, SpectrumUse::kUnbounded);
-  const Param* mfp_given = params.Find("mfp", {});
-  if (std::min({mfp.x, mfp.y, mfp.z}) <= 0 && mfp_given != nullptr) {
-    params.Fail(*mfp_given, "a mean free path of 0 or less; it must be positive");
+  const Param* mfp_param = params.Find("mfp", {});
+  if (std::min({mfp.x, mfp.y, mfp.z}) <= 0 && mfp_param != nullptr) {
+    params.Fail(*mfp_param, "a mean free path of 0 or less; it must be positive");
   }
   inside->sigma_a = {};
   inside->sigma_s = {1 / mfp.x, 1 / mfp.y, 1 / mfp.z};

@@ -156,10 +156,10 @@ void ReadBilinear(ParseState& state, ParamSet& params, Texture* texture) {
   ReadMapping(params, &texture->mapping);
 }
 
-constexpr int kMostOctaves = 64;
+constexpr int kMaxOctaves = 64;
 
 void ReadOctaves(ParseState&, ParamSet& params, Texture* texture) {
-  texture->octaves = params.Integer("octaves", 8, {0, kMostOctaves});
+  texture->octaves = params.Integer("octaves", 8, {0, kMaxOctaves});
   texture->roughness = params.Float("roughness", 0.5, Limits());
 }
 
@@ -222,7 +222,7 @@ void InterpretTexture(ParseState& state, const NameKey& key, const std::string& 
   texture.where = params.where();
   texture.is_float = is_float;
   texture.texture_from_world = state.graphics.ctm.Inverse();
-  NoteStill(state, texture.where, "texture");
+  NoteIgnoredMotion(state, texture.where, "texture");
   found.read(state, params, &texture);
   params.CheckAllUsed();
   Define(state, key, Append(state.scene.textures, std::move(texture)));

@@ -25,9 +25,10 @@ bool StartsNumber(char c) {
 
 // Returns the character of the escape `c`, or -1.
 int Escape(char c) {
-  constexpr std::string_view kNames = "bfnrt\\'\"", kMeant = "\b\f\n\r\t\\'\"";
-  const std::size_t at = kNames.find(c);
-  return at == kNames.npos ? -1 : kMeant[at];
+  constexpr std::string_view kEscapeNames = "bfnrt\\'\"",
+                             kEscapeValues = "\b\f\n\r\t\\'\"";
+  const std::size_t at = kEscapeNames.find(c);
+  return at == kEscapeNames.npos ? -1 : kEscapeValues[at];
 }
 
 }  // namespace

@@ -92,10 +92,10 @@ void ReadSigmas(ParseState& state, ParamSet& params, double scale, Medium* mediu
 void ReadEmission(ParseState& state, ParamSet& params, double scale, Medium* medium) {
   medium->emission =
       PlainColor(state, params, "Le", {0, 0, 0}, SpectrumUse::kIlluminant) * scale;
-  const Param* given = params.Find("Le", {});
-  if (given != nullptr)
+  const Param* value_param = params.Find("Le", {});
+  if (value_param != nullptr)
     medium->emission_spectrum =
-        SpectrumOf(state, params, *given, SpectrumUse::kIlluminant);
+        SpectrumOf(state, params, *value_param, SpectrumUse::kIlluminant);
 }
 
 void ReadTemperatureScale(ParamSet& params, Medium* medium) {

@@ -29,7 +29,7 @@ class EdgeFinder {
     const std::uint32_t* face = &mesh_.indices[i - i % 3];
     const std::uint32_t from = face[i % 3], to = face[(i + 1) % 3];
     const std::uint32_t opposite = face[(i + 2) % 3];
-    if (from == to) Complain(fmt::format("face {} has vertex {} twice", i / 3, from));
+    if (from == to) SetProblem(fmt::format("face {} has vertex {} twice", i / 3, from));
     const std::uint64_t key =
         (std::uint64_t{std::min(from, to)} << 32) | std::max(from, to);
     const auto [it, is_new] =
@@ -39,16 +39,16 @@ class EdgeFinder {
     MeshEdge& edge = out_.edges[it->second];
     edge.opposite[1] = opposite;
     if (++edge.faces > 2) {
-      Complain(fmt::format("more than two faces have the edge of vertices {} and {}",
-                           from, to));
+      SetProblem(fmt::format("more than two faces have the edge of vertices {} and {}",
+                             from, to));
     } else if (edge.ends[0] == from) {
-      Complain(fmt::format(
+      SetProblem(fmt::format(
           "the two faces along the edge of vertices {} and {} run in opposite directions",
           from, to));
     }
   }
 
-  void Complain(std::string problem) {
+  void SetProblem(std::string problem) {
     if (out_.problem.empty()) out_.problem = std::move(problem);
   }
 

@@ -67,7 +67,8 @@ const char* WhyCannotMove(ShapeKind kind) {
   return nullptr;
 }
 
-void NoteStill(ParseState& state, const SourceLocation& where, std::string_view kind) {
+void NoteIgnoredMotion(ParseState& state, const SourceLocation& where,
+                       std::string_view kind) {
   if (!state.graphics.Moves()) return;
   state.AddImageNote(
       where,

@@ -13,7 +13,8 @@ namespace lanelight {
 const char* WhyCannotMove(ShapeKind kind);
 
 /// A note that a thing of this kind stays at the start, if the current transforms differ.
-void NoteStill(ParseState& state, const SourceLocation& where, std::string_view kind);
+void NoteIgnoredMotion(ParseState& state, const SourceLocation& where,
+                       std::string_view kind);
 
 /// Returns the end of a motion that begins at `start`; null if it is the same. Throws
 /// InputError at `where` if no motion leads from one to the other.

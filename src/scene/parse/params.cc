@@ -150,8 +150,8 @@ std::size_t ParamSet::ChoiceOf(std::string_view name,
 void ParamSet::Ignore(std::string_view name, const std::string& why, bool changes_image) {
   const Param* param = Find(name, {});
   if (param == nullptr) return;
-  const bool asks = param->type != ParamType::kBool || param->bools[0];
-  if (changes_image && !asks) return;
+  const bool is_set = param->type != ParamType::kBool || param->bools[0];
+  if (changes_image && !is_set) return;
   notes_->push_back(
       {param->where,
        fmt::format("parameter {} of {} has no effect: {}", Quoted(name), object_, why),

@@ -11,7 +11,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::size_t kMostParams = 1000;  // of one object; no real object has 30
+constexpr std::size_t kMaxParams = 1000;  // of one object; no real object has 30
 
 struct TypeInfo {
   const char* name;
@@ -134,9 +134,9 @@ void CheckCount(const Param& param) {
   // Grids of colours are rgb; ColorOf requires a single colour.
   const bool single =
       param.type == ParamType::kBlackbody || param.type == ParamType::kTexture;
-  const std::size_t most = single ? std::max(tuple, 1) : values;
+  const std::size_t max_values = single ? std::max(tuple, 1) : values;
   const bool mixed = !param.strings.empty() && (n > 0 || param.strings.size() > 1);
-  if (values > most || (param.type == ParamType::kSpectrum && mixed)) {
+  if (values > max_values || (param.type == ParamType::kSpectrum && mixed)) {
     throw InputError(param.where, who + " has more than one value");
   }
 }
@@ -175,8 +175,8 @@ ParamList ReadParams(Lexer& lexer, const std::string& color_space,
     CheckCount(param);
     Replace(params, param, notes);
     params.push_back(std::move(param));
-    if (params.size() > kMostParams) {
-      throw InputError(params.back().where, "more than {} parameters", kMostParams);
+    if (params.size() > kMaxParams) {
+      throw InputError(params.back().where, "more than {} parameters", kMaxParams);
     }
   }
   return params;

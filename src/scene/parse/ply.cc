@@ -72,7 +72,7 @@ class BodyReader {
     if (element.count == 0) return;
     if (element.properties.empty() ||
         element.count > std::numeric_limits<std::uint32_t>::max() ||
-        element.count > reader_.Left(element.least_bytes())) {
+        element.count > reader_.Left(element.min_bytes())) {
       Fail(
           "the PLY header promises {} of element {}, more than the rest of the file can "
           "hold",
@@ -203,7 +203,7 @@ class BodyReader {
 
   // Gives every face its own vertices with the default uvs (0,0) (1,0) (1,1) (0,1), so
   // that the two halves of a quad share their corners.
-  void Unshare() {
+  void DuplicateVertices() {
     static constexpr std::array<double, 2> kUv[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     TriangleMesh out;
     auto quad = faces_.quads.begin();
@@ -227,7 +227,7 @@ class BodyReader {
   }
 
   PlyMesh Finish() {
-    if (!faces_.quads.empty() && mesh_.uvs.empty()) Unshare();
+    if (!faces_.quads.empty() && mesh_.uvs.empty()) DuplicateVertices();
     PlyMesh result;
     if (!faces_.quads.empty()) mesh_.continues.resize(mesh_.indices.size() / 3);
     for (std::size_t first : faces_.quads) {

@@ -14,8 +14,8 @@ namespace lanelight {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
-constexpr std::size_t kMostElements = 64;
-constexpr std::size_t kMostProperties = 256;
+constexpr std::size_t kMaxElements = 64;
+constexpr std::size_t kMaxProperties = 256;
 
 class HeaderReader {
  public:
@@ -149,7 +149,7 @@ PlyProperty ParseProperty(const HeaderReader& reader,
 
 }  // namespace
 
-std::size_t PlyElement::least_bytes() const {
+std::size_t PlyElement::min_bytes() const {
   std::size_t bytes = 0;
   for (const PlyProperty& property : properties) {
     bytes += PlySize(property.is_list ? property.count_type : property.type);
@@ -170,12 +170,12 @@ PlyHeader ParsePlyHeader(std::string_view bytes, const std::string& name) {
        words = reader.NextLine()) {
     if (words[0] == "element") {
       header.elements.push_back(ParseElement(reader, words));
-      if (header.elements.size() > kMostElements) reader.Fail("too many PLY elements");
+      if (header.elements.size() > kMaxElements) reader.Fail("too many PLY elements");
     } else if (words[0] == "property") {
       if (header.elements.empty()) reader.Fail("a PLY property before any element");
       std::vector<PlyProperty>& properties = header.elements.back().properties;
       properties.push_back(ParseProperty(reader, words));
-      if (properties.size() > kMostProperties) reader.Fail("too many PLY properties");
+      if (properties.size() > kMaxProperties) reader.Fail("too many PLY properties");
     } else {
       ThrowUnknown(reader.where(), "line of the PLY header:", words[0],
                    {"comment", "element", "property", "end_header"});

@@ -39,7 +39,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   /// Bytes of one element in a binary file at least (lists: empty).
-  std::size_t least_bytes() const;
+  std::size_t min_bytes() const;
 };
 
 struct PlyHeader {

@@ -20,7 +20,7 @@ bool IsFinite(const std::array<double, 2>& uv) {
 
 // Sets values that are not finite to zero; returns their number.
 template <typename T>
-std::size_t ZeroBad(std::vector<T>* values) {
+std::size_t ZeroNonFinite(std::vector<T>* values) {
   std::size_t bad = 0;
   for (T& value : *values) {
     if (IsFinite(value)) continue;
@@ -31,7 +31,7 @@ std::size_t ZeroBad(std::vector<T>* values) {
 }
 
 // Removes triangles with corners that are not finite; returns their number.
-std::size_t DropNowhere(TriangleMesh* mesh) {
+std::size_t DropNonFiniteTriangles(TriangleMesh* mesh) {
   std::vector<std::uint32_t>& indices = mesh->indices;
   std::vector<bool>& continues = mesh->continues;
   const std::size_t before = indices.size();
@@ -56,9 +56,9 @@ std::size_t DropNowhere(TriangleMesh* mesh) {
 }  // namespace
 
 void RepairPly(PlyMesh* ply) {
-  ply->bad_normals = ZeroBad(&ply->mesh.normals);
-  ply->bad_uvs = ZeroBad(&ply->mesh.uvs);
-  ply->lost_triangles = DropNowhere(&ply->mesh);
+  ply->bad_normals = ZeroNonFinite(&ply->mesh.normals);
+  ply->bad_uvs = ZeroNonFinite(&ply->mesh.uvs);
+  ply->lost_triangles = DropNonFiniteTriangles(&ply->mesh);
 }
 
 std::vector<std::string> PlyNotes(const PlyMesh& ply, const std::string& path) {

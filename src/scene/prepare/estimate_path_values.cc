@@ -12,10 +12,10 @@ namespace {
 // Cells per side of a coarse cell.
 constexpr std::int32_t kCoarse = 4;
 // Weight, in records, of the coarser cell in the estimate of a finer one.
-constexpr double kBorrowed = 8;
+constexpr double kCoarseCellWeight = 8;
 // Least value of a cell relative to the mean of all cells: a short training pass may have
 // missed its light.
-constexpr double kLeastValue = 0.1;
+constexpr double kMinCellValue = 0.1;
 
 CellGrid Coarser(const CellGrid& fine) {
   CellGrid coarse;
@@ -46,7 +46,7 @@ struct CellMeans {
 
 CellMeans Blend(const CellSums& s, const CellMeans& prior) {
   if (s.count == 0) return prior;
-  const double borrowed = prior.known ? kBorrowed : 0;
+  const double borrowed = prior.known ? kCoarseCellWeight : 0;
   const auto mean = [&](double sum, double before) {
     return (sum + borrowed * before) / (s.count + borrowed);
   };
@@ -67,9 +67,9 @@ CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
   CellGrid grid;
   if (!(longest > 0) || !std::isfinite(longest)) return grid;
   for (int a = 0; a < 3; ++a) {
-    const double share = double(high[a] - low[a]) / longest;
+    const double fraction = double(high[a] - low[a]) / longest;
     grid.low[a] = low[a];
-    grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(share * side)));
+    grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(fraction * side)));
     grid.per_unit[a] = static_cast<float>(side / longest);
   }
   return grid;
@@ -99,7 +99,7 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
   const auto survival = [efficiency](const CellMeans& m) {
     return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
   };
-  const double least = kLeastValue * survival(Blend(all, {}));
+  const double minimum = kMinCellValue * survival(Blend(all, {}));
   values.survive.assign(fine.cells(), -1.0f);
   if (efficiency) values.split.assign(fine.cells(), 0.0f);
   next = sums.begin();
@@ -107,7 +107,7 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
     CellMeans m = Blend(coarse_sums[around], {});
     if (next != sums.end() && next->first == cell) m = Blend((next++)->second, m);
     if (!m.known) return;
-    values.survive[cell] = static_cast<float>(std::max(survival(m), least));
+    values.survive[cell] = static_cast<float>(std::max(survival(m), minimum));
     if (!efficiency) return;
     const double variance = std::max(0.0, m.square - m.value * m.value);
     values.split[cell] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));

@@ -29,12 +29,12 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
   const char* const what = pairs ? "pairs" : "points";
   const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
-  const std::uint64_t most = std::uint64_t{1} << LogSequence(strategy.points);
-  if (own + (rest > 0) > most) {
-    const std::uint64_t turn = most * kReplicates;
-    const std::uint64_t rounds = (units + turn - 1) / turn;
+  const std::uint64_t maximum = std::uint64_t{1} << LogSequence(strategy.points);
+  if (own + (rest > 0) > maximum) {
+    const std::uint64_t cycle = maximum * kReplicates;
+    const std::uint64_t rounds = (units + cycle - 1) / cycle;
     return fmt::format(", {} randomisations of up to {} {}, the most that it stratifies",
-                       rounds * kReplicates, most, what);
+                       rounds * kReplicates, maximum, what);
   }
   std::string text = fmt::format(", {} randomisations of {}", kReplicates, own);
   if (rest > 0) text += fmt::format(" or {}", own + 1);
@@ -48,14 +48,14 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
 
 }  // namespace
 
-PointsParameters MakePointsParameters(Points points) {
-  PointsParameters p;
+SamplerParameters MakeSamplerParameters(Points points) {
+  SamplerParameters p;
   p.group_shift = LogSequence(points);
   if (points == Points::kPmj02) p.pmj02 = Pmj02Table().data();
   return p;
 }
 
-PairParameters MakePairParameters(const Strategy& strategy) {
+AntitheticParameters MakeAntitheticParameters(const Strategy& strategy) {
   if (strategy.pairs == Pairs::kNone) return {};
   constexpr std::uint64_t kPixel =
       Bit(Dimension::kFilm) | Bit(Dimension::kLens) | Bit(Dimension::kTime);

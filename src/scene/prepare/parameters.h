@@ -10,8 +10,8 @@
 
 namespace lanelight {
 
-PointsParameters MakePointsParameters(Points points);
-PairParameters MakePairParameters(const Strategy& strategy);
+SamplerParameters MakeSamplerParameters(Points points);
+AntitheticParameters MakeAntitheticParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
 /// Returns the number of light samples of which a plan with these features keeps one.

@@ -56,7 +56,7 @@ void SetAnchors(const CompiledScene& scene, LightChances& chances) {
 }
 
 // Returns the share of texels with equal solid angles.
-double ShareOf(const Environment& environment) {
+double FractionOf(const Environment& environment) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i + 2 < environment.rgb.size(); i += 3) {
     double light = 0;
@@ -69,7 +69,7 @@ double ShareOf(const Environment& environment) {
 
 // Flat shapes are seen at half their area on average, balls at a quarter. The scene's
 // half diagonal is between 1 and 2: nothing in it is seen from much nearer.
-double ShareOf(const CompiledScene& scene, const LightRecord& light) {
+double FractionOf(const CompiledScene& scene, const LightRecord& light) {
   const bool is_ball = static_cast<LightShape>(light.shape) == LightShape::kSphere;
   const Vec3d middle = BoundsOf(scene.geometry, light).Center();
   const double square = std::max(1.0, Dot(middle, middle));
@@ -80,9 +80,10 @@ double ShareOf(const CompiledScene& scene, const LightRecord& light) {
 double Share(const CompiledScene& scene, const LightRecord& light) {
   const auto shape = static_cast<LightShape>(light.shape);
   if (HasTrait(shape, kDeltaLight)) return 0;
-  if (HasTrait(shape, kEmittingShape)) return ShareOf(scene, light);
+  if (HasTrait(shape, kEmittingShape)) return FractionOf(scene, light);
   if (light.environment < 0) return 1;
-  return ShareOf(scene.lights.environments[static_cast<std::size_t>(light.environment)]);
+  return FractionOf(
+      scene.lights.environments[static_cast<std::size_t>(light.environment)]);
 }
 
 }  // namespace
@@ -161,10 +162,10 @@ double ChanceOfLight(const PreparedScene& scene) {
   const CompiledScene& compiled = *scene.compiled;
   double power = 0, squares = 0;
   for (std::size_t i = 0; i < compiled.lights.lights.size(); ++i) {
-    const double share = Share(compiled, compiled.lights.lights[i]);
-    const double p = share > 0 ? compiled.lights.power[i] : 0;
+    const double fraction = Share(compiled, compiled.lights.lights[i]);
+    const double p = fraction > 0 ? compiled.lights.power[i] : 0;
     power += p;
-    if (p > 0) squares += p * p / share;
+    if (p > 0) squares += p * p / fraction;
   }
   return squares > 0 ? std::min(1.0, power * power / squares) : 1;
 }

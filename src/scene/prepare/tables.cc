@@ -9,12 +9,12 @@ namespace lanelight {
 
 StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   StrategyTables tables;
-  tables.shadow_worth.floor = static_cast<float>(scene.strategy.ShadowFloor());
+  tables.shadow_threshold.floor = static_cast<float>(scene.strategy.ShadowFloor());
   return tables;
 }
 
-AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,
-                                        double relative, double exposure) {
+AlignedVector<float> InverseShadowThreshold(const ImageGuess& image, std::uint32_t pixels,
+                                            double relative, double exposure) {
   AlignedVector<float> inverse;
   if (image.black() || !(relative > 0)) return inverse;
   inverse.reserve(std::size_t{pixels} * 3);

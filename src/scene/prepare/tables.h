@@ -39,26 +39,26 @@ struct PathValues {
 /// For shadow-roulette=contribution. The root of the sum over the channels of the squares
 /// of what a ray carries times `inverse`, at least `floor`, is the probability with which
 /// it is traced.
-struct ShadowWorth {
+struct ShadowThreshold {
   float floor = 0.1f;            // least probability, in (0, 1]
   AlignedVector<float> inverse;  // 3 per pixel of the full image; empty = all are traced
 };
 
 /// Tracing a ray that adds v to a pixel of colour I with probability s adds v^2 (1/s - 1)
 /// to the variance of the sample. It saves (1 - s) of the ray's cost t. Variance times
-/// cost is least with s = v / worth, where
-///   worth = sqrt(variance of a sample * t / cost of a sample)
+/// cost is least with s = v / pixel_threshold, where
+///   pixel_threshold = sqrt(variance of a sample * t / cost of a sample)
 /// (the efficiency-optimised roulette of Veach 1997, section 10.4, per ray). As relative
 /// errors weigh it, with the same relative variance in all pixels,
-///   worth_c = sqrt(I_c^2 + epsilon) * relative,   3 inverse_c^2 = 1 / worth_c^2
+///   threshold_c = sqrt(I_c^2 + epsilon) * relative,   3 inverse_c^2 = 1 / threshold_c^2
 /// relative: sqrt(relative variance of a sample * t / cost of a sample); 0 = trace all.
 /// exposure: factor from what rays carry to the colours that `image` was made of.
-AlignedVector<float> InverseShadowWorth(const ImageGuess& image, std::uint32_t pixels,
-                                        double relative, double exposure);
+AlignedVector<float> InverseShadowThreshold(const ImageGuess& image, std::uint32_t pixels,
+                                            double relative, double exposure);
 
 struct StrategyTables {
-  PathValues path_values;    // adjoint, efficiency: set by the training passes
-  ShadowWorth shadow_worth;  // shadow-roulette=contribution: by a training pass
+  PathValues path_values;            // adjoint, efficiency: set by the training passes
+  ShadowThreshold shadow_threshold;  // shadow-roulette=contribution: by a training pass
 };
 
 /// Returns the tables that the scene's strategy needs, before training.

@@ -56,7 +56,7 @@ inline constexpr std::uint32_t kGlossyKinds =
     KindBits(kPlainShading, kSpecularOnly | kWalks | kInMedium | kEvenSides |
                                 kRefracting | kTabulated | kFibre);
 /// Smallest roughness of metals that are reused: narrower lobes contribute to few paths.
-inline constexpr float kLeastGlossyAlpha = 0.1f;
+inline constexpr float kMinGlossyAlpha = 0.1f;
 
 /// Returns the fields of a first vertex that are kept. `fibres`: some materials may be
 /// hair. `measured`: some have tables by wavelength.
@@ -138,7 +138,7 @@ struct PairColumns {
 };
 
 /// Lanes of the widest vectors of all targets.
-inline constexpr std::uint32_t kMostLanes = 16;
+inline constexpr std::uint32_t kMaxLanes = 16;
 
 struct Wave;
 
@@ -171,11 +171,11 @@ struct Block {
   KeptColumns first_columns, glossy_columns;
 
   const std::uint32_t* records = nullptr;  // of the block
-  std::uint32_t size = 0;                  // at most kMostReusedPaths
+  std::uint32_t size = 0;                  // at most kMaxReusedPaths
   std::uint32_t sample = 0;                // of the task
   // Roulette on second vertices: a uniform number of the block, and from what brightness
   // on they are kept (kernels/reuse/block-inl.h).
-  float u = 0, surely_kept = 0;
+  float u = 0, certainly_kept = 0;
 
   // Receivers: records with a first vertex, by kind of its material, each kind padded to
   // whole vectors by its last.
@@ -183,7 +183,7 @@ struct Block {
   std::uint32_t num_receivers = 0;
   // Second vertices that carry light, a row of pairs each, and then more rows of glossy
   // ones, which share the rays of the first.
-  SuffixRow rows[2 * kMostReusedPaths];
+  SuffixRow rows[2 * kMaxReusedPaths];
   std::uint32_t num_suffixes = 0, num_rows = 0;
   // Pair of row s and receiver r: s * num_receivers + r.
   PairColumns pairs;

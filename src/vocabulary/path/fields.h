@@ -85,7 +85,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
   LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
   LANELIGHT_XYZ(X, f32, tv, ({kBumps, kTextureFootprints}), kSurface, (), "dp/dv, not normalised")       \
-  LANELIGHT_4(X, f32, spread, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/camera.h)") \
+  LANELIGHT_4(X, f32, footprint, ({kTextureFootprints}), kSurface, (), "footprint of a pixel in surface coordinates: du/dx, du/dy, dv/dx, dv/dy (src/scene/compiled/camera.h)") \
   X(f32, uv_u, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(f32, uv_v, ({kUv}), kSurface, (), "surface coordinate")                             \
   X(u32, material, ({kScatters, kAov}), kSurface, (), "material index")                 \
@@ -137,8 +137,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, kept, ({kLightCandidates}), kBounce, (), "its radiance / pdf")    \
   X(f32, kept_pdf, ({kLightCandidates}), kBounce, (), "its pdf_sa, as a single candidate") \
   X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
-  X(f32, kept_worth, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
-  X(f32, worth_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
+  X(f32, candidate_weight, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
+  X(f32, candidate_weight_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
   X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
@@ -246,8 +246,8 @@ inline constexpr FieldSet kTangent = {Field::tg_x, Field::tg_y, Field::tg_z};
 inline constexpr FieldSet kTangents = {Field::tg_x, Field::tg_y, Field::tg_z,
                                        Field::tv_x, Field::tv_y, Field::tv_z};
 inline constexpr FieldSet kUv = {Field::uv_u, Field::uv_v};
-inline constexpr FieldSet kSpread = {Field::spread_0, Field::spread_1, Field::spread_2,
-                                     Field::spread_3};
+inline constexpr FieldSet kFootprint = {Field::footprint_0, Field::footprint_1,
+                                        Field::footprint_2, Field::footprint_3};
 inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
                                          Field::color0_b,       Field::color1_r,
                                          Field::color1_g,       Field::color1_b,
@@ -270,9 +270,9 @@ inline constexpr FieldSet kLightSample = {Field::ls_x,        Field::ls_y,  Fiel
                                           Field::ls_distance, Field::ls_r,  Field::ls_g,
                                           Field::ls_b,        Field::ls_pdf};
 inline constexpr FieldSet kKeptSample = {
-    Field::kept_x,     Field::kept_y,    Field::kept_z, Field::kept_distance,
-    Field::kept_r,     Field::kept_g,    Field::kept_b, Field::kept_pdf,
-    Field::kept_light, Field::kept_worth};
+    Field::kept_x,     Field::kept_y,          Field::kept_z, Field::kept_distance,
+    Field::kept_r,     Field::kept_g,          Field::kept_b, Field::kept_pdf,
+    Field::kept_light, Field::candidate_weight};
 inline constexpr FieldSet kAov = {
     Field::aov_albedo_r, Field::aov_albedo_g, Field::aov_albedo_b, Field::aov_n_x,
     Field::aov_n_y,      Field::aov_n_z,      Field::aov_depth};

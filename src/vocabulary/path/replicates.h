@@ -35,10 +35,10 @@ struct SampleGroups {
   }
   /// Returns the number of samples of a replicate among the first `samples`.
   std::uint64_t InReplicate(std::uint64_t samples, std::uint32_t replicate) const {
-    const std::uint64_t turn = std::uint64_t{unit} * kReplicates;
+    const std::uint64_t cycle = std::uint64_t{unit} * kReplicates;
     const std::uint64_t before = std::uint64_t{unit} * replicate;
-    const std::uint64_t rest = samples % turn;
-    return samples / turn * unit +
+    const std::uint64_t rest = samples % cycle;
+    return samples / cycle * unit +
            std::min<std::uint64_t>(unit, rest > before ? rest - before : 0);
   }
   /// Returns the number of independent observations among the first `samples`.

@@ -76,7 +76,7 @@ class SamplePlanes {
 
 /// Sample points: a randomisation is a sequence of 2^group_shift points, which samples of
 /// a pixel share as src/vocabulary/path/replicates.h says.
-struct PointsParameters {
+struct SamplerParameters {
   std::uint32_t group_shift = 0;
   const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
   bool by_tile = false;                  // pixels of a tile share their wavelengths
@@ -84,7 +84,7 @@ struct PointsParameters {
 
 /// Antithetic pairs: bit d set = dimension d (src/vocabulary/path/dimensions.h) is shared
 /// by samples 2k and 2k+1 and reflected, at depths below `depths`.
-struct PairParameters {
+struct AntitheticParameters {
   std::uint64_t dimensions = 0;
   std::uint32_t depths = 0;
 
@@ -103,7 +103,7 @@ struct MisParameters {
 
 /// Copies that one camera sample may become, itself included. Every sample has as many
 /// rows in the sample buffer.
-inline constexpr std::uint32_t kMostCopies = 8;
+inline constexpr std::uint32_t kMaxSplitPaths = 8;
 
 /// First scattering event after which roulette=throughput is played, by default.
 inline constexpr std::int32_t kThroughputFirst = 2;
@@ -126,8 +126,8 @@ struct RunParameters {
   float exposure = 1;  // factor from radiance to film
   FeatureSet features;
   SamplePlanes planes;  // of a finished sample
-  PointsParameters points;
-  PairParameters pairs;
+  SamplerParameters points;
+  AntitheticParameters pairs;
   MisParameters mis;
   RouletteParameters roulette;
   std::uint32_t candidates = 1;  // light samples of which one is kept

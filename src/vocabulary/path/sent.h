@@ -16,7 +16,7 @@ inline float* ColorOf(const Wave& wave, std::uint32_t record) {
 
 /// Returns the largest channel of the radiance that a second vertex offers to other
 /// paths; 0 if it offers none.
-inline float MostSent(const Wave& wave, std::uint32_t record) {
+inline float MaxSent(const Wave& wave, std::uint32_t record) {
   const Block& block = *wave.block;
   const std::uint32_t state = block.second.state[record];
   if (!Serves(state)) return 0;

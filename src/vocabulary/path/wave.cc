@@ -11,8 +11,8 @@ ColumnLists::ColumnLists(const PathColumns& path, const FeatureSet& features) {
     const FirstValue first = FieldFirstValue(field);
     if (IsCopied(lifetime)) copied.Add(column);
     if (lifetime == Lifetime::kGathered) {
-      copy_values[begun_by_copies.count] = first.bits;
-      begun_by_copies.Add(column);
+      copy_values[begun_by_split_paths.count] = first.bits;
+      begun_by_split_paths.Add(column);
     }
     if (!IsCarried(lifetime)) return;
     carried.Add(column);

@@ -98,7 +98,7 @@ struct ColumnLists {
   ColumnList copied;                       // to a copy of a path
   ColumnList begun;                        // by the camera stage, ...
   std::uint32_t first_values[kNumFields];  // ... with these bits, in the same order
-  ColumnList begun_by_copies;              // by a copy of a path ...
+  ColumnList begun_by_split_paths;         // by a copy of a path ...
   std::uint32_t copy_values[kNumFields];   // ... with these
 
   ColumnLists() = default;
@@ -111,8 +111,8 @@ using StageFn = void (*)(Wave&);
 /// Kernels of the plan that find the nearest surface of a ray, what it is like there, and
 /// whether anything blocks a shadow ray: for stages that send rays of their own.
 struct RayKernels {
-  static constexpr std::uint32_t kMost = 8;
-  StageFn closest[kMost] = {}, surface[kMost] = {}, shadow[kMost] = {};
+  static constexpr std::uint32_t kMaxKernels = 8;
+  StageFn closest[kMaxKernels] = {}, surface[kMaxKernels] = {}, shadow[kMaxKernels] = {};
   std::uint32_t num_closest = 0, num_surface = 0, num_shadow = 0;
 };
 

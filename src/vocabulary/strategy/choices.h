@@ -15,8 +15,8 @@ namespace lanelight {
 #define LANELIGHT_CONSTANT_TERMINATION 0.25
 inline constexpr double kConstantTermination = LANELIGHT_CONSTANT_TERMINATION;
 /// Camera rays per path of seen-lights=apart.
-#define LANELIGHT_SEEN_LIGHT_RAYS 16
-inline constexpr int kSeenLightRays = LANELIGHT_SEEN_LIGHT_RAYS;
+#define LANELIGHT_VISIBLE_LIGHT_RAYS 16
+inline constexpr int kVisibleLightRays = LANELIGHT_VISIBLE_LIGHT_RAYS;
 /// Light samples of which light-candidates=resampled keeps one, unless told otherwise.
 #define LANELIGHT_LIGHT_CANDIDATES 4
 inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDATES;
@@ -84,11 +84,11 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(T, K, Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
     "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018")
 
-#define LANELIGHT_SEEN_LIGHTS(X, T, K)                                                          \
+#define LANELIGHT_VISIBLE_LIGHTS(X, T, K)                                                          \
   X(T, K, Paths, PLAIN, ({}), "paths", "", "light that the camera sees itself by the camera rays of the paths", \
     "1/N sum Le(x_i)", "")                                                                \
-  X(T, K, Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
-    "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_SEEN_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
+  X(T, K, Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_VISIBLE_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
+    "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_VISIBLE_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
 
 #define LANELIGHT_LIGHT_POINTS(X, T, K)                                                         \
   X(T, K, Area, PLAIN, ({}), "area", "", "points on emitting triangles and rectangles uniform over the area (default)", \
@@ -153,7 +153,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(Control, control, "control", LANELIGHT_CONTROLS)                                \
   X(Roulette, roulette, "roulette", LANELIGHT_ROULETTES)                            \
   X(LightSelection, light_selection, "light-selection", LANELIGHT_LIGHT_SELECTIONS) \
-  X(SeenLights, seen_lights, "seen-lights", LANELIGHT_SEEN_LIGHTS)                  \
+  X(VisibleLights, visible_lights, "seen-lights", LANELIGHT_VISIBLE_LIGHTS)         \
   X(LightPoints, light_points, "light-points", LANELIGHT_LIGHT_POINTS)              \
   X(LightCandidates, light_candidates, "light-candidates",                          \
     LANELIGHT_LIGHT_CANDIDATE_CHOICES)                                              \

@@ -57,7 +57,7 @@ std::string ToText(const Strategy& s) {
     text += s.coefficient ? fmt::format(",c={}", *s.coefficient) : ",c=optimal";
   }
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
-                      Name(s.light_selection), Name(s.seen_lights));
+                      Name(s.light_selection), Name(s.visible_lights));
   return text + LightText(s) +
          fmt::format(",distances={},reuse={},decide={}", Name(s.distances), ReuseText(s),
                      Name(s.decide));

@@ -17,11 +17,11 @@ struct SourceLocation;  // src/base/core/source_location.h
 enum class Heuristic : std::uint8_t { kPower, kBalance };
 inline constexpr const char* kHeuristicNames[] = {"power", "balance"};
 
-inline constexpr std::uint32_t kMostLightCandidates = 64;
+inline constexpr std::uint32_t kMaxLightCandidates = 64;
 /// Numbers of paths that reuse=block connects: powers of two.
 /// Side of the tiles, in pixels, whose paths it may connect.
 inline constexpr std::int32_t kReuseTile = 16;
-inline constexpr std::uint32_t kLeastReusedPaths = 2, kMostReusedPaths = 64;
+inline constexpr std::uint32_t kMinReusedPaths = 2, kMaxReusedPaths = 64;
 
 struct Strategy {
   Directions directions = Directions::kMis;
@@ -40,11 +40,11 @@ struct Strategy {
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   double scale = 1;                    // of kThroughput: of the throughput
   LightSelection light_selection = LightSelection::kPower;
-  SeenLights seen_lights = SeenLights::kApart;
+  VisibleLights visible_lights = VisibleLights::kApart;
   LightPoints light_points = LightPoints::kArea;
   LightCandidates light_candidates = LightCandidates::kSingle;
   std::uint32_t candidates =
-      kDefaultLightCandidates;  // of kResampled: 2 to kMostLightCandidates
+      kDefaultLightCandidates;  // of kResampled: 2 to kMaxLightCandidates
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
   ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
   std::optional<double> shadow_floor;  // of kContribution: least probability of a ray

@@ -127,11 +127,12 @@ class Parser {
   }
 
   // Returns whether there are arguments, of which a choice takes at most so many.
-  bool Has(const Parts& parts, std::size_t most) const {
-    if (parts.size() <= most + 1) return parts.size() > 1;
-    if (most == 0) Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));
+  bool Has(const Parts& parts, std::size_t max_parts) const {
+    if (parts.size() <= max_parts + 1) return parts.size() > 1;
+    if (max_parts == 0)
+      Fail(fmt::format("\"{}\" of {} takes no argument", parts[0], key_));
     Fail(fmt::format("\"{}\" of {} takes at most {} arguments after ':'", parts[0], key_,
-                     most));
+                     max_parts));
   }
 
   template <class Choice>
@@ -160,7 +161,7 @@ class Parser {
     strategy_.candidates = kDefaultLightCandidates;
     if (!Has(parts, candidates == LightCandidates::kSingle ? 0 : 1)) return;
     const double m =
-        Number("light-candidates=resampled", parts[1], 2, kMostLightCandidates);
+        Number("light-candidates=resampled", parts[1], 2, kMaxLightCandidates);
     if (m != std::floor(m)) Fail("the number of light candidates must be whole");
     strategy_.candidates = static_cast<std::uint32_t>(m);
   }
@@ -169,7 +170,7 @@ class Parser {
     strategy_.reused_paths = kDefaultReusedPaths;
     strategy_.block_layout = BlockLayout::kRandom;
     if (!Has(parts, reuse == Reuse::kNone ? 0 : 2)) return;
-    const double n = Number("reuse=block", parts[1], kLeastReusedPaths, kMostReusedPaths);
+    const double n = Number("reuse=block", parts[1], kMinReusedPaths, kMaxReusedPaths);
     strategy_.reused_paths = static_cast<std::uint32_t>(n);
     if (n != strategy_.reused_paths || !std::has_single_bit(strategy_.reused_paths)) {
       Fail(

@@ -66,7 +66,7 @@ TEST_CASE("alias table: hand-computed", "[core][alias]") {
   CHECK(table.Pick(0.9999) == 1);
 }
 
-TEST_CASE("alias table: picking follows the probabilities", "[core][alias]") {
+TEST_CASE("alias table: samples follow the probabilities", "[core][alias]") {
   const std::vector<double> weights = {0, 2, 1, 0, 5};
   const AliasTable table = BuildAliasTable(weights);
   std::vector<int> count(weights.size(), 0);
@@ -77,7 +77,7 @@ TEST_CASE("alias table: picking follows the probabilities", "[core][alias]") {
   }
 }
 
-TEST_CASE("alias table: refuses weights that are no distribution", "[core][alias]") {
+TEST_CASE("alias table: rejects weights that are not a distribution", "[core][alias]") {
   CHECK_THROWS_AS(BuildAliasTable(std::vector<double>{0, 0}), CheckFailure);
   CHECK_THROWS_AS(BuildAliasTable(std::vector<double>{1, -1}), CheckFailure);
   CHECK_THROWS_AS(BuildAliasTable(std::vector<double>{}), CheckFailure);

@@ -25,7 +25,7 @@ TEST_CASE("ticks run forward at a steady rate", "[clock]") {
   CHECK(measured > 0.019);
 }
 
-TEST_CASE("processor time counts work, not sleep", "[clock]") {
+TEST_CASE("processor time excludes sleep", "[clock]") {
   const double process = ProcessCpuSeconds(), thread = ThreadCpuSeconds();
   CHECK(process > 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(30));

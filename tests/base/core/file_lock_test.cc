@@ -31,10 +31,10 @@ TEST_CASE("a lock has one owner at a time", "[core][lock]") {
   CHECK(a.Take("z"));
 }
 
-TEST_CASE("a lock goes where it is moved to", "[core][lock]") {
+TEST_CASE("a moved lock has the new owner", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::optional<HeldLock> kept;
+  std::optional<ScopedLock> kept;
   {
     auto x = a.Take("x");
     REQUIRE(x);
@@ -48,7 +48,7 @@ TEST_CASE("a lock goes where it is moved to", "[core][lock]") {
   CHECK(b.Take("y"));
 }
 
-TEST_CASE("a lock goes away with its object, however often the file was opened",
+TEST_CASE("a lock is released with its object, however often the file is open",
           "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
@@ -66,7 +66,7 @@ TEST_CASE("a lock goes away with its object, however often the file was opened",
   CHECK(one.Take("x"));
 }
 
-TEST_CASE("locks of a process that is killed are free at once", "[core][lock]") {
+TEST_CASE("locks of a killed process are released immediately", "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
   int ready[2];
@@ -95,27 +95,27 @@ TEST_CASE("locks of a process that is killed are free at once", "[core][lock]") 
   close(ready[1]);
 }
 
-TEST_CASE("waiting ends when it is told to", "[core][lock]") {
+TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
   const auto held = a.Take("x");
   std::vector<double> waited;
-  const auto go_on = [&](double seconds) {
+  const auto keep_waiting = [&](double seconds) {
     waited.push_back(seconds);
     return waited.size() < 4;
   };
-  CHECK_FALSE(b.Wait("x", go_on));
+  CHECK_FALSE(b.Wait("x", keep_waiting));
   REQUIRE(waited.size() == 4);
   CHECK(waited[0] < waited[1]);
   CHECK(waited[3] >= 0.007);  // pauses of 1, 2 and 4 ms
-  CHECK(b.Wait("y", go_on));
+  CHECK(b.Wait("y", keep_waiting));
   CHECK(waited.size() == 4);
 }
 
-TEST_CASE("ten thousand locks take one file", "[core][lock]") {
+TEST_CASE("ten thousand locks use one file", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::vector<HeldLock> taken;
+  std::vector<ScopedLock> taken;
   for (int i = 0; i < 10000; ++i) {
     auto lock = a.Take("cell " + std::to_string(i));
     REQUIRE(lock);
@@ -127,7 +127,7 @@ TEST_CASE("ten thousand locks take one file", "[core][lock]") {
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("a lock file knows whether its path still names it", "[core][lock]") {
+TEST_CASE("a lock file detects that its path was replaced", "[core][lock]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a");
   const LockFile one(path);
@@ -141,7 +141,7 @@ TEST_CASE("a lock file knows whether its path still names it", "[core][lock]") {
                     Catch::Contains("none/a") && Catch::Contains("No such file"));
 }
 
-TEST_CASE("a note is replaced as a whole", "[core][lock]") {
+TEST_CASE("a note in a lock file is replaced completely", "[core][lock]") {
   const TemporaryFolder folder;
   LockFile file(folder.File("a"));
   CHECK(file.Note().empty());

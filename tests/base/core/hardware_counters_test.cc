@@ -22,7 +22,7 @@ void Work() {
 
 }  // namespace
 
-TEST_CASE("the processor's counters count, or there is a reason", "[counters]") {
+TEST_CASE("hardware counters are available, or the reason is given", "[counters]") {
   const CounterGroup group(HardwareEvents());
   CounterValues before{}, after{};
   if (!group.available()) {
@@ -65,7 +65,7 @@ TEST_CASE("a group of the kernel's own events is read in order", "[counters]") {
 }
 #endif
 
-TEST_CASE("missing counters come with what would bring them", "[counters]") {
+TEST_CASE("missing hardware counters are reported with a remedy", "[counters]") {
   CHECK_THAT(WhyNoCounters(EACCES),
              Contains("perf_event_paranoid") && Contains("EACCES"));
   CHECK_THAT(WhyNoCounters(ENOENT), Contains("virtual"));

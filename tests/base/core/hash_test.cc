@@ -18,7 +18,7 @@ std::string BytesToHash(std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("hashes are those of the library", "[core][hash]") {
+TEST_CASE("hashes equal those of the library", "[core][hash]") {
   for (std::size_t size : {0u, 1u, 16u, 240u, 241u, 5000u}) {
     const std::string bytes = BytesToHash(size);
     CHECK(Hash64(bytes) == XXH3_64bits(bytes.data(), size));
@@ -28,7 +28,7 @@ TEST_CASE("hashes are those of the library", "[core][hash]") {
   CHECK(Hash128{0xab, 0xcd}.Hex() == "00000000000000cd00000000000000ab");
 }
 
-TEST_CASE("pieces have the hash of the whole", "[core][hash]") {
+TEST_CASE("hashing in pieces gives the hash of the whole", "[core][hash]") {
   const std::string bytes = BytesToHash(3000);
   StreamHash hash;
   for (std::size_t begin = 0; begin < bytes.size(); begin += 7) {
@@ -37,7 +37,7 @@ TEST_CASE("pieces have the hash of the whole", "[core][hash]") {
   CHECK(hash.Digest() == Hash64(bytes));
 }
 
-TEST_CASE("where an array ends is part of its hash", "[core][hash]") {
+TEST_CASE("the length of an array is part of its hash", "[core][hash]") {
   const auto digest = [](const std::vector<int>& a, const std::vector<int>& b) {
     StreamHash hash;
     hash.AddArray(a);

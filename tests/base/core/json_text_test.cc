@@ -20,7 +20,7 @@ std::string Complaint(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("JSON is read up to a depth that no copy of it can overflow") {
+TEST_CASE("deeply nested JSON is refused before it overflows the stack") {
   CHECK(ParseJson(Nested(kDeepestJson)).is_array());
   for (const std::size_t deep : {std::size_t{kDeepestJson + 1}, std::size_t{1000000}}) {
     CHECK(Complaint(Nested(deep)) ==
@@ -31,7 +31,7 @@ TEST_CASE("JSON is read up to a depth that no copy of it can overflow") {
   CHECK_THAT(Complaint(objects), Catch::Contains("64 deep"));
 }
 
-TEST_CASE("JSON that is not as it should be is refused without a library's words") {
+TEST_CASE("malformed JSON is refused with a message of our own") {
   CHECK(Complaint("{\"a\": 1}") == "");
   CHECK(Complaint("{\"a\" 1}") == "error: 'f' is damaged: it is not JSON from byte 6 on");
   CHECK_THAT(Complaint("{\"b\": 1}"), Catch::Contains("a value is missing"));

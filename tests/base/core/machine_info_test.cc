@@ -32,7 +32,7 @@ MachineInfo Small() {
 
 }  // namespace
 
-TEST_CASE("the processor is the one of /proc/cpuinfo", "[machine]") {
+TEST_CASE("the processor's name is read from /proc/cpuinfo", "[machine]") {
   CHECK(ProcessorIn(kX86) == "Intel(R) Xeon(R) CPU @ 2.20GHz");
   CHECK(ProcessorIn(kArm) ==
         "ARM implementer 0x41 part 0xd05 and ARM implementer 0x41 part 0xd0b");
@@ -41,7 +41,7 @@ TEST_CASE("the processor is the one of /proc/cpuinfo", "[machine]") {
         std::nullopt);
 }
 
-TEST_CASE("control groups limit a process, the tightest of them", "[machine]") {
+TEST_CASE("the tightest control group limits a process", "[machine]") {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::string& text) {
     const std::filesystem::path path = folder.File(name);
@@ -66,7 +66,7 @@ TEST_CASE("control groups limit a process, the tightest of them", "[machine]") {
   CHECK(LimitsOfGroup(folder.File("a"), "").quota == 1.5);
 }
 
-TEST_CASE("one line says what a machine is", "[machine]") {
+TEST_CASE("a machine is described in one line", "[machine]") {
   MachineInfo machine = Small();
   CHECK(MachineText(machine) == "AMD EPYC, 4 cores, 7.5 GiB, load 0.25");
   machine.quota = 1.5;
@@ -78,8 +78,7 @@ TEST_CASE("one line says what a machine is", "[machine]") {
         "unknown processor, cores unknown, memory unknown, load unknown");
 }
 
-TEST_CASE("a machine that is met again is the same one, at its highest load",
-          "[machine]") {
+TEST_CASE("records of the same machine merge, with the highest load", "[machine]") {
   std::vector<MachineInfo> machines;
   MachineInfo other = Small(), idle = Small(), busy = Small(), unmeasured = Small();
   other.cores = 8;
@@ -95,8 +94,7 @@ TEST_CASE("a machine that is met again is the same one, at its highest load",
   CHECK(machines[1].cores == 8);
 }
 
-TEST_CASE("this machine has cores and memory, and a load where there is one",
-          "[machine]") {
+TEST_CASE("this machine reports cores, memory and load", "[machine]") {
   const MachineInfo& machine = ThisMachine();
   REQUIRE(machine.cores);
   CHECK(*machine.cores >= 1);

@@ -41,7 +41,7 @@ std::string TextOf(const fs::path& path) {
 
 }  // namespace
 
-TEST_CASE("only one file knows processors", "[machine]") {
+TEST_CASE("only one file contains processor-specific code", "[machine]") {
   const fs::path root = LANELIGHT_SOURCE_DIR;
   int files = 0;
   for (const char* top : {"src", "kernels", "bench", "tests"}) {
@@ -58,7 +58,7 @@ TEST_CASE("only one file knows processors", "[machine]") {
   CHECK(files > 600);
 }
 
-TEST_CASE("words of one processor are found", "[machine]") {
+TEST_CASE("processor-specific code is detected", "[machine]") {
   CHECK(MachineWord("#if defined(__x86_64__)\n") == "__x86_64__");
   CHECK(MachineWord("x = _mm256_add_ps(x, y);") == "_mm256_add_ps");
   CHECK(MachineWord("#include <immintrin.h>") == "immintrin");
@@ -69,19 +69,19 @@ TEST_CASE("words of one processor are found", "[machine]") {
 }
 
 #if defined(__x86_64__) || defined(__aarch64__)
-TEST_CASE("subnormal numbers are flushed, and are not afterwards", "[machine]") {
-  volatile float least = std::numeric_limits<float>::min();
-  volatile float subnormal = least / 4, scale = 1024, half = 0.5f;
+TEST_CASE("subnormal numbers are flushed only within the scope", "[machine]") {
+  volatile float minimum = std::numeric_limits<float>::min();
+  volatile float subnormal = minimum / 4, scale = 1024, half = 0.5f;
   REQUIRE(subnormal > 0);
   {
     const FlushToZero flush;
-    const volatile float result = least * half, operand = subnormal * scale;
+    const volatile float result = minimum * half, operand = subnormal * scale;
     CHECK(result == 0);
     CHECK(operand == 0);
   }
-  const volatile float result = least * half, operand = subnormal * scale;
+  const volatile float result = minimum * half, operand = subnormal * scale;
   CHECK(result > 0);
-  CHECK(operand == 256 * least);
+  CHECK(operand == 256 * minimum);
 }
 #endif
 

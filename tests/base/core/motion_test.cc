@@ -31,16 +31,16 @@ class Numbers {
 };
 
 double FarthestEntry(const Transform& a, const Transform& b) {
-  double most = 0;
+  double maximum = 0;
   for (int i = 0; i < 16; ++i) {
-    most = std::max(most, std::abs(a(i / 4, i % 4) - b(i / 4, i % 4)));
+    maximum = std::max(maximum, std::abs(a(i / 4, i % 4) - b(i / 4, i % 4)));
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace
 
-TEST_CASE("motions go as quaternions do", "[core]") {
+TEST_CASE("motions agree with quaternion interpolation", "[core]") {
   Numbers random;
   for (int i = 0; i < 300; ++i) {
     const bool mirrored = i % 3 == 0;
@@ -55,7 +55,7 @@ TEST_CASE("motions go as quaternions do", "[core]") {
   }
 }
 
-TEST_CASE("a motion turns the shorter way, evenly", "[core]") {
+TEST_CASE("a rotation takes the shorter way at constant speed", "[core]") {
   const Vec3d axis = {0.6, 0, 0.8};
   for (const double degrees : {1e-7, 30.0, 179.9, 180.0}) {
     INFO(degrees);
@@ -73,7 +73,7 @@ TEST_CASE("a motion turns the shorter way, evenly", "[core]") {
   CHECK(straight.Deviation(1) == 0);
 }
 
-TEST_CASE("between the ends of parts points keep near the straight way", "[core]") {
+TEST_CASE("within a part, points stay close to the straight line", "[core]") {
   Numbers random;
   double closest = 1e300;
   for (int i = 0; i < 100; ++i) {

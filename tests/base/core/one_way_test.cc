@@ -41,7 +41,7 @@ const std::vector<Way>& Ways() {
 
 }  // namespace
 
-TEST_CASE("what is done in one way is done in no other", "[core]") {
+TEST_CASE("each task has a single implementation", "[core]") {
   const fs::path root = LANELIGHT_SOURCE_DIR;
   std::map<std::string, std::set<std::string>> found;
   for (const char* top : {"src", "kernels"}) {

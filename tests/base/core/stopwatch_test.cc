@@ -6,7 +6,7 @@
 
 namespace lanelight {
 
-TEST_CASE("a stopwatch counts the wall clock and the processor apart", "[core]") {
+TEST_CASE("a stopwatch measures wall-clock and processor time separately", "[core]") {
   Stopwatch watch;
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   CHECK(watch.Seconds() >= 0.05);

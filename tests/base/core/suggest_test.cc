@@ -28,13 +28,13 @@ TEST_CASE("the nearest name is suggested, a far one is not", "[parse]") {
   CHECK(NearestName(std::string(100000, 'a'), known) == "");
 }
 
-TEST_CASE("quoted text is short and printable", "[parse]") {
+TEST_CASE("quoted text is shortened and printable", "[parse]") {
   CHECK(Quoted("a\nb") == "\"a?b\"");
   CHECK(Quoted(std::string(1000, 'x')).size() < 80);
   CHECK(QuotedList({"a", "b"}) == "\"a\", \"b\"");
 }
 
-TEST_CASE("names that the scene should define are not called supported", "[parse]") {
+TEST_CASE("names that the scene must define are not listed as supported", "[parse]") {
   const auto message = [](const std::vector<std::string>& defined) -> std::string {
     try {
       ThrowNotDefined({}, "named material", "later", defined);

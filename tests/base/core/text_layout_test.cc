@@ -30,7 +30,7 @@ TEST_CASE("lines break between words and after commas of lists", "[core]") {
   CHECK(Wrapped("±± ±±", 5) == "±± ±±");
 }
 
-TEST_CASE("what goes on in a row stands below its text", "[core]") {
+TEST_CASE("continued rows are indented below their text", "[core]") {
   CHECK(LabelledRow("error", "1 %", 80) == "error      1 %\n");
   CHECK(LabelledRow("error", "one two", 15) == "error      one\n           two\n");
   CHECK(LabelledRow("stage_longer", "one two", 22, 6) == "stage_longer one two\n");
@@ -40,7 +40,7 @@ TEST_CASE("what goes on in a row stands below its text", "[core]") {
         "stage_longer\n       one two\n");
 }
 
-TEST_CASE("tables fit their width, and lose no column", "[core]") {
+TEST_CASE("tables fit their width and keep all columns", "[core]") {
   const std::vector<std::vector<std::string>> lines = {
       {"scene", "first", "second", "third"}, {"box", "1", "22", "±3"}};
   const std::string wide = TextTable(lines, {80, 1, 0});

@@ -29,7 +29,7 @@ std::string Rewritten(const Type& type, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("numbers are decimal, of their range, and nothing else", "[core]") {
+TEST_CASE("numbers are decimal and within their range", "[core]") {
   const NumberType<std::uint64_t> count{1, 1000};
   CHECK(Rewritten(count, "010") == "10");
   CHECK(Rewritten(count, "+7") == "7");
@@ -48,11 +48,12 @@ TEST_CASE("numbers are decimal, of their range, and nothing else", "[core]") {
   }
   CHECK(RefusalOf(count, "0").starts_with("0 is not"));
   CHECK(RefusalOf(count, "no").starts_with("\"no\" is not"));
-  constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
-  CHECK(ReadValue(NumberType<std::uint64_t>{0, kMost}, "18446744073709551615") == kMost);
+  constexpr std::uint64_t kMaxValue = std::numeric_limits<std::uint64_t>::max();
+  CHECK(ReadValue(NumberType<std::uint64_t>{0, kMaxValue}, "18446744073709551615") ==
+        kMaxValue);
 }
 
-TEST_CASE("sizes and windows are read whole", "[core]") {
+TEST_CASE("sizes and crop windows are parsed strictly", "[core]") {
   const SizeType size{65536};
   CHECK(Rewritten(size, "064x48") == "64x48");
   for (const char* text : {"64", "64*48", "0x48", "64x48x3", "64x", "65537x1", "x", ""}) {
@@ -69,7 +70,7 @@ TEST_CASE("sizes and windows are read whole", "[core]") {
   CHECK(ParseNumbers<int>("3//16", '/').empty());
 }
 
-TEST_CASE("counts have prefixes", "[core]") {
+TEST_CASE("counts accept unit prefixes", "[core]") {
   const CountType count{1, 20'000'000'000};
   CHECK(ReadValue(count, "256") == 256);
   CHECK(ReadValue(count, "10k") == 10'000);
@@ -83,7 +84,7 @@ TEST_CASE("counts have prefixes", "[core]") {
   }
 }
 
-TEST_CASE("times have units, the larger ones first", "[core]") {
+TEST_CASE("times have units, in descending order", "[core]") {
   const SecondsType seconds{1e-3, 1e9};
   CHECK(ReadValue(seconds, "90") == 90);
   CHECK(ReadValue(seconds, "0.5") == 0.5);
@@ -101,7 +102,7 @@ TEST_CASE("times have units, the larger ones first", "[core]") {
   }
 }
 
-TEST_CASE("errors in percent are roots of relative errors", "[core]") {
+TEST_CASE("errors in percent are square roots of relative MSE", "[core]") {
   const PercentErrorType error{1e-4, 1e8};
   CHECK(ReadValue(error, "1%") == Approx(1e-4));
   CHECK(ReadValue(error, "0.5%") == Approx(2.5e-5));
@@ -113,7 +114,7 @@ TEST_CASE("errors in percent are roots of relative errors", "[core]") {
   }
 }
 
-TEST_CASE("names are told with the nearest one", "[core]") {
+TEST_CASE("unknown names are reported with the nearest name", "[core]") {
   enum class Fruit { kApple, kPear };
   const NamesType<Fruit> fruits = {{{"apple", Fruit::kApple}, {"pear", Fruit::kPear}}};
   CHECK(ReadValue(fruits, "pear") == Fruit::kPear);
@@ -127,7 +128,7 @@ TEST_CASE("names are told with the nearest one", "[core]") {
              Contains("is not the name of a directory"));
 }
 
-TEST_CASE("errors have their place and their message apart", "[core]") {
+TEST_CASE("errors keep location and message separate", "[core]") {
   const SourceLocation where = {std::make_shared<const std::string>("a: error: b"), 3, 7};
   const InputError placed(where, "x is not y");
   CHECK(std::string(placed.what()) == "a: error: b:3:7: error: x is not y");

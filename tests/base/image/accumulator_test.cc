@@ -155,7 +155,7 @@ TEST_CASE("film: dependent samples of unequal replicates", "[film]") {
   }
 }
 
-TEST_CASE("film: how samples are cut does not change a bit", "[film]") {
+TEST_CASE("film: bit-identical for any split of the samples", "[film]") {
   std::mt19937 random(7);
   std::normal_distribution<float> normal(1, 3);
   std::vector<float> values(1003);
@@ -178,7 +178,7 @@ TEST_CASE("film: how samples are cut does not change a bit", "[film]") {
 // Each of n additions rounds by half the last of 53 bits at most; with random signs they
 // are off by sqrt(n) / 3 of that: 1e-13 for ten million. Single precision would be off by
 // 1e-4 and more.
-TEST_CASE("film: ten million samples lose nothing", "[film]") {
+TEST_CASE("film: ten million samples lose no precision", "[film]") {
   std::mt19937 random(8);
   std::exponential_distribution<float> exponential(1);
   for (const SampleGroups& groups : {kSingle, kPairs, kReplicated}) {

@@ -21,7 +21,7 @@ TEST_CASE("a file is replaced as a whole", "[image][file]") {
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("a temporary file of a killed process is not in the way", "[image][file]") {
+TEST_CASE("a temporary file left by a killed process is no obstacle", "[image][file]") {
   const TemporaryFolder folder;
   // Of a process with this number, which may have been another one, or on another
   // machine.
@@ -45,7 +45,7 @@ TEST_CASE("a write that fails keeps the old file and removes its own", "[image][
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("unwritable places are input errors with the reason", "[image][file]") {
+TEST_CASE("unwritable paths are input errors with the reason", "[image][file]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(WriteFileAtomically(folder.File("no/a"), "x"),
                     Catch::Contains("No such file or directory"));

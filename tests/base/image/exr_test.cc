@@ -28,7 +28,7 @@ std::vector<ExrPlane> SomePlanes(int width, int height) {
 
 }  // namespace
 
-TEST_CASE("an EXR file gives back what was written", "[image][exr]") {
+TEST_CASE("an EXR file round-trips", "[image][exr]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.exr");
   const int width = 37, height = 21;
@@ -66,7 +66,7 @@ TEST_CASE("an EXR file gives back what was written", "[image][exr]") {
   }
 }
 
-TEST_CASE("an EXR file is the same however many threads compress it", "[image][exr]") {
+TEST_CASE("an EXR file is bit-identical for any number of threads", "[image][exr]") {
   const TemporaryFolder folder;
   const auto write = [&](int threads) {
     const ThreadLimit limit(threads);
@@ -77,7 +77,7 @@ TEST_CASE("an EXR file is the same however many threads compress it", "[image][e
   CHECK(write(1) == write(2));
 }
 
-TEST_CASE("named channels come in the order asked for", "[image][exr]") {
+TEST_CASE("named channels are returned in the requested order", "[image][exr]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.exr");
   const auto planes = SomePlanes(3, 2);
@@ -135,7 +135,7 @@ TEST_CASE("an EXR header that claims an absurd size is refused", "[image][exr]")
   CHECK_THROWS_AS(ReadExr(folder.Write("huge.exr", bytes)), InputError);
 }
 
-TEST_CASE("deep EXR files are refused before their samples are counted", "[image][exr]") {
+TEST_CASE("deep EXR files are refused before their samples are read", "[image][exr]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.exr");
   WriteExr(path, 2, 2, {{"R", {1, 2, 3, 4}}});
@@ -146,7 +146,7 @@ TEST_CASE("deep EXR files are refused before their samples are counted", "[image
                     Catch::Contains("deep images are not read"));
 }
 
-TEST_CASE("an EXR that cannot be written says why", "[image][exr]") {
+TEST_CASE("failing to write an EXR reports the reason", "[image][exr]") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(WriteExr(folder.File("no/a.exr"), 1, 1, {{"R", {1}}}),
                     Catch::Contains("No such file or directory"));

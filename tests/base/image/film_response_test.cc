@@ -22,7 +22,7 @@ void CheckNear(Vec3d a, Vec3d b, double tolerance) {
 
 constexpr const char* kNames[] = {"srgb", "dci-p3", "rec2020", "aces2065-1"};
 
-TEST_CASE("color spaces: matrices that are published", "[film]") {
+TEST_CASE("color spaces: matrices equal the published ones", "[film]") {
   // ITU-R BT.2087-0: BT.709 to BT.2020.
   const ColorMatrix rec2020 = FilmMatrix(FindColorSpace("rec2020"), 0);
   CheckNear(rec2020.row[0], {0.6274, 0.3293, 0.0433}, 1e-4);
@@ -36,7 +36,7 @@ TEST_CASE("color spaces: matrices that are published", "[film]") {
   CHECK_THROWS_WITH(FindColorSpace("cmyk"), Catch::Contains("dci-p3"));
 }
 
-TEST_CASE("color spaces: what a film holds is what its space means", "[film]") {
+TEST_CASE("color spaces: film values are in the film's color space", "[film]") {
   const Rgb color = {0.2, 0.7, 0.4};
   for (const char* name : kNames) {
     const ColorSpace& space = FindColorSpace(name);
@@ -97,7 +97,7 @@ TEST_CASE("film response: samples are limited in XYZ, then converted", "[film]")
   CHECK(b[0] == 2);
 }
 
-TEST_CASE("EXR: another space than sRGB is said by chromaticities", "[film]") {
+TEST_CASE("EXR: color spaces other than sRGB are stored as chromaticities", "[film]") {
   const TemporaryFolder folder;
   const std::vector<ExrPlane> planes = {{"R", {1}}, {"G", {1}}, {"B", {1}}};
   ExrOptions options;

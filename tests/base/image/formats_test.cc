@@ -119,14 +119,14 @@ TEST_CASE("JPEG: a Huffman table that is too long is refused", "[image]") {
   }
 }
 
-TEST_CASE("the content decides on the format of bytes, not the name", "[image]") {
+TEST_CASE("image formats are detected by content, not by name", "[image]") {
   CHECK(Samples("a.png", Gif(2, 1, {1, 3}))[0] == 40);
   CHECK(Samples("noextension", "P5 2 1 255\n" + Raw({7, 200})) == Bytes{7, 200});
   CHECK_THAT(ImageError("a.xyz", std::string(500, 'q')),
              Catch::Contains("a.xyz: not an image") && Catch::Contains("qoi"));
 }
 
-TEST_CASE("sizes that the file cannot hold are refused at once", "[image]") {
+TEST_CASE("sizes larger than the file are refused early", "[image]") {
   CHECK_THAT(ImageError("a.gif", Gif(9000, 9000, {1})), Catch::Contains("cannot hold"));
   for (int compression : {0, 1}) {
     CHECK_THAT(ImageError("a.psd", Psd(9000, 9000, compression, "x")),

@@ -89,7 +89,7 @@ void CheckTruncations(const TemporaryFolder& folder, const std::string& extensio
 
 }  // namespace
 
-TEST_CASE("PNG gives back the bytes", "[image]") {
+TEST_CASE("PNG round-trips bytes", "[image]") {
   const TemporaryFolder folder;
   const std::string file = EncodePng(3, 2, SmallRgb());
   const Image image = ReadImage(folder.Write("a.png", file));
@@ -124,7 +124,7 @@ TEST_CASE("TGA is read in either direction, plain or run-length coded", "[image]
   CHECK(runs.bytes[runs.Offset(128, 0, 0)] == 'z');
 }
 
-TEST_CASE("a large truncated TGA is noticed wherever the cut falls", "[image]") {
+TEST_CASE("a truncated TGA is detected at any length", "[image]") {
   const TemporaryFolder folder;
   const std::string whole =
       TgaHeader(2, 64, 33, 32, true) + std::string(64 * 33 * 4, 'p');
@@ -136,7 +136,7 @@ TEST_CASE("a large truncated TGA is noticed wherever the cut falls", "[image]") 
   }
 }
 
-TEST_CASE("JPEG is decoded, and a truncated one is not taken for an image", "[image]") {
+TEST_CASE("JPEG is decoded, and a truncated JPEG is refused", "[image]") {
   const TemporaryFolder folder;
   const std::string whole = FromHex(kJpegHex);
   const Image image = ReadImage(folder.Write("a.jpeg", whole));

@@ -119,11 +119,11 @@ constexpr Case kCases[] = {{1, false}, {1, true}, {2, false}, {2, true}};
 
 }  // namespace
 
-TEST_CASE("film: sums of a million samples lose nothing", "[film]") {
+TEST_CASE("film: sums of a million samples lose no precision", "[film]") {
   for (const Case& c : kCases) CheckSums(c, 1'000'003);
 }
 
-TEST_CASE("film: sums of ten million samples lose nothing", "[film][slow]") {
+TEST_CASE("film: sums of ten million samples lose no precision", "[film][slow]") {
   for (const Case& c : kCases) CheckSums(c, 10'000'019);
 }
 

@@ -66,7 +66,7 @@ double MeanError(const MeasuredReflectance& m, const reference::MeasuredModel& m
 
 }  // namespace
 
-TEST_CASE("measured files: what is read", "[image][measured]") {
+TEST_CASE("measured files: values and metadata are read", "[image][measured]") {
   const auto m = ReadBytes(reference::MeasuredFile(SmallModel()));
   CHECK(m->isotropic());
   CHECK(m->parts() == 1);
@@ -94,7 +94,7 @@ TEST_CASE("measured files: spectra become colours", "[image][measured]") {
   CHECK(r.y > 1.5 * r.z);
 }
 
-TEST_CASE("measured files: models come back", "[image][measured]") {
+TEST_CASE("measured files: models round-trip", "[image][measured]") {
   for (const bool chalk : {true, false}) {
     const auto model =
         chalk ? reference::ChalkModel(0.5) : reference::MetalModel(0.4, 0.4, 0.6, 0.6);
@@ -159,7 +159,7 @@ TEST_CASE("measured files: errors say where and what", "[image][measured]") {
              Contains("field \"ndf\" of type uint8; supported: float32"));
 }
 
-TEST_CASE("measured files: with any byte changed a file loads, or is an error",
+TEST_CASE("measured files: a file with any byte changed loads or is an input error",
           "[image][measured]") {
   const std::string good = reference::MeasuredFile(SmallModel());
   CHECK(FuzzMeasuredFile(good));

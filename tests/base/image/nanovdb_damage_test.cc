@@ -47,7 +47,7 @@ int CountLoads(const std::string& file, std::size_t at) {
 
 }  // namespace
 
-TEST_CASE("NanoVDB: with any word changed a file loads, or is an error that names it",
+TEST_CASE("NanoVDB: a file with any word changed loads or is an error with its name",
           "[image][nanovdb]") {
   for (const SparseCodec codec :
        {SparseCodec::kNone, SparseCodec::kZip, SparseCodec::kBlosc}) {
@@ -71,7 +71,8 @@ TEST_CASE("NanoVDB: with any word changed a file loads, or is an error that name
   }
 }
 
-TEST_CASE("NanoVDB: a file of any length is an error that names it", "[image][nanovdb]") {
+TEST_CASE("NanoVDB: a file truncated at any length is an error with its name",
+          "[image][nanovdb]") {
   for (const SparseCodec codec :
        {SparseCodec::kNone, SparseCodec::kZip, SparseCodec::kBlosc}) {
     const std::string file = MakeNanoVdbSeeds(codec)[0].file;
@@ -81,7 +82,8 @@ TEST_CASE("NanoVDB: a file of any length is an error that names it", "[image][na
   }
 }
 
-TEST_CASE("NanoVDB: sizes beyond the file are errors, not memory", "[image][nanovdb]") {
+TEST_CASE("NanoVDB: sizes beyond the file are refused before allocation",
+          "[image][nanovdb]") {
   constexpr std::uint64_t kHuge = std::uint64_t{1} << 50;
   for (const SparseCodec codec :
        {SparseCodec::kNone, SparseCodec::kZip, SparseCodec::kBlosc}) {
@@ -96,7 +98,7 @@ TEST_CASE("NanoVDB: sizes beyond the file are errors, not memory", "[image][nano
   }
 }
 
-TEST_CASE("NanoVDB: errors say where a grid is damaged", "[image][nanovdb]") {
+TEST_CASE("NanoVDB: errors name the damaged part of a grid", "[image][nanovdb]") {
   const auto seeds = MakeNanoVdbSeeds(SparseCodec::kNone);
   const std::size_t at = GridPlace(seeds[0]);
   constexpr std::size_t kTree = 672, kRoot = kTree + 64, kTile = kRoot + 64;

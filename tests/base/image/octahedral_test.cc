@@ -36,7 +36,7 @@ TEST_CASE("sphere to square and back is the identity", "[image][octahedral]") {
   CHECK(worst < 1e-7);  // the corners are singular: -z loses half the digits
 }
 
-TEST_CASE("poles, axes and corners are where pbrt has them", "[image][octahedral]") {
+TEST_CASE("poles, axes and corners agree with pbrt", "[image][octahedral]") {
   const auto near = [](Vec3d a, Vec3d b) { return Length(a - b) < 1e-12; };
   CHECK(near(OctahedralToDirection(0.5, 0.5), {0, 0, 1}));
   CHECK(near(OctahedralToDirection(1, 0.5), {1, 0, 0}));

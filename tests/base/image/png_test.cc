@@ -88,7 +88,7 @@ TEST_CASE("PNG: palettes and transparent colours", "[image]") {
                     Raw({0, 3, 1, 3, 2})}) == Bytes{3, 0, 3, 255});
 }
 
-TEST_CASE("PNG: interlaced rows, and chunks that change nothing", "[image]") {
+TEST_CASE("PNG: interlaced rows and ignored chunks", "[image]") {
   // 3 x 3: passes 1, 4, 5, 6 and 7 have pixels.
   const std::string rows = Raw({0, 1, 0, 3, 0, 7, 9, 0, 2, 0, 8, 0, 4, 5, 6});
   CHECK(PngSamples({3, 3, 8, kPngGrey, 1, "", rows}) == Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9});
@@ -100,7 +100,7 @@ TEST_CASE("PNG: interlaced rows, and chunks that change nothing", "[image]") {
         Bytes{100, 200});
 }
 
-TEST_CASE("PNG: every flipped bit and every cut is an error", "[image]") {
+TEST_CASE("PNG: every flipped bit and every truncation is an error", "[image]") {
   const std::string whole =
       PngFile{9,
               3,
@@ -126,7 +126,7 @@ TEST_CASE("PNG: every flipped bit and every cut is an error", "[image]") {
              Catch::Contains("truncated"));
 }
 
-TEST_CASE("PNG: sizes are held against limits and the file's length", "[image]") {
+TEST_CASE("PNG: sizes are checked against limits and the file's length", "[image]") {
   PngFile file = {20000, 10000, 8, kPngColor, 0, "", Raw({0, 1, 2, 3})};
   CHECK_THAT(ImageError("a.png", file.Text()),
              Catch::Contains("cannot hold 20000 x 10000 pixels"));

@@ -46,7 +46,7 @@ TEST_CASE("QOI: linear samples become floats", "[image]") {
   CHECK(image.At(0, 0, 2) == 200 / 255.f);
 }
 
-TEST_CASE("QOI: what the library writes is read back, by any name", "[image]") {
+TEST_CASE("QOI: files round-trip under any name", "[image]") {
   std::mt19937 random(1);
   for (const int channels : {3, 4}) {
     std::vector<std::uint8_t> pixels(40 * 30 * static_cast<std::size_t>(channels));
@@ -72,7 +72,7 @@ TEST_CASE("QOI: what the library writes is read back, by any name", "[image]") {
   }
 }
 
-TEST_CASE("QOI: every cut and every bad header is an error", "[image]") {
+TEST_CASE("QOI: every truncation and every bad header is an error", "[image]") {
   const std::string whole = QoiHeader(7, 1, 4, 0) + kQoiChunks + kQoiEnd;
   for (std::size_t size = 0; size < whole.size(); ++size) {
     INFO(size);

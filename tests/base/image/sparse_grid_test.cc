@@ -88,7 +88,7 @@ TEST_CASE("NanoVDB: values, place and bounds", "[image][nanovdb]") {
   CHECK(out == 0);
 }
 
-TEST_CASE("NanoVDB: bounds of boxes hold and are met", "[image][nanovdb]") {
+TEST_CASE("NanoVDB: bounds of boxes are valid and tight", "[image][nanovdb]") {
   const TemporaryFolder folder;
   SparseFileGrid negative = PatternGrid(), blocks = PatternGrid();
   negative.value = [](int i, int j, int k) { return Pattern(i, j, k) - 3; };
@@ -142,7 +142,7 @@ TEST_CASE("NanoVDB: quantised and compressed", "[image][nanovdb]") {
   }
 }
 
-TEST_CASE("NanoVDB: what cannot be read is an error", "[image][nanovdb]") {
+TEST_CASE("NanoVDB: unsupported files are errors", "[image][nanovdb]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.nvdb");
   CHECK_THAT(ErrorOf(path), Catch::Contains("No such file"));

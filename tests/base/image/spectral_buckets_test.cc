@@ -31,12 +31,12 @@ double SteppedMean(const std::vector<double>& radiance, double low, double high)
 }  // namespace
 
 TEST_CASE("buckets: names of channels are those of pbrt-v4", "[spectrum][buckets]") {
-  const SpectralBuckets usual = {16};
-  CHECK(ChannelName(usual, 0) == "S0.374,688nm");
-  CHECK(ChannelName(usual, 6) == "S0.550,938nm");
+  const SpectralBuckets defaults = {16};
+  CHECK(ChannelName(defaults, 0) == "S0.374,688nm");
+  CHECK(ChannelName(defaults, 6) == "S0.550,938nm");
   CHECK(ChannelName({2, 400, 700}, 1) == "S0.625,000nm");
-  CHECK(usual.Edge(0) == 360);
-  CHECK(usual.Edge(16) == 830);
+  CHECK(defaults.Edge(0) == 360);
+  CHECK(defaults.Edge(16) == 830);
 }
 
 TEST_CASE("buckets: white light is D65 of luminance 1", "[spectrum][buckets]") {
@@ -56,12 +56,12 @@ TEST_CASE("buckets: the mean over triples is that over a bucket's wavelengths",
   for (const SpectralBuckets& buckets :
        {SpectralBuckets{16}, SpectralBuckets{1}, SpectralBuckets{7, 391.3, 702.9},
         SpectralBuckets{100, 500, 520}, SpectralBuckets{3, 790, 830}}) {
-    const BucketShares shares(buckets);
+    const BucketFractions fractions(buckets);
     std::vector<double> sums(static_cast<std::size_t>(buckets.count));
     for (int t = 0; t < kTriples; ++t) {
       for (int b = t; b < kWavelengthBins; b += kTriples) {
-        shares.Add(static_cast<std::uint32_t>(b), radiance[static_cast<std::size_t>(b)],
-                   sums.data());
+        fractions.Add(static_cast<std::uint32_t>(b),
+                      radiance[static_cast<std::size_t>(b)], sums.data());
       }
     }
     for (int k = 0; k < buckets.count; ++k) {
@@ -73,7 +73,7 @@ TEST_CASE("buckets: the mean over triples is that over a bucket's wavelengths",
   }
 }
 
-TEST_CASE("buckets: a film has them by pixel, and nothing of them without",
+TEST_CASE("buckets: films store them per pixel, only where requested",
           "[image][buckets]") {
   FilmAccumulator film(0, 0, 2, 1, {}, Auxiliary::kNone);
   const auto without = film.Columns().size();
@@ -87,11 +87,11 @@ TEST_CASE("buckets: a film has them by pixel, and nothing of them without",
               triple[] = {5};
   const float* const planes[] = {color, color, color, at_long, middle, at_short, triple};
   film.AddSamples(1, 0, planes, 1);
-  const BucketShares shares({4, 400, 600});
+  const BucketFractions fractions({4, 400, 600});
   std::vector<double> sums(4);
-  shares.Add(5, 5, sums.data());
-  shares.Add(kTriples + 5, 3, sums.data());
-  shares.Add(2 * kTriples + 5, 2, sums.data());
+  fractions.Add(5, 5, sums.data());
+  fractions.Add(kTriples + 5, 3, sums.data());
+  fractions.Add(2 * kTriples + 5, 2, sums.data());
   for (int k = 0; k < 4; ++k) {
     CHECK(film.Bucket(1, 0, k) == sums[static_cast<std::size_t>(k)]);
     CHECK(film.Bucket(0, 0, k) == 0);

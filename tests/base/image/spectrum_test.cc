@@ -92,7 +92,7 @@ TEST_CASE("daylight follows the published D65", "[spectrum]") {
   }
 }
 
-TEST_CASE("white stays white", "[spectrum]") {
+TEST_CASE("white stays white in every color space", "[spectrum]") {
   Rgb rgb;
   REQUIRE(NamedSpectrum("stdillum-D65", SpectrumUse::kIlluminant, &rgb));
   CheckNearRgb(rgb, {1, 1, 1}, 1e-9);
@@ -170,7 +170,7 @@ TEST_CASE("metals reflect the integrated colour of their measured spectrum",
   }
 }
 
-TEST_CASE("gold, silver, copper have the colours everybody knows", "[spectrum]") {
+TEST_CASE("gold, silver and copper have their known colours", "[spectrum]") {
   ComplexIor ior;
   REQUIRE(NamedMetal("Au", &ior));
   CheckNearRgb(NormalReflectance(ior), {1.0, 0.77, 0.34}, 0.02);
@@ -181,7 +181,7 @@ TEST_CASE("gold, silver, copper have the colours everybody knows", "[spectrum]")
   REQUIRE_FALSE(NamedMetal("Unobtainium", &ior));
 }
 
-TEST_CASE("a metal given by samples equals the named one", "[spectrum]") {
+TEST_CASE("a metal given by samples equals the named metal", "[spectrum]") {
   const MetalTable& gold = Table("Au");
   std::vector<double> nm(kMetalSamples);
   for (int i = 0; i < kMetalSamples; ++i) nm[i] = kMetalStart + kMetalStep * i;
@@ -197,7 +197,7 @@ TEST_CASE("a metal given by samples equals the named one", "[spectrum]") {
   CheckNearRgb(glass.k, {0, 0, 0}, 1e-6);
 }
 
-TEST_CASE("every listed spectrum is known, others are not", "[spectrum]") {
+TEST_CASE("every listed spectrum can be loaded, others are refused", "[spectrum]") {
   const std::vector<std::string> names = NamedSpectra();
   CHECK(names.size() == 4 + 12 + 7 + 14);
   CHECK(std::is_sorted(names.begin(), names.end()));

@@ -34,7 +34,7 @@ double Largest(Rgb c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(
 Rgb UnderWhite(const Spectrum& reflectance) {
   Rgb sum;
   for (double nm = 380.125; nm < 780; nm += 0.25) {
-    sum += WhiteShare(nm) * (reflectance(nm) * 0.25);
+    sum += WhiteFraction(nm) * (reflectance(nm) * 0.25);
   }
   return sum;
 }
@@ -85,7 +85,7 @@ TEST_CASE("wavelengths: spectra in bins have the colour of the whole", "[spectru
   }
 }
 
-TEST_CASE("wavelengths: bins meet light of a single line", "[spectrum]") {
+TEST_CASE("wavelengths: bins receive light of a single spectral line", "[spectrum]") {
   // Two nanometres wide: wider than the bins there, narrower than twice them.
   const auto line = [](double nm) { return std::abs(nm - 546.1) < 1 ? 1.0 : 0.0; };
   const std::vector<float> values = BinMeans(line);
@@ -93,12 +93,12 @@ TEST_CASE("wavelengths: bins meet light of a single line", "[spectrum]") {
   Rgb exact;
   constexpr int kSteps = 2000;
   for (int i = 0; i < kSteps; ++i) {
-    exact += WhiteShare(545.1 + 2.0 * (i + 0.5) / kSteps) * (2.0 / kSteps);
+    exact += WhiteFraction(545.1 + 2.0 * (i + 0.5) / kSteps) * (2.0 / kSteps);
   }
   CHECK(Largest(found - exact) < 0.02 * Largest(exact));
 }
 
-TEST_CASE("upsampling: colours come back, greys are constant", "[spectrum]") {
+TEST_CASE("upsampling: colours round-trip, greys are constant", "[spectrum]") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit;
   double mean = 0, worst = 0;
@@ -122,7 +122,7 @@ TEST_CASE("upsampling: colours come back, greys are constant", "[spectrum]") {
   CHECK(grey(700) == 0.3);
 }
 
-TEST_CASE("upsampling: colours without bound", "[spectrum]") {
+TEST_CASE("upsampling: unbounded colours", "[spectrum]") {
   const Rgb light = {20, 8, 3};
   CHECK(Largest(ColorOfBins(BinValues(UpsampledColor(light))) - light) < 1e-3);
   CHECK(UpsampledColor({})(550) == 0);

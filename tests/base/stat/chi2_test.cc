@@ -6,7 +6,8 @@
 
 namespace lanelight::stat {
 
-TEST_CASE("chi-square test accepts the right density and rejects a wrong one", "[stat]") {
+TEST_CASE("chi-square test accepts the true density and rejects a wrong density",
+          "[stat]") {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> u;
   std::vector<double> counts(20, 0), right(20, 500), wrong(20, 500);
@@ -17,7 +18,7 @@ TEST_CASE("chi-square test accepts the right density and rejects a wrong one", "
   CHECK(ChiSquareTest(counts, wrong).p < 1e-6);
 }
 
-TEST_CASE("a hit where nothing is expected is rejected", "[stat]") {
+TEST_CASE("a sample where the density is zero is rejected", "[stat]") {
   CHECK(ChiSquareTest({99, 100, 1}, {100, 100, 0}).p == 0);
   CHECK(ChiSquareTest({100, 100, 0}, {100, 100, 0}).p > 0.9);
 }

@@ -11,7 +11,8 @@ namespace lanelight::stat {
 
 // 2000 random walks, looked at 90 times until they are 1e6 times as long. At 95 %, 100
 // leave their intervals at most on average, and more than 139 with a probability of 1e-4.
-TEST_CASE("a walk stays inside at all looks as often as stated", "[stat]") {
+TEST_CASE("a random walk stays inside at all looks with the stated probability",
+          "[stat]") {
   reference::Random random(3);
   constexpr int kWalks = 2000;
   int left = 0, left_fixed = 0;

@@ -38,17 +38,17 @@ double Rejected(int n, double bias, double understated, int trials) {
 
 }  // namespace
 
-TEST_CASE("measurements of one thing agree", "[stat]") {
+TEST_CASE("measurements of the same quantity agree", "[stat]") {
   const int trials = 4000;
   // Five standard deviations of a proportion of 0.01: a false alarm in two million.
-  const double most = 0.01 + FiveSigma(0.01, trials);
+  const double maximum = 0.01 + FiveSigma(0.01, trials);
   for (int n : {2, 3, 8, 25}) {
     INFO(n);
-    CHECK(Rejected(n, 0, 1, trials) < most);
+    CHECK(Rejected(n, 0, 1, trials) < maximum);
   }
 }
 
-TEST_CASE("variances that are too small do not make a departure", "[stat]") {
+TEST_CASE("underestimated variances do not flag an outlier", "[stat]") {
   const int trials = 2000;
   // Birge's ratio of many finds out; planted: without it, most would be rejected.
   CHECK(Rejected(25, 0, 100, trials) < 0.05);
@@ -62,12 +62,13 @@ TEST_CASE("variances that are too small do not make a departure", "[stat]") {
   CHECK(naive > trials / 2);
 }
 
-TEST_CASE("one that departs is found", "[stat]") {
+TEST_CASE("a single outlier is found", "[stat]") {
   CHECK(Rejected(3, 5, 1, 300) > 0.9);
   CHECK(Rejected(25, 3, 1, 300) > 0.9);
 }
 
-TEST_CASE("a consensus is the weighted mean, and honest about scatter", "[stat]") {
+TEST_CASE("a consensus is the weighted mean, with its uncertainty increased by scatter",
+          "[stat]") {
   const std::vector<MeanEstimate> two = {{1, 1, 10}, {4, 0.5, 10}};
   const Consensus c = ConsensusOf(two, 1e-9);
   CHECK(c.estimate.mean == Approx(3));  // weights 1 and 2

@@ -31,7 +31,7 @@ std::vector<Level> PowerLaw(Random& random, double order, double sigma, double c
 
 }  // namespace
 
-TEST_CASE("fitted orders of convergence hold as often as stated", "[stat]") {
+TEST_CASE("intervals of fitted convergence orders have the stated coverage", "[stat]") {
   const int trials = 10000;
   for (double order : {-0.5, -1.0}) {
     for (double common : {0.0, 0.9}) {
@@ -51,7 +51,7 @@ TEST_CASE("fitted orders of convergence hold as often as stated", "[stat]") {
   }
 }
 
-TEST_CASE("one fit through all repetitions would be too sure or too unsure", "[stat]") {
+TEST_CASE("a single fit through all repetitions misjudges its uncertainty", "[stat]") {
   // The wrong twin: residuals of a single regression, which takes errors of different
   // counts for independent. With a common part its interval is far too long.
   const int trials = 2000;
@@ -75,7 +75,7 @@ TEST_CASE("one fit through all repetitions would be too sure or too unsure", "[s
   CHECK(fitted < 0.6 * pooled);
 }
 
-TEST_CASE("fitted orders are defined for little data", "[stat]") {
+TEST_CASE("fitted orders are defined for few samples", "[stat]") {
   Random random(3);
   CHECK_FALSE(FitOrder({}, 0.95));
   auto levels = PowerLaw(random, -0.5, 0, 0, 1);
@@ -128,7 +128,7 @@ TEST_CASE("the cost of a target counts from the last crossing", "[stat]") {
   CHECK_FALSE(cost->samples.HasBounds());  // one repetition
 }
 
-TEST_CASE("the cost of a target is empty where nothing falls", "[stat]") {
+TEST_CASE("the cost of a target is empty where the error does not fall", "[stat]") {
   const std::vector<Level> flat = {{1, {1, 1}, {1, 1}}, {4, {1, 1}, {4, 4}}};
   CHECK_FALSE(CostToTarget(flat, 0.5, 0.95));
   const std::vector<Level> rising = {{1, {1, 1}, {1, 1}}, {4, {2, 2}, {4, 4}}};
@@ -147,9 +147,9 @@ TEST_CASE("the cost of a target is empty where nothing falls", "[stat]") {
   CHECK(cost->extrapolated);
 }
 
-TEST_CASE("the cost of a target holds as often as stated", "[stat]") {
+TEST_CASE("intervals of the cost of a target have the stated coverage", "[stat]") {
   const int trials = 4000;
-  const auto held = [&](double target, double common, double truth) {
+  const auto coverage = [&](double target, double common, double truth) {
     return Share(trials, 5, [&](Random& random) {
       const auto cost =
           CostToTarget(PowerLaw(random, -0.5, 0.2, common, 5), target, 0.95);
@@ -158,13 +158,13 @@ TEST_CASE("the cost of a target holds as often as stated", "[stat]") {
   };
   for (double common : {0.0, 0.9}) {
     for (double target : {0.12, 0.3, 0.003}) {
-      const double share = held(target, common, 1 / target);
-      INFO("target " << target << ", common " << common << ": " << share);
-      CHECK(share > 0.94 - FiveSigma(0.94, trials));
-      CHECK(share < 0.98);
+      const double fraction = coverage(target, common, 1 / target);
+      INFO("target " << target << ", common " << common << ": " << fraction);
+      CHECK(fraction > 0.94 - FiveSigma(0.94, trials));
+      CHECK(fraction < 0.98);
     }
   }
-  CHECK(held(0.12, 0, 1.5 / 0.12) < 0.5);  // a wrong cost is noticed
+  CHECK(coverage(0.12, 0, 1.5 / 0.12) < 0.5);  // a wrong cost is noticed
 }
 
 }  // namespace lanelight::stat

@@ -19,7 +19,7 @@ struct Shape {
   double sigma_a, sigma_b;   // log-normal; 0: chi-square
   double correlation;        // of the logarithms
   int degrees_a, degrees_b;  // of the chi-squares
-  double least;              // coverage at 95 %
+  double minimum;            // coverage at 95 %
 };
 
 constexpr Shape kShapes[] = {
@@ -96,27 +96,29 @@ bool ClaimsAnything(const std::vector<RankRange>& ranks) {
 
 }  // namespace
 
-TEST_CASE("ratios of efficiency hold as often as stated, four pairs", "[stat]") {
+TEST_CASE("intervals of efficiency ratios have the stated coverage with four pairs",
+          "[stat]") {
   const int trials = 20000;
   for (const Shape& shape : kShapes) {
-    const double held = Coverage(shape, 4, 0.95, trials);
-    INFO(shape.name << ": " << held);
-    CHECK(held > shape.least - FiveSigma(shape.least, trials));
-    CHECK(held < 0.96 + FiveSigma(0.96, trials));
+    const double coverage = Coverage(shape, 4, 0.95, trials);
+    INFO(shape.name << ": " << coverage);
+    CHECK(coverage > shape.minimum - FiveSigma(shape.minimum, trials));
+    CHECK(coverage < 0.96 + FiveSigma(0.96, trials));
     const double high = Coverage(shape, 4, 0.999, trials);
     INFO("at 99.9 %: " << high);
     CHECK(high > 0.9965 - FiveSigma(0.9965, trials));
   }
 }
 
-TEST_CASE("ratios of efficiency hold as often as stated, more pairs", "[stat][slow]") {
+TEST_CASE("intervals of efficiency ratios have the stated coverage with more pairs",
+          "[stat][slow]") {
   const int trials = 800;
   for (const Shape& shape : kShapes) {
     for (std::size_t n : {std::size_t{8}, std::size_t{16}}) {
-      const double held = Coverage(shape, n, 0.95, trials);
-      INFO(shape.name << ", " << n << " pairs: " << held);
-      CHECK(held > shape.least - FiveSigma(shape.least, trials));
-      CHECK(held < 0.965 + FiveSigma(0.965, trials));
+      const double coverage = Coverage(shape, n, 0.95, trials);
+      INFO(shape.name << ", " << n << " pairs: " << coverage);
+      CHECK(coverage > shape.minimum - FiveSigma(shape.minimum, trials));
+      CHECK(coverage < 0.965 + FiveSigma(0.965, trials));
       const double high = Coverage(shape, n, 0.999, trials);
       INFO("at 99.9 %: " << high);
       CHECK(high > 0.99 - FiveSigma(0.99, trials));
@@ -124,14 +126,14 @@ TEST_CASE("ratios of efficiency hold as often as stated, more pairs", "[stat][sl
   }
 }
 
-TEST_CASE("the percentile bootstrap of four pairs is found too short", "[stat]") {
+TEST_CASE("the percentile bootstrap of four pairs is shown to be too narrow", "[stat]") {
   const int trials = 2000;
   Costs a, b;
-  const double held = Share(trials, 6, [&](Random& random) {
+  const double coverage = Share(trials, 6, [&](Random& random) {
     Simulate(random, kShapes[0], 4, a, b);
     return PercentileBootstrap(random, a, b).Contains(kTrue);
   });
-  CHECK(held < 0.945 - FiveSigma(0.945, trials));
+  CHECK(coverage < 0.945 - FiveSigma(0.945, trials));
 }
 
 TEST_CASE("ratios of efficiency are defined for zeros and few pairs", "[stat]") {
@@ -170,7 +172,7 @@ TEST_CASE("the inverse of a ratio has the inverse interval", "[stat]") {
   }
 }
 
-TEST_CASE("identical strategies are rarely ranked apart", "[stat]") {
+TEST_CASE("identical strategies rarely get different ranks", "[stat]") {
   const int trials = 4000;
   for (std::size_t n : {std::size_t{3}, std::size_t{6}}) {
     const double claims = Share(trials, 9, [&](Random& random) {
@@ -192,7 +194,7 @@ TEST_CASE("identical strategies are rarely ranked apart", "[stat]") {
   CHECK(claims > 0.1 + FiveSigma(0.1, 1000));
 }
 
-TEST_CASE("strategies that differ by a factor of three are told apart", "[stat]") {
+TEST_CASE("strategies that differ by a factor of three get different ranks", "[stat]") {
   const int trials = 20;
   const double right = Share(trials, 10, [&](Random& random) {
     const auto ranks = RankByEfficiency(Strategies(random, 4, 12, 3), 0.95);
@@ -224,8 +226,8 @@ TEST_CASE("an error that all repetitions share widens a ratio and its ranks", "[
     two[1].push_back({LogNormal(Normal(random), 0.05) / 1.5, 1});
   }
   CHECK(RankByEfficiency(two, 0.95)[0].best == 2);
-  const std::vector<double> doubts = {0, 0.3};
-  CHECK(RankByEfficiency(two, 0.95, doubts)[0].best == 1);
+  const std::vector<double> uncertainties = {0, 0.3};
+  CHECK(RankByEfficiency(two, 0.95, uncertainties)[0].best == 1);
 }
 
 TEST_CASE("ranks do not depend on the order of the strategies", "[stat]") {

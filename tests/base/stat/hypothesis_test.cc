@@ -61,7 +61,7 @@ TEST_CASE("Welch's test has uniform p-values under equal means", "[stat]") {
   CHECK(KsUniformPValue(p) < 1e-6);
 }
 
-TEST_CASE("Welch's test knows constants, tolerance and bad values", "[stat]") {
+TEST_CASE("Welch's test handles constants, tolerance and invalid values", "[stat]") {
   const MeanEstimate one = {1, 0, 0}, near = {1.0001, 0, 0}, bad = {NAN, 0, 0};
   CHECK(WelchPValue(one, one) == 1);
   CHECK(WelchPValue(one, near) == 0);
@@ -78,7 +78,7 @@ TEST_CASE("averages of estimates carry variance and degrees of freedom", "[stat]
   CHECK(mean.dof == Approx(18));
 }
 
-TEST_CASE("Sidak's level makes the family rate", "[stat]") {
+TEST_CASE("Sidak's level gives the family-wise error rate", "[stat]") {
   CHECK(1 - std::pow(1 - SidakLevel(0.01, 50), 50) == Approx(0.01));
   CHECK(SidakLevel(1e-6, 1000) == Approx(1e-9).epsilon(1e-5));
   CHECK(SidakLevel(0.05, 1) == Approx(0.05));

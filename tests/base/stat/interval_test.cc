@@ -20,7 +20,7 @@ std::vector<double> Normals(Random& random, int n) {
 }
 
 // MeanInterval with a mistake: a normal quantile, or division by n instead of n - 1.
-bool WrongHolds(const std::vector<double>& values, bool normal, bool by_n) {
+bool WrongIntervalCovers(const std::vector<double>& values, bool normal, bool by_n) {
   const double n = static_cast<double>(values.size());
   double mean = 0, squares = 0;
   for (double v : values) mean += v / n;
@@ -32,22 +32,22 @@ bool WrongHolds(const std::vector<double>& values, bool normal, bool by_n) {
 
 }  // namespace
 
-TEST_CASE("intervals of means hold as often as stated", "[stat]") {
+TEST_CASE("intervals of means have the stated coverage", "[stat]") {
   const int trials = 20000;
   for (int n : {2, 3, 5, 12}) {
     for (double confidence : {0.8, 0.95, 0.999}) {
-      const double held = Share(trials, 1, [&](Random& random) {
+      const double coverage = Share(trials, 1, [&](Random& random) {
         return MeanInterval(Normals(random, n), confidence).Contains(3);
       });
-      INFO("n = " << n << ", confidence " << confidence << ": " << held);
-      CHECK(std::abs(held - confidence) < FiveSigma(confidence, trials));
+      INFO("n = " << n << ", confidence " << confidence << ": " << coverage);
+      CHECK(std::abs(coverage - confidence) < FiveSigma(confidence, trials));
     }
   }
   for (bool normal : {false, true}) {
-    const double held = Share(trials, 2, [&](Random& random) {
-      return WrongHolds(Normals(random, 5), normal, !normal);
+    const double coverage = Share(trials, 2, [&](Random& random) {
+      return WrongIntervalCovers(Normals(random, 5), normal, !normal);
     });
-    CHECK(held < 0.95 - FiveSigma(0.95, trials));
+    CHECK(coverage < 0.95 - FiveSigma(0.95, trials));
   }
 }
 
@@ -71,19 +71,19 @@ TEST_CASE("intervals of means have defined ends", "[stat]") {
   CHECK((same.value == 4 && same.low == 4 && same.high == 4));
 }
 
-TEST_CASE("intervals of medians hold at least as often as stated", "[stat]") {
+TEST_CASE("intervals of medians have at least the stated coverage", "[stat]") {
   const int trials = 20000;
   for (int n : {2, 5, 6, 7, 20, 21, 100}) {
     // Skewed, and without a mean: only order matters.
-    const double held = Share(trials, 3, [&](Random& random) {
+    const double coverage = Share(trials, 3, [&](Random& random) {
       std::vector<double> values(static_cast<std::size_t>(n));
       for (double& v : values) v = std::exp(3 * Normal(random));
       return MedianInterval(values, 0.95).Contains(1);
     });
-    INFO("n = " << n << ": " << held);
+    INFO("n = " << n << ": " << coverage);
     // Fewer than six: the whole range, 1 - 2^(1 - n).
-    const double least = std::min(0.95, 1 - std::pow(2.0, 1 - n));
-    CHECK(held > least - FiveSigma(least, trials));
+    const double minimum = std::min(0.95, 1 - std::pow(2.0, 1 - n));
+    CHECK(coverage > minimum - FiveSigma(minimum, trials));
     // No wider than needed: one value less on both sides would not hold.
     if (n < 7) continue;
     const double narrow = Share(trials, 3, [&](Random& random) {
@@ -113,10 +113,11 @@ TEST_CASE("intervals of medians take the order statistics of the tables", "[stat
   CHECK_FALSE(MedianInterval(values, 0.95).HasBounds());
 }
 
-TEST_CASE("intervals of proportions hold on the average over proportions", "[stat]") {
+TEST_CASE("intervals of proportions have the stated coverage averaged over proportions",
+          "[stat]") {
   const int trials = 20000;
   for (int n : {10, 40, 100}) {
-    const auto share = [&](bool wald) {
+    const auto fraction = [&](bool wald) {
       return Share(trials, 4, [&](Random& random) {
         const double p = random.Uniform();
         std::uint64_t hits = 0;
@@ -126,10 +127,11 @@ TEST_CASE("intervals of proportions hold on the average over proportions", "[sta
         return std::abs(p - q) <= 1.96 * std::sqrt(q * (1 - q) / n);
       });
     };
-    const double held = share(false);
-    INFO("n = " << n << ": " << held);
-    CHECK(std::abs(held - 0.95) < 0.007);  // Brown, Cai and DasGupta 2001: 0.944 - 0.956
-    CHECK(share(true) < 0.943);
+    const double coverage = fraction(false);
+    INFO("n = " << n << ": " << coverage);
+    CHECK(std::abs(coverage - 0.95) <
+          0.007);  // Brown, Cai and DasGupta 2001: 0.944 - 0.956
+    CHECK(fraction(true) < 0.943);
   }
 }
 
@@ -143,7 +145,7 @@ TEST_CASE("intervals of proportions have defined ends", "[stat]") {
   CHECK(all.low == Approx(1 - none.high));
 }
 
-TEST_CASE("proportions of clusters hold where trials depend on each other", "[stat]") {
+TEST_CASE("intervals of clustered proportions have the stated coverage", "[stat]") {
   // The ten trials of a cluster succeed together, but for one.
   const int trials = 4000;
   constexpr double kMean = 0.8;
@@ -157,10 +159,10 @@ TEST_CASE("proportions of clusters hold where trials depend on each other", "[st
     }
     return clusters;
   };
-  const double held = Share(trials, 3, [&](Random& random) {
+  const double coverage = Share(trials, 3, [&](Random& random) {
     return ClusteredProportion(draw(random), 0.95).Contains(kMean);
   });
-  CHECK(held > 0.92);
+  CHECK(coverage > 0.92);
   const double as_independent = Share(trials, 3, [&](Random& random) {
     std::uint64_t successes = 0;
     for (const Cluster& c : draw(random)) successes += c.successes;
@@ -169,7 +171,7 @@ TEST_CASE("proportions of clusters hold where trials depend on each other", "[st
   CHECK(as_independent < 0.6);
 }
 
-TEST_CASE("proportions of clusters have defined ends", "[stat]") {
+TEST_CASE("intervals of clustered proportions have defined ends", "[stat]") {
   CHECK(std::isnan(ClusteredProportion({}, 0.95).value));
   const std::vector<Cluster> one = {{3, 4}}, equal = {{4, 4}, {4, 4}, {4, 4}};
   CHECK(ClusteredProportion(one, 0.95).value == 0.75);

@@ -18,7 +18,7 @@ TEST_CASE("Holm's procedure steps down", "[stat]") {
   CHECK(HolmRejections({}, 0.05).empty());
 }
 
-TEST_CASE("Holm's procedure keeps the family-wise error and finds more", "[stat]") {
+TEST_CASE("Holm's procedure keeps the family-wise error and has more power", "[stat]") {
   // Six true hypotheses beside four that are false.
   const int trials = 20000;
   int false_rejections = 0, uncorrected = 0, found = 0, bonferroni = 0;
@@ -35,9 +35,9 @@ TEST_CASE("Holm's procedure keeps the family-wise error and finds more", "[stat]
     false_rejections += !rejected.empty() && rejected.front() < 6;
     for (std::size_t i : rejected) found += i >= 6;
   }
-  const double most = 0.05 + FiveSigma(0.05, trials);
-  CHECK(false_rejections < most * trials);
-  CHECK(uncorrected > most * trials);
+  const double maximum = 0.05 + FiveSigma(0.05, trials);
+  CHECK(false_rejections < maximum * trials);
+  CHECK(uncorrected > maximum * trials);
   CHECK(found > bonferroni);
 }
 

@@ -45,7 +45,7 @@ void SetNumberAt(std::string& bytes, std::size_t offset, std::uint64_t number) {
 
 }  // namespace
 
-TEST_CASE("the seal is what its description says", "[state]") {
+TEST_CASE("the checksum is computed as documented", "[state]") {
   const std::string bytes = SmallState();
   CHECK(bytes.substr(0, 16) == "lanelight state\n");
   CHECK(NumberAt(bytes, 16) == kStateSchema);
@@ -56,7 +56,7 @@ TEST_CASE("the seal is what its description says", "[state]") {
   CHECK(bytes.substr(512, 8) == "\x89HDF\r\n\x1a\n");
 }
 
-TEST_CASE("a state cut at any byte is refused", "[state]") {
+TEST_CASE("a state truncated at any byte is refused", "[state]") {
   const TemporaryFolder folder;
   const std::string bytes = SmallState(), path = folder.Write("state", bytes);
   REQUIRE(ErrorOf(path).empty());
@@ -98,7 +98,7 @@ TEST_CASE("a state of another schema is refused with both numbers", "[state]") {
              Contains("is of schema 7; this program reads schema 1"));
 }
 
-TEST_CASE("what is no state file is named so", "[state]") {
+TEST_CASE("a file that is not a state is reported as such", "[state]") {
   const TemporaryFolder folder;
   CHECK_THAT(ErrorOf(folder.File("absent")),
              Contains("absent") && Contains("No such file"));
@@ -114,7 +114,7 @@ TEST_CASE("what is no state file is named so", "[state]") {
   CHECK_THAT(ErrorOf(foreign), Contains("is not a state file"));
 }
 
-TEST_CASE("what is sealed but has not what states have is an input error", "[state]") {
+TEST_CASE("a sealed file with missing content is an input error", "[state]") {
   const TemporaryFolder folder;
   std::string noise(5000, 'x');
   Seal(noise.data(), noise.size(), kStateSchema);
@@ -160,7 +160,7 @@ TEST_CASE("rows that do not expand are an error of their file", "[state]") {
                     Contains(folder.File("state")) && Contains("sums"));
 }
 
-TEST_CASE("an open state stays what it was when its path is replaced", "[state]") {
+TEST_CASE("an open state is unchanged when its path is replaced", "[state]") {
   const TemporaryFolder folder;
   const PixelRect window = {0, 0, 50, 50};
   const RandomFilm old_film = RandomFilm::Make(window, 1),

@@ -25,7 +25,7 @@ long Status(const std::string& key) {
 
 }  // namespace
 
-TEST_CASE("tiles that are wrong are found", "[state]") {
+TEST_CASE("invalid tiles are detected", "[state]") {
   const PixelRect film = {0, 0, 10, 10};
   CHECK(TileProblem({}, film).empty());
   CHECK(TileProblem({{0, 0, 5, 5}, {5, 0, 10, 5}, {0, 5, 10, 10}}, film).empty());
@@ -56,7 +56,8 @@ TEST_CASE("tiles that are wrong are found", "[state]") {
   CHECK(overlaps < 2900);
 }
 
-TEST_CASE("a copy stays what it was, and is written while a state is read", "[state]") {
+TEST_CASE("a copy is independent of the state and can be written while that is read",
+          "[state]") {
   const TemporaryFolder folder;
   const PixelRect window = {0, 0, 70, 50};
   RandomFilm film = RandomFilm::Make(window, 1);
@@ -81,7 +82,7 @@ TEST_CASE("a copy stays what it was, and is written while a state is read", "[st
   CHECK(HoldsTiles(film, before, {}));
 }
 
-TEST_CASE("what has few bits takes little of the disk", "[state]") {
+TEST_CASE("compressible columns take little disk space", "[state]") {
   std::mt19937_64 random(1);
   // A sixteenth of the bits, and three quarters of the values zero.
   std::vector<double> sums(12 * 10000);

@@ -32,13 +32,13 @@ void CheckRoundTrip(const PixelRect& window, const std::vector<PixelRect>& tiles
 
 }  // namespace
 
-TEST_CASE("columns of all types come back bit for bit", "[state]") {
+TEST_CASE("columns of all types round-trip bit by bit", "[state]") {
   CheckRoundTrip({0, 0, 1, 1}, {{0, 0, 1, 1}});
   CheckRoundTrip({-3, 5, 14, 12}, {{-3, 5, 14, 12}});
   CheckRoundTrip({0, 0, 211, 173}, {{0, 0, 211, 173}});  // several chunks, in parts
 }
 
-TEST_CASE("tiles come back in any order, the rest stays", "[state]") {
+TEST_CASE("tiles can be read in any order, other pixels are unchanged", "[state]") {
   CheckRoundTrip({0, 0, 9, 7}, {});
   CheckRoundTrip({2, 3, 40, 31},
                  {{30, 20, 40, 31}, {2, 3, 3, 4}, {3, 3, 9, 20}, {2, 30, 30, 31}});
@@ -46,7 +46,7 @@ TEST_CASE("tiles come back in any order, the rest stays", "[state]") {
                  {{150, 100, 300, 200}, {0, 0, 150, 100}, {7, 101, 140, 199}});
 }
 
-TEST_CASE("texts, window and tiles come back", "[state]") {
+TEST_CASE("texts, crop window and tiles round-trip", "[state]") {
   const TemporaryFolder folder;
   StateContent content;
   content.identity = std::string(200000, 'x') + "\u00e9";
@@ -63,7 +63,7 @@ TEST_CASE("texts, window and tiles come back", "[state]") {
   CHECK(file.bytes() == std::filesystem::file_size(folder.File("state")));
 }
 
-TEST_CASE("tables come back, empty ones too", "[state]") {
+TEST_CASE("tables round-trip, including empty ones", "[state]") {
   const TemporaryFolder folder;
   std::vector<double> many(100003), few = {1.5}, none;
   for (std::size_t i = 0; i < many.size(); ++i) many[i] = 1 / (1.0 + double(i));
@@ -90,7 +90,7 @@ TEST_CASE("tables come back, empty ones too", "[state]") {
   CHECK_THROWS_WITH(file.TableRows("more"), Contains("no tables \"more\""));
 }
 
-TEST_CASE("the parts of a film make the whole", "[state]") {
+TEST_CASE("the parts of a film add up to the whole", "[state]") {
   const TemporaryFolder folder;
   const PixelRect window = {0, 0, 60, 40};
   const RandomFilm film = RandomFilm::Make(window, 2);
@@ -104,7 +104,7 @@ TEST_CASE("the parts of a film make the whole", "[state]") {
   CHECK(HoldsTiles(merged, film, {left[0], right[0]}));
 }
 
-TEST_CASE("a part goes into a film of other pixels that has them", "[state]") {
+TEST_CASE("a part can be added to a film that contains its pixels", "[state]") {
   const TemporaryFolder folder;
   const PixelRect part = {5, 6, 12, 11}, whole = {-2, 0, 20, 30};
   const RandomFilm film = RandomFilm::Make(whole, 3);
@@ -124,7 +124,7 @@ TEST_CASE("a part goes into a film of other pixels that has them", "[state]") {
                     Contains("[5, 12) x [6, 11)") && Contains("[5, 11) x [6, 11)"));
 }
 
-TEST_CASE("the same content gives the same bytes", "[state]") {
+TEST_CASE("equal content gives equal bytes", "[state]") {
   const RandomFilm film = RandomFilm::Make({0, 0, 120, 110}, 4);
   const StateContent content = film.Content({film.window});
   const std::string first = StateBytes(content);

@@ -30,7 +30,8 @@ class WithoutPrivileges {
  public:
   explicit WithoutPrivileges(const std::string& folder) {
     if (root_)
-      REQUIRE((chown(folder.c_str(), kNobody, kNobody) == 0 && seteuid(kNobody) == 0));
+      REQUIRE((chown(folder.c_str(), kUnprivilegedUser, kUnprivilegedUser) == 0 &&
+               seteuid(kUnprivilegedUser) == 0));
   }
   ~WithoutPrivileges() {
     if (root_) CHECK(seteuid(0) == 0);
@@ -39,13 +40,13 @@ class WithoutPrivileges {
   WithoutPrivileges& operator=(const WithoutPrivileges&) = delete;
 
  private:
-  static constexpr uid_t kNobody = 65534;
+  static constexpr uid_t kUnprivilegedUser = 65534;
   const bool root_ = geteuid() == 0;
 };
 
 }  // namespace
 
-TEST_CASE("a full disk leaves the old state and nothing else", "[state]") {
+TEST_CASE("a full disk keeps the old state and leaves no other file", "[state]") {
   const TemporaryFolder folder;
   const std::string path = folder.File("state");
   const std::string first = BytesOfState(1), second = BytesOfState(2);
@@ -72,7 +73,7 @@ TEST_CASE("a full disk leaves the old state and nothing else", "[state]") {
   CHECK(ReadWholeFile(path) == second);
 }
 
-TEST_CASE("places that cannot be written are input errors with the reason", "[state]") {
+TEST_CASE("paths that cannot be written are input errors with the reason", "[state]") {
   const TemporaryFolder folder;
   const StateCopy state = State(1);
   CHECK_THROWS_WITH(state.Write(folder.File("gone/state")),
@@ -83,7 +84,7 @@ TEST_CASE("places that cannot be written are input errors with the reason", "[st
   CHECK(folder.Count() == 1);
 }
 
-TEST_CASE("a folder needs permission to write, none to list", "[state]") {
+TEST_CASE("a folder needs write permission but no read permission", "[state]") {
   const TemporaryFolder folder;
   const std::string inner = folder.File("inner"), path = inner + "/state";
   std::filesystem::create_directory(inner);

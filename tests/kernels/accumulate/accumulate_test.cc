@@ -255,7 +255,7 @@ TEST_CASE("invalid samples are counted by kind and written as zero", "[accumulat
   }
 }
 
-TEST_CASE("a film that keeps spectra is given radiance before exposure, and the triple",
+TEST_CASE("a spectral film receives radiance before exposure and the wavelength triple",
           "[accumulate][buckets]") {
   const FeatureSet features = {Feature::kSpectral, Feature::kSpectralFilm,
                                Feature::kFiltered};

@@ -102,7 +102,7 @@ void CheckHit(const PathColumns& p, const MaterialTable& m, std::uint32_t i,
 
 }  // namespace
 
-TEST_CASE("aov: albedo of every kind, normal and depth, at the first hit alone",
+TEST_CASE("aov: albedo of every kind, normal and depth are those of the first hit",
           "[accumulate]") {
   const CompiledScene scene = AllKinds();
   const FeatureSet variants[] = {{},

@@ -15,7 +15,7 @@ constexpr std::uint32_t kPaths = 101;
 constexpr float kUnit = 0x1p-24f;
 
 // The change of a number in an odd sample.
-enum class Change { kNone, kReflect, kTurn };
+enum class Change { kNone, kReflect, kRotate };
 
 // The columns, and what each choice of pairs does to them at a depth.
 struct Column {
@@ -30,7 +30,7 @@ constexpr Column kColumns[] = {{&PathColumns::u_film_0, Change::kReflect, "ap"},
                                {&PathColumns::u_lens_1, Change::kReflect, "ap"},
                                {&PathColumns::u_lobe, Change::kReflect, "abf"},
                                {&PathColumns::u_bsdf_0, Change::kReflect, "abf"},
-                               {&PathColumns::u_bsdf_1, Change::kTurn, "abf"},
+                               {&PathColumns::u_bsdf_1, Change::kRotate, "abf"},
                                {&PathColumns::u_select, Change::kReflect, "alf"},
                                {&PathColumns::u_light_0, Change::kReflect, "alf"},
                                {&PathColumns::u_light_1, Change::kReflect, "alf"},
@@ -42,7 +42,7 @@ float Expected(float u, Change change) {
   switch (change) {
     case Change::kReflect:
       return static_cast<float>(0xffffffu - k) * kUnit;
-    case Change::kTurn:
+    case Change::kRotate:
       return static_cast<float>((k + 0x800000u) & 0xffffffu) * kUnit;
     case Change::kNone:
       break;
@@ -74,7 +74,7 @@ struct PairedPaths {
   void Run(const std::string& choice) {
     Strategy strategy;
     ApplyStrategy("pairs=antithetic:" + choice, {}, strategy);
-    fixture.run.pairs = MakePairParameters(strategy);
+    fixture.run.pairs = MakeAntitheticParameters(strategy);
     for (QueueId id : {QueueId::kCamera, QueueId::kSurface}) {
       Queue& queue = fixture.wave.queue(id);
       queue.size = 0;
@@ -90,7 +90,7 @@ struct PairedPaths {
 
 }  // namespace
 
-TEST_CASE("antithetic: odd samples are reflected, in the paired dimensions alone",
+TEST_CASE("antithetic: odd samples are reflected in the paired dimensions only",
           "[pairs]") {
   const std::pair<const char*, char> choices[] = {
       {"all", 'a'}, {"pixel", 'p'}, {"light", 'l'}, {"bsdf", 'b'}, {"first-bounce", 'f'}};

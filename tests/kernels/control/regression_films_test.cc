@@ -35,8 +35,9 @@ TEST_CASE("regression: the functions are orthonormal with mean 0", "[control]") 
   }
 }
 
-TEST_CASE("regression: choices have mean 0, and where none is are no functions",
-          "[control]") {
+TEST_CASE(
+    "regression: functions of choices have mean 0 and exist only where there is a choice",
+    "[control]") {
   float phi[RegressionFilm::kFunctions];
   for (float p : {0.001f, 0.04f, 0.3f, 0.5f, 0.97f}) {
     constexpr int kSteps = 1 << 16;
@@ -54,7 +55,8 @@ TEST_CASE("regression: choices have mean 0, and where none is are no functions",
   }
 }
 
-TEST_CASE("regression: samples never see their own half", "[control]") {
+TEST_CASE("regression: coefficients never depend on their own half of the samples",
+          "[control]") {
   constexpr std::uint32_t kChanged = 30;
   for (const SampleGroups& groups : kAllGroups) {
     Samples a(4, 60, groups, 4), b = a;
@@ -64,15 +66,15 @@ TEST_CASE("regression: samples never see their own half", "[control]") {
     RegressionFilm of_a({0, 0, 4, 4}, groups, 1), of_b({0, 0, 4, 4}, groups, 1);
     a.AddTo(of_a), b.AddTo(of_b);
     of_a.Fit(colors), of_b.Fit(colors);
-    const std::uint32_t turns = groups.replicates ? kReplicates : 2;
+    const std::uint32_t num_replicates = groups.replicates ? kReplicates : 2;
     int differ = 0;
     for (std::size_t p = 0; p < 16; ++p) {
       ReplicateSums sums_a, sums_b;
       of_a.CorrectReplicates(p, sums_a), of_b.CorrectReplicates(p, sums_b);
-      for (std::uint32_t t = 0; t < turns; ++t) {
+      for (std::uint32_t t = 0; t < num_replicates; ++t) {
         const bool same = sums_a.of[t][0] == sums_b.of[t][0];
         CHECK(sums_a.of[t][0] != 0);
-        if (t % 2 == kChanged / groups.unit % turns % 2) CHECK(same);
+        if (t % 2 == kChanged / groups.unit % num_replicates % 2) CHECK(same);
         differ += !same;
       }
     }
@@ -80,7 +82,7 @@ TEST_CASE("regression: samples never see their own half", "[control]") {
   }
 }
 
-TEST_CASE("regression: how samples come in does not matter", "[control]") {
+TEST_CASE("regression: bit-identical for any order of samples", "[control]") {
   for (const SampleGroups& groups : kAllGroups) {
     Samples s(4, 150, groups, 6);
     RegressionFilm whole({0, 0, 4, 4}, groups, 1), parts({0, 0, 4, 4}, groups, 1);
@@ -92,7 +94,8 @@ TEST_CASE("regression: how samples come in does not matter", "[control]") {
   }
 }
 
-TEST_CASE("regression: a crop of whole blocks is as in the image", "[control]") {
+TEST_CASE("regression: a crop of whole blocks equals that part of the image",
+          "[control]") {
   constexpr int kSide = 12, kFrom = RegressionFilm::kBlock;
   const SampleGroups groups = {1, false};
   Samples s(kSide, 16, groups, 8);
@@ -118,7 +121,7 @@ TEST_CASE("regression: a crop of whole blocks is as in the image", "[control]") 
   CHECK(cut.Mean(kFrom + 1, kFrom + 1) != film.Mean(kFrom + 1, kFrom + 1));
 }
 
-TEST_CASE("regression: a million samples are learned from, and no more", "[control]") {
+TEST_CASE("regression: at most a million samples are fitted", "[control]") {
   constexpr std::uint32_t kAtOnce = 4096;
   const SampleGroups groups = {1, false};
   RegressionFilm film({0, 0, 1, 1}, groups, 1);
@@ -129,7 +132,7 @@ TEST_CASE("regression: a million samples are learned from, and no more", "[contr
     return bytes;
   };
   std::vector<char> last;
-  const std::uint64_t calls = RegressionFilm::kMostFitted / kAtOnce;
+  const std::uint64_t calls = RegressionFilm::kMaxFittedSamples / kAtOnce;
   for (std::uint64_t call = 0; call < calls + 64; ++call) {
     if (call == calls) last = products();
     Samples s(1, kAtOnce, groups, static_cast<unsigned>(call));

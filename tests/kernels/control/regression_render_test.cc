@@ -28,7 +28,7 @@ TEST_CASE("regression: renders of smooth light", "[control]") {
   CHECK(result.same);
 }
 
-TEST_CASE("regression: what glass reflects and what it lets through", "[control]") {
+TEST_CASE("regression: reflection and transmission of glass", "[control]") {
   // Radiance 1 behind a sheet and 5 in front of it: all of the variance is the choice.
   Material sheet;
   sheet.kind = MaterialKind::kThinDielectric;

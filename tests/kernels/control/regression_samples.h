@@ -91,21 +91,21 @@ class Samples {
 
  private:
   void Draw(int number, const SampleGroups& groups, std::uint32_t replicate) {
-    const std::uint32_t most =
+    const std::uint32_t max_samples =
         groups.replicates ? static_cast<std::uint32_t>(groups.InReplicate(count_, 0))
                           : groups.unit;
-    std::vector<std::uint32_t> order(most);
-    std::uint32_t taken = 0;
+    std::vector<std::uint32_t> order(max_samples);
+    std::uint32_t used = 0;
     for (std::uint32_t i = 0; i < count_; ++i) {
       if (groups.Replicate(i) != replicate) continue;
-      if (taken % most == 0) {
+      if (used % max_samples == 0) {
         std::iota(order.begin(), order.end(), 0u);
         std::shuffle(order.begin(), order.end(), engine_);
       }
-      const float stratum = float(order[taken++ % most]);
+      const float stratum = float(order[used++ % max_samples]);
       const float u = std::uniform_real_distribution<float>(0, 1)(engine_);
       numbers_[kNumbers * std::size_t{i} + static_cast<std::size_t>(number)] =
-          std::min(0x1.fffffep-1f, (stratum + u) / float(most));
+          std::min(0x1.fffffep-1f, (stratum + u) / float(max_samples));
     }
   }
 

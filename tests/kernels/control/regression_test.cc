@@ -9,7 +9,7 @@ namespace lanelight {
 
 using namespace regression_samples;
 
-TEST_CASE("regression: unbiased where a fit to the same samples is not", "[control]") {
+TEST_CASE("regression: unbiased, unlike a fit to the same samples", "[control]") {
   constexpr int kSide = 16;
   for (const SampleGroups& groups : kAllGroups) {
     std::vector<double> corrected, plain, self, biased;
@@ -63,7 +63,8 @@ double SquaredError(const FilmAccumulator& film) {
   return sum;
 }
 
-TEST_CASE("regression: what the fit explains goes away, and c = 1 is best", "[control]") {
+TEST_CASE("regression: the explained variance is removed, and c = 1 is optimal",
+          "[control]") {
   constexpr int kSide = 48;
   const SampleGroups groups = {1, false};
   Samples s(kSide, 256, groups, 9);

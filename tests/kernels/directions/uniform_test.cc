@@ -136,7 +136,8 @@ TEST_CASE("uniform: throughput times density is f cos, path by path", "[directio
   }
 }
 
-TEST_CASE("uniform: directions are even, on the side of wo or on both", "[directions]") {
+TEST_CASE("uniform: directions are uniform on the side of wo or on both sides",
+          "[directions]") {
   const auto materials = Materials();
   const double n = kPaths;
   const EachTarget target;
@@ -167,7 +168,7 @@ TEST_CASE("uniform: directions are even, on the side of wo or on both", "[direct
   }
 }
 
-TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
+TEST_CASE("uniform: scattered radiance agrees with the reference on average",
           "[directions][stat]") {
   const auto materials = Materials();
   static std::vector<std::vector<Sums>> reference;  // the same for all targets
@@ -181,7 +182,7 @@ TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
                                      AvailableTargets().size()) *
                     kMoments * 3;
   const double level = stat::SidakLevel(1e-3, tests);
-  double least_wrong = 0;
+  double min_wrong = 0;
   const EachTarget target;
   for (std::size_t i = 0; i < materials.size(); ++i) {
     double wrong = 1;
@@ -191,11 +192,11 @@ TEST_CASE("uniform: what is scattered agrees with the reference in the mean",
       CHECK(LowestP(SumsOf(bounces, 1), reference[i][d]) > level);
       wrong = std::min(wrong, LowestP(SumsOf(bounces, 1.5), reference[i][d]));
     }
-    least_wrong = std::max(least_wrong, wrong);
+    min_wrong = std::max(min_wrong, wrong);
   }
   // A weight that is off by half is found in every material; the density of the sphere in
   // place of the hemisphere's would be off by two.
-  CHECK(least_wrong < 1e-6);
+  CHECK(min_wrong < 1e-6);
 }
 
 }  // namespace lanelight::test

@@ -144,7 +144,8 @@ TEST_CASE("camera rays without a lens are the reference's", "[generate]") {
   }
 }
 
-TEST_CASE("rays through a lens start on it, evenly, and meet in focus", "[generate]") {
+TEST_CASE("rays through a lens start uniformly on it and intersect in focus",
+          "[generate]") {
   const Filter box = BoxFilter(0.5, 0.5);
   const View& view = kViews[2];
   View pinhole = view;
@@ -224,7 +225,7 @@ TEST_CASE("film positions follow the filter, with its sign as weight", "[generat
   }
 }
 
-TEST_CASE("a path begins with nothing gathered and its whole throughput", "[generate]") {
+TEST_CASE("a path starts with zero radiance and its full throughput", "[generate]") {
   const EachTarget target;
   Shot shot(kViews[0], BoxFilter(0.5, 0.5));
   const PathColumns& p = shot.fixture.wave.path;

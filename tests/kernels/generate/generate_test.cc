@@ -73,13 +73,13 @@ class Starter {
   }
   std::uint32_t Room() {
     if (!task_.splits) return queue(QueueId::kFree).size;
-    const std::uint32_t share = task_.capacity / kMostCopies;
+    const std::uint32_t max_live = task_.capacity / kMaxSplitPaths;
     const std::uint32_t live = queue(QueueId::kActive).size;
-    return live < share ? share - live : 0;
+    return live < max_live ? max_live - live : 0;
   }
   void Note(std::uint32_t slot) {
     const PathColumns& p = fixture_.wave.path;
-    const std::uint32_t rows = task_.splits ? kMostCopies : 1;
+    const std::uint32_t rows = task_.splits ? kMaxSplitPaths : 1;
     CHECK(slot < task_.capacity);
     CHECK(busy_.insert(slot).second);  // it was free
     CHECK(started_.insert({p.pixel[slot], p.sample[slot]}).second);
@@ -91,7 +91,7 @@ class Starter {
     const std::uint32_t sample = p.sample[slot] - task_.first_sample;
     CHECK(p.output[slot] == (index * task_.samples + sample) * rows);
     CHECK(p.depth[slot] == 0);
-    if (task_.splits) CHECK((p.branch[slot] == 0 && p.budget[slot] == kMostCopies));
+    if (task_.splits) CHECK((p.branch[slot] == 0 && p.budget[slot] == kMaxSplitPaths));
   }
   // Samples 2k and 2k + 1 of a pixel lie side by side where they are started together.
   void CheckNeighbours(const Queue& camera) {

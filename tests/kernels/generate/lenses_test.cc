@@ -89,7 +89,7 @@ Vec3d Turned(Vec3d v, Vec3d film, double sign) {
   return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
-void CheckRays(const Camera& camera, double most_stopped) {
+void CheckRays(const Camera& camera, double max_stopped) {
   const Shot shot(camera);
   const reference::Lenses twin(camera);
   const PathColumns& p = shot.fixture.wave.path;
@@ -115,7 +115,7 @@ void CheckRays(const Camera& camera, double most_stopped) {
           Approx(std::pow(cosine, 4) * area / (rear.z * rear.z)).epsilon(1e-4));
   }
   CHECK(differ < kPaths / 400);
-  CHECK(stopped < most_stopped * kPaths);
+  CHECK(stopped < max_stopped * kPaths);
   const Wave& wave = shot.fixture.wave;
   CHECK(const_cast<Wave&>(wave).queue(QueueId::kActive).size +
             const_cast<Wave&>(wave).queue(QueueId::kDone).size ==
@@ -124,7 +124,7 @@ void CheckRays(const Camera& camera, double most_stopped) {
 
 }  // namespace
 
-TEST_CASE("rays through lenses are the twin's", "[generate]") {
+TEST_CASE("rays through lenses equal those of the reference", "[generate]") {
   const EachTarget target;
   CheckRays(Doublet(24, 2), 0.45);
   CheckRays(Doublet(6, 0.7), 0.35);
@@ -226,7 +226,8 @@ TEST_CASE("lenses form the image of a thin lens", "[generate]") {
   CHECK(worst < 0.5);
 }
 
-TEST_CASE("an even light exposes the film as the stop's angle says", "[generate]") {
+TEST_CASE("a uniform light exposes the film by the solid angle of the aperture",
+          "[generate]") {
   // On the axis the irradiance from radiance 1 is pi sin^2, of the half angle under which
   // the film sees the rear opening: here nothing but a stop.
   Camera camera = Doublet(10, 5);
@@ -244,7 +245,7 @@ TEST_CASE("an even light exposes the film as the stop's angle says", "[generate]
   CHECK(sum / kPaths == Approx(kPi * sine2).epsilon(5 * std::sqrt(0.3 / kPaths)));
 }
 
-TEST_CASE("a film behind lenses is what the reference renders", "[generate]") {
+TEST_CASE("images through lenses agree with the reference", "[generate]") {
   SceneBuilder b(8, 8);
   b.Depth(2);
   b.scene().camera = Doublet(20, 0.8);
@@ -271,7 +272,7 @@ TEST_CASE("a film behind lenses is what the reference renders", "[generate]") {
   CHECK_FALSE(compare(wider).same);
 }
 
-TEST_CASE("pictures of apertures are as bright as a circle", "[generate]") {
+TEST_CASE("aperture images are as bright as a circle", "[generate]") {
   const WhitePicture white;
   const double circle = Exposure("");
   for (const std::string& shape :

@@ -72,7 +72,7 @@ void CheckShares(const Geometry& g, const std::vector<StageOn>& closest,
 
 }  // namespace
 
-TEST_CASE("a cut-out keeps its share of the hits", "[intersect]") {
+TEST_CASE("an alpha texture keeps the expected fraction of hits", "[intersect]") {
   const EachTarget target;
   Geometry triangles, spheres, disks;
   AddLayers(triangles.triangles,
@@ -85,7 +85,7 @@ TEST_CASE("a cut-out keeps its share of the hits", "[intersect]") {
   CheckShares(spheres, {IntersectSpheresStage}, {ShadowSpheresStage});
 }
 
-TEST_CASE("a sphere whose near side is cut out is met on its far side", "[intersect]") {
+TEST_CASE("a sphere with a transparent near side is hit on its far side", "[intersect]") {
   const EachTarget target;
   Geometry g;
   g.spheres = {MakeSphere({0, 0, 0}, 1)};

@@ -196,7 +196,7 @@ TEST_CASE("shadow rays are blocked by curves as others hit them", "[intersect][c
   CHECK(Unoccluded(scene, rays, {ShadowCurvesStage}) == open);
 }
 
-TEST_CASE("curves end where they end", "[intersect][curves]") {
+TEST_CASE("rays beyond the ends of curves miss", "[intersect][curves]") {
   // Ends cut straight across; where points coincide too.
   const std::array<Vec3f, 4> ends[] = {{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}},
                                        {{{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {3, 0, 0}}},
@@ -225,7 +225,7 @@ TEST_CASE("curves end where they end", "[intersect][curves]") {
   }
 }
 
-TEST_CASE("curves are met in front of a ray only, the smaller first at equal distance",
+TEST_CASE("curves are hit in front of a ray only; ties go to the smaller index",
           "[intersect][curves]") {
   CurveSet set;
   for (int i = 0; i < 3; ++i) {
@@ -254,7 +254,7 @@ TEST_CASE("curves with numbers that are not finite are left out", "[intersect][c
   CHECK(hits[0].prim == 1);
 }
 
-TEST_CASE("pieces of curves cover them", "[accel][curves]") {
+TEST_CASE("bounding boxes of pieces cover their curve", "[accel][curves]") {
   const Geometry g = RandomCurves(200, 5).Records();
   const std::vector<CurvePiece> pieces = PiecesOf(g, 7);
   std::size_t begin = 0;
@@ -334,7 +334,7 @@ TEST_CASE("surfaces of curves are those of the reference", "[surface][curves]") 
   CHECK(worst_v < 0.02);
 }
 
-TEST_CASE("rays that leave a straight curve do not meet it", "[surface][curves]") {
+TEST_CASE("rays that leave a straight curve do not hit it again", "[surface][curves]") {
   CurveRandom random{std::mt19937(8)};
   CurveSet set;
   const Vec3f d = random.Direction();

@@ -7,14 +7,14 @@ namespace lanelight {
 namespace {
 
 // Of `packets` that meet so many leaves each, how many take the frustum.
-int Taken(FrustumTrial& trial, int packets, int leaves) {
-  int taken = 0;
+int FrustumPackets(FrustumTrial& trial, int packets, int leaves) {
+  int packets_seen = 0;
   for (int i = 0; i < packets; ++i) {
     if (!trial.IsOn()) continue;
-    ++taken;
-    trial.Add(trial.most() - leaves);
+    ++packets_seen;
+    trial.Add(trial.max_leaves() - leaves);
   }
-  return taken;
+  return packets_seen;
 }
 
 Accel LeavesOf(int triangles) {
@@ -23,33 +23,33 @@ Accel LeavesOf(int triangles) {
   return accel;
 }
 
-TEST_CASE("packets take the frustum while they meet few leaves") {
+TEST_CASE("packets use the frustum while they visit few leaves") {
   for (const int triangles : {kLeafTriangles, kLeafTriangles / 2}) {
     const int unit = kLeafTriangles / triangles;
     const Accel accel = LeavesOf(triangles);
     FrustumTrial trial(accel);
-    CHECK(Taken(trial, 1000, 4 * unit) == 1000);
+    CHECK(FrustumPackets(trial, 1000, 4 * unit) == 1000);
     // Earlier savings do not offset many leaves later.
-    const int dense = Taken(trial, 1000, 20 * unit);
+    const int dense = FrustumPackets(trial, 1000, 20 * unit);
     CHECK(dense >= 1000 / 20);
     CHECK(dense <= 1000 / 10);
     // One in so many is tried, so that it soon goes on where triangles are larger.
-    CHECK(Taken(trial, 1000, 4 * unit) >= 980);
+    CHECK(FrustumPackets(trial, 1000, 4 * unit) >= 980);
   }
 }
 
-TEST_CASE("a packet among others that meets many leaves does not end the frustum") {
+TEST_CASE("a single packet that visits many leaves does not disable the frustum") {
   const Accel accel = LeavesOf(kLeafTriangles);
   FrustumTrial trial(accel);
-  int taken = 0;
+  int packets_seen = 0;
   for (int i = 0; i < 100; ++i) {
-    taken += Taken(trial, 1, 14);
-    taken += Taken(trial, 4, 4);
+    packets_seen += FrustumPackets(trial, 1, 14);
+    packets_seen += FrustumPackets(trial, 4, 4);
   }
-  CHECK(taken == 500);
+  CHECK(packets_seen == 500);
 }
 
-TEST_CASE("a packet that is given up counts with all leaves that it met") {
+TEST_CASE("an aborted packet counts all leaves that it visited") {
   const Accel accel = LeavesOf(kLeafTriangles);
   FrustumTrial trial(accel);
   REQUIRE(trial.IsOn());

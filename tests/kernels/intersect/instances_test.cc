@@ -152,8 +152,7 @@ CompiledScene Crowd(Random& random, Copies& copies) {
 
 }  // namespace
 
-TEST_CASE("a hit on an instance does not depend on the company of its ray",
-          "[intersect]") {
+TEST_CASE("a hit on an instance does not depend on other rays", "[intersect]") {
   // Alone a ray enters instances by itself; with others like it in a vector. Ties between
   // coincident instances and cut-outs are decided alike.
   Random random(43);
@@ -197,7 +196,7 @@ TEST_CASE("a hit on an instance does not depend on the company of its ray",
   }
 }
 
-TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
+TEST_CASE("ties between instances go to the smaller index", "[intersect]") {
   // Stretched along z by a power of two an object keeps its triangle at z = 0, and the
   // hits on it their bits; the other triangle has the stretched one's box met first.
   Geometry g;
@@ -228,7 +227,7 @@ TEST_CASE("between equal hits the smaller instance is nearer", "[intersect]") {
   }
 }
 
-TEST_CASE("a ray that leaves the range of numbers meets no instance", "[intersect]") {
+TEST_CASE("a ray beyond the range of float hits no instance", "[intersect]") {
   Random random(44);
   Geometry g = MakePair(random, 20).instanced;
   for (InstanceRecord& record : g.instances) {

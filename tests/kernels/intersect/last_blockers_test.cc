@@ -44,7 +44,7 @@ std::vector<TestRay> RaysToWalls(Random& random, int count) {
 
 }  // namespace
 
-TEST_CASE("what blocked one shadow ray need not block another", "[intersect]") {
+TEST_CASE("the last blocker is only a candidate for the next shadow ray", "[intersect]") {
   const EachTarget target;
   Random random(21);
   const CompiledScene scene = MakeScene(Walls(random));

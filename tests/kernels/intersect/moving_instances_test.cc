@@ -123,7 +123,7 @@ WaveFixture Trace(const CompiledScene& scene, const std::vector<TestRay>& rays,
 
 }  // namespace
 
-TEST_CASE("rays meet moving instances where they are at their time",
+TEST_CASE("rays hit moving instances at the position of their time",
           "[intersect][motion]") {
   const EachTarget target;
   Random random(51);
@@ -166,7 +166,7 @@ TEST_CASE("rays meet moving instances where they are at their time",
   }
 }
 
-TEST_CASE("a hit on a moving instance does not depend on the company of its ray",
+TEST_CASE("a hit on a moving instance does not depend on other rays",
           "[intersect][motion]") {
   Random random(52);
   const MovingScene moving(random, 60);
@@ -192,7 +192,8 @@ TEST_CASE("a hit on a moving instance does not depend on the company of its ray"
   }
 }
 
-TEST_CASE("surfaces of moving instances lie where these are", "[surface][motion]") {
+TEST_CASE("surface points of moving instances lie on the moved surface",
+          "[surface][motion]") {
   const EachTarget target;
   Random random(53);
   const MovingScene moving(random, 12);

@@ -17,7 +17,7 @@ struct Truth {
   bool clear = true;  // no shape is nearly touched or its rim nearly crossed
 };
 
-void Offer(Truth& truth, double t, std::uint32_t prim) {
+void AcceptNearer(Truth& truth, double t, std::uint32_t prim) {
   if (std::abs(t) < 1e-4) truth.clear = false;
   if (t > 0 && std::abs(t - truth.t) < 1e-4) truth.clear = false;
   if (t > 0 && t < truth.t) {
@@ -36,7 +36,7 @@ Truth FindTruth(const Geometry& g, const TestRay& ray) {
     SphereRecord wider = s;
     wider.radius *= 1 + 1e-5f;
     if (roots.empty() && !brute::Roots(wider, o, d).empty()) truth.clear = false;
-    for (const double t : roots) Offer(truth, t, g.ranges.spheres + i);
+    for (const double t : roots) AcceptNearer(truth, t, g.ranges.spheres + i);
   }
   for (std::uint32_t i = 0; i < g.disks.size(); ++i) {
     const DiskRecord& s = g.disks[i];
@@ -47,7 +47,7 @@ Truth FindTruth(const Geometry& g, const TestRay& ray) {
     if (std::abs(distance - s.radius) < 1e-4) truth.clear = false;
     if (std::abs(distance - s.inner_radius) < 1e-4) truth.clear = false;
     if (distance <= s.radius && distance >= s.inner_radius) {
-      Offer(truth, t, g.ranges.disks + i);
+      AcceptNearer(truth, t, g.ranges.disks + i);
     }
   }
   for (std::uint32_t i = 0; i < g.planes.size(); ++i) {
@@ -55,7 +55,7 @@ Truth FindTruth(const Geometry& g, const TestRay& ray) {
     const Vec3d n{s.normal[0], s.normal[1], s.normal[2]};
     const Vec3d c{s.point[0], s.point[1], s.point[2]};
     if (std::abs(Dot(n, d)) < 1e-2) truth.clear = false;
-    Offer(truth, Dot(n, c - o) / Dot(n, d), g.ranges.planes + i);
+    AcceptNearer(truth, Dot(n, c - o) / Dot(n, d), g.ranges.planes + i);
   }
   return truth;
 }
@@ -134,7 +134,7 @@ TEST_CASE("distant and huge spheres have accurate roots", "[intersect]") {
   }
 }
 
-TEST_CASE("a ray along a plane or disk does not meet it", "[intersect]") {
+TEST_CASE("a ray parallel to a plane or disk misses it", "[intersect]") {
   const EachTarget target;
   Geometry g;
   g.disks = {MakeDisk({0, 0, 0}, {0, 0, 1}, 1)};

@@ -94,7 +94,7 @@ void CheckShadow(Wave& wave) {
 
 }  // namespace
 
-TEST_CASE("a ray leaves out the triangle that it starts on", "[intersect]") {
+TEST_CASE("a ray ignores the triangle that it starts on", "[intersect]") {
   const EachTarget target;
   Random random(21);
   for (int n : {36, 700}) {
@@ -123,7 +123,7 @@ TEST_CASE("a ray leaves out the triangle that it starts on", "[intersect]") {
   }
 }
 
-TEST_CASE("a bound from another shape is no reason to leave out a triangle",
+TEST_CASE("a distance bound from another shape does not exclude a triangle",
           "[intersect]") {
   // A ray with a finite bound has met something; prim is that, and may be nearer or as
   // near as the triangle of the same number.
@@ -134,7 +134,7 @@ TEST_CASE("a bound from another shape is no reason to leave out a triangle",
   CHECK(TraceClosest(scene, {ray}, {IntersectTrianglesStage})[0].t == 1);
 }
 
-TEST_CASE("paths know the triangle that they start on, wherever they are moved",
+TEST_CASE("paths keep the triangle that they start on when they are moved",
           "[intersect]") {
   for (const std::string strategy :
        {"points=sobol", "roulette=throughput", "roulette=adjoint"}) {

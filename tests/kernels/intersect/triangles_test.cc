@@ -108,7 +108,7 @@ TEST_CASE("trees and the plain loop report the same bits", "[intersect]") {
   check(brute::SphereMesh(8, 8, {}, 1));  // vertices are shared
 }
 
-TEST_CASE("a hit does not depend on the company of its ray", "[intersect]") {
+TEST_CASE("a hit does not depend on other rays", "[intersect]") {
   // Rays share packets and stacks with others in the order of the queue; alone they take
   // every step by themselves. Deep trees and heaps of overlapping triangles fill stacks.
   Random random(10);

@@ -88,7 +88,8 @@ TEST_CASE("a hole in the mesh is seen", "[intersect]") {
   CHECK(Leaks(whole, MakeScene(g), random, {0, 0, 0}, 1, 50000) > 0);
 }
 
-TEST_CASE("hits do not depend on order, company or wavefront size", "[intersect]") {
+TEST_CASE("hits do not depend on ray order, other rays or wavefront size",
+          "[intersect]") {
   const EachTarget target;
   Random random(23);
   for (const int n : {50, 2000}) {

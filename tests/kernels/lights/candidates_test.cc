@@ -75,7 +75,7 @@ struct Vertices {
     r[i] = static_cast<float>(c.x), g[i] = static_cast<float>(c.y);
     b[i] = static_cast<float>(c.z);
   }
-  void Offer(const Candidate& c, std::uint32_t light) {
+  void AddCandidate(const Candidate& c, std::uint32_t light) {
     PathColumns& p = fixture.wave.path;
     for (std::uint32_t i = 0; i < kDraws; ++i) {
       Put(p.ls_x, p.ls_y, p.ls_z, i, c.direction);
@@ -89,7 +89,7 @@ struct Vertices {
   void Run(const Candidates& candidates) {
     fixture.run.candidates = static_cast<std::uint32_t>(candidates.size());
     fixture.Run(BeginCandidatesStage, fixture.run.features);
-    for (std::uint32_t j = 0; j < candidates.size(); ++j) Offer(candidates[j], j);
+    for (std::uint32_t j = 0; j < candidates.size(); ++j) AddCandidate(candidates[j], j);
     fixture.Run(KeepCandidateStage, fixture.run.features);
   }
 };
@@ -118,9 +118,9 @@ void CheckKept(const Vertices& vertices, const Candidates& candidates, bool weig
   CHECK(same);
   for (std::size_t j = 0; j < candidates.size(); ++j) {
     INFO("candidate " << j);
-    const double share = Luminance(Carried(candidates[j], weighs)) / sum;
+    const double fraction = Luminance(Carried(candidates[j], weighs)) / sum;
     // Those that keep it lie in up to 2^j intervals, each cut off at both ends.
-    CHECK(kept[j] == Approx(share * kDraws).margin(share > 0 ? 1 << (j + 1) : 0));
+    CHECK(kept[j] == Approx(fraction * kDraws).margin(fraction > 0 ? 1 << (j + 1) : 0));
   }
 }
 
@@ -144,7 +144,7 @@ SceneDescription Unshadowed() {
 
 }  // namespace
 
-TEST_CASE("a candidate is kept with its share of what all would add", "[light]") {
+TEST_CASE("a candidate is kept in proportion to its weight", "[light]") {
   const EachTarget target;
   for (const bool weighs : {false, true}) {
     const Candidates all = Known();
@@ -159,7 +159,7 @@ TEST_CASE("a candidate is kept with its share of what all would add", "[light]")
   }
 }
 
-TEST_CASE("where no candidate could add light none is traced", "[light]") {
+TEST_CASE("no shadow ray is traced where all candidates have weight zero", "[light]") {
   Vertices vertices(true);
   const Candidates all = Known();
   vertices.Run({all[3], all[1]});
@@ -171,7 +171,7 @@ TEST_CASE("where no candidate could add light none is traced", "[light]") {
   }
 }
 
-TEST_CASE("worths over 60 decades leave no NaN", "[light]") {
+TEST_CASE("candidate weights over 60 decades give no NaN", "[light]") {
   Vertices vertices(false);
   Candidates all = {Known()[0], Known()[2], Known()[4]};
   all[0].light = Grey(1e-30), all[1].light = Grey(3e37), all[2].light = Grey(1e30);
@@ -209,7 +209,7 @@ TEST_CASE("numbers of further candidates are shifted on their grid", "[light]") 
   CHECK(same);
 }
 
-TEST_CASE("light is sampled once for each candidate, and kept once", "[light]") {
+TEST_CASE("light is sampled once per candidate, and one sample is kept", "[light]") {
   const TestRender options = OptionsFor("light-candidates=resampled:3", 4);
   const Rendered r = RenderDescription(Unshadowed(), options);
   std::map<std::string, std::uint64_t> items;
@@ -220,7 +220,8 @@ TEST_CASE("light is sampled once for each candidate, and kept once", "[light]") 
   CHECK(items.at("light_select_table") == 3 * items.at("light_keep"));
 }
 
-TEST_CASE("unshadowed, M candidates are as good as M light samples", "[light]") {
+TEST_CASE("without occlusion, M candidates have the variance of M light samples",
+          "[light]") {
   const SceneDescription scene = Unshadowed();
   constexpr std::uint64_t kSpp = 16384;
   const std::string plain = "directions=light,points=independent,seen-lights=paths";
@@ -246,7 +247,7 @@ TEST_CASE("resampled light does not depend on threads and wavefront", "[light]")
   }
 }
 
-TEST_CASE("resampling that can do nothing says so", "[light]") {
+TEST_CASE("resampling without effect is reported", "[light]") {
   const auto notes = [](const SceneDescription& description) {
     SceneDescription copy = description;
     ApplyStrategy("light-candidates=resampled", {}, copy.strategy);

@@ -65,20 +65,19 @@ bool HasStage(const SceneDescription& scene, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("lamps that alpha cuts render as the reference does", "[lights]") {
+TEST_CASE("lights with alpha textures agree with the reference", "[lights]") {
   CheckStrategies(CutLamps());
 }
 
-TEST_CASE("balls that shine through their holes render as the reference does",
-          "[lights]") {
+TEST_CASE("emitting spheres with alpha textures agree with the reference", "[lights]") {
   CheckStrategies(CutBalls());
 }
 
-TEST_CASE("lamps of alpha 0 render as the reference does", "[lights]") {
+TEST_CASE("lights of alpha 0 agree with the reference", "[lights]") {
   CheckStrategies(UnseenLamps());
 }
 
-TEST_CASE("a lamp with holes lights a floor as in pbrt", "[lights]") {
+TEST_CASE("a light with an alpha texture illuminates a floor as in pbrt", "[lights]") {
   // Rays meet alpha by chance: 0.5 % is the standard error of the worst of these.
   const auto expected = [](double value) { return Approx(value).epsilon(0.03); };
   const double whole = ExpectedFloor(false), holed = ExpectedFloor(true);
@@ -93,7 +92,7 @@ TEST_CASE("a lamp with holes lights a floor as in pbrt", "[lights]") {
   }
 }
 
-TEST_CASE("scenes without cut lamps run nothing for them", "[lights]") {
+TEST_CASE("scenes without alpha on lights have no stages for it", "[lights]") {
   CHECK(HasStage(CutLamps(), "light_emission_cut"));
   CHECK(HasStage(UnseenLamps(), "light_emission_cut"));
   SceneDescription whole = CutLamps();

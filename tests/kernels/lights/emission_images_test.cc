@@ -44,11 +44,11 @@ SceneDescription Pictures() {
 
 }  // namespace
 
-TEST_CASE("pictures of emitting shapes render as the reference does", "[lights]") {
+TEST_CASE("textured lights agree with the reference", "[lights]") {
   CheckStrategies(Pictures());
 }
 
-TEST_CASE("a picture that is upside down is found", "[lights]") {
+TEST_CASE("an emission image that is upside down is detected", "[lights]") {
   const auto truth = Estimate(
       RenderReference(Pictures(), Options(ReferenceEstimator::kLightSampling, 4096)));
   SceneDescription turned = Pictures();

@@ -10,8 +10,8 @@
 
 namespace lanelight::test {
 
-inline constexpr float kPmf = 0.75f;    // of the light's selection
-inline constexpr double kLeast = 1e-7;  // as in kernels/warp/solid_angle-inl.h
+inline constexpr float kPmf = 0.75f;            // of the light's selection
+inline constexpr double kMinSolidAngle = 1e-7;  // as in kernels/warp/solid_angle-inl.h
 
 /// A light from `corner` along two sides, which for a rectangle are at right angles.
 struct Flat {

@@ -129,8 +129,8 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
   if (index < 0) return hits.CheckGained(i, {}, 0);
   const NamedLight& light = hits.lights.lights[static_cast<std::size_t>(index)];
   // What is hit is not always what is nearest: a far side is seen through the near one.
-  const SeenLight seen = Look(scene, light.record, hits.Origin(i), hits.Direction(i),
-                              hits.variant.solid_angle);
+  const VisibleLight seen = Look(scene, light.record, hits.Origin(i), hits.Direction(i),
+                                 hits.variant.solid_angle);
   INFO(light.name << ", cosine " << seen.cosine);
   if (std::abs(seen.distance - p.t[i]) > 1e-5 * p.t[i]) return;
   if (seen.cosine < 0.03) return;  // rounding decides which side is seen
@@ -141,7 +141,7 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
 
 }  // namespace
 
-TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
+TEST_CASE("hit lights add their emission with the MIS weight of hits", "[lights]") {
   const LightScene all;
   LightScene more;
   more.AddOthers(80);  // without a look at which primitives emit
@@ -160,7 +160,7 @@ TEST_CASE("hit lights add their emission, by the weight of hits", "[lights]") {
   }
 }
 
-TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]") {
+TEST_CASE("escaped rays add every environment with the MIS weight of hits", "[lights]") {
   const LightScene all;
   const EachTarget target;
   for (const Variant& variant : kVariants) {
@@ -171,24 +171,24 @@ TEST_CASE("escaped rays see every environment, by the weight of hits", "[lights]
     hits.fixture.Run(EscapeStage, hits.features());
     for (std::uint32_t i = 0; i < kHits; ++i) {
       Vec3d sum;
-      bool sure = true;
+      bool certain = true;
       for (const NamedLight& light : all.lights) {
         const auto shape = static_cast<LightShape>(light.record.shape);
         if (shape != LightShape::kInfiniteConstant &&
             shape != LightShape::kInfiniteImage) {
           continue;
         }
-        const SeenLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
-        sure &= seen.met;
+        const VisibleLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
+        certain &= seen.met;
         sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
       }
       INFO("path " << i);
-      if (sure) hits.CheckGained(i, sum, 1e-5);
+      if (certain) hits.CheckGained(i, sum, 1e-5);
     }
   }
 }
 
-TEST_CASE("the table selects lights as often as their probability says", "[lights]") {
+TEST_CASE("the table selects lights with their stated probability", "[lights]") {
   constexpr std::uint32_t kSteps = 1 << 16;
   const EachTarget target;
   for (const char* selection : {"power", "uniform"}) {

@@ -132,7 +132,7 @@ TEST_CASE("samples of image lights are what the image says", "[lights]") {
   CheckImageSamples({Stretched(LightKind::kProjection), map});
 }
 
-TEST_CASE("image lights have the power that is asked for", "[lights]") {
+TEST_CASE("image lights have the specified power", "[lights]") {
   for (const LightKind kind : {LightKind::kGoniometric, LightKind::kProjection}) {
     Light light = ImageLight(kind);
     light.emission = {1, 1, 1};
@@ -172,14 +172,14 @@ TEST_CASE("power of image lights multiplies their colour and scale", "[lights]")
   }
 }
 
-TEST_CASE("image lights render as the reference does", "[lights]") {
+TEST_CASE("image lights agree with the reference", "[lights]") {
   CheckStrategies(
       Lit({ImageLight(LightKind::kGoniometric), ImageLight(LightKind::kProjection)}));
   CheckStrategies(
       Lit({Stretched(LightKind::kGoniometric), Stretched(LightKind::kProjection)}));
 }
 
-TEST_CASE("scenes without images of lights have nothing of them", "[lights]") {
+TEST_CASE("scenes without light images have no stages for them", "[lights]") {
   const PreparedScene scene = PrepareScene(PolygonLight(8));
   CHECK(scene.compiled->lights.images.empty());
   CHECK(scene.compiled->lights.texels.empty());

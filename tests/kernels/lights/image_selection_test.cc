@@ -112,8 +112,7 @@ struct Choices {
 
 // The family of all ways to choose, receivers and targets raises a false alarm with
 // probability 1e-6.
-TEST_CASE("image lights are chosen as often as their probability says",
-          "[lights][stat]") {
+TEST_CASE("image lights are selected with their stated probability", "[lights][stat]") {
   const double level = stat::SidakLevel(1e-6, int(6 * AvailableTargets().size()));
   const EachTarget target;
   for (const LightSelection selection : kSelections) {
@@ -137,7 +136,7 @@ TEST_CASE("image lights are chosen as often as their probability says",
   }
 }
 
-TEST_CASE("a chosen image light is worth itself over its probability", "[lights]") {
+TEST_CASE("a selected image light is weighted by the inverse probability", "[lights]") {
   const std::vector<Light> lights = LightsWithImages();
   const EachTarget target;
   for (const Vec3d receiver : kReceivers) {

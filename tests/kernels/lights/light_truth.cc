@@ -39,15 +39,15 @@ const DiskRecord& DiskOf(const CompiledScene& scene, const LightRecord& light) {
 }
 
 // Completes what lies on a plane with this normal at distance t.
-void OnSurface(SeenLight& seen, const LightRecord& light, Vec3d n, Vec3d w) {
+void OnSurface(VisibleLight& seen, const LightRecord& light, Vec3d n, Vec3d w) {
   seen.cosine = std::abs(Dot(n, w));
   seen.facing = light.two_sided != 0 || Dot(n, w) < 0;
   seen.pdf = seen.distance * seen.distance / (light.area * seen.cosine);
 }
 
-SeenLight LookAtTriangle(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-                         Vec3d w) {
-  SeenLight seen;
+VisibleLight LookAtTriangle(const CompiledScene& scene, const LightRecord& light,
+                            Vec3d from, Vec3d w) {
+  VisibleLight seen;
   const Corners c = CornersOf(scene, light);
   const Vec3d e1 = c.p[1] - c.p[0], e2 = c.p[2] - c.p[0], n = Cross(e1, e2);
   seen.distance = Dot(c.p[0] - from, n) / Dot(w, n);
@@ -60,17 +60,17 @@ SeenLight LookAtTriangle(const CompiledScene& scene, const LightRecord& light, V
 }
 
 // Through whichever of its two triangles.
-SeenLight LookAtRectangle(const CompiledScene& scene, const LightRecord& light,
-                          Vec3d from, Vec3d w) {
+VisibleLight LookAtRectangle(const CompiledScene& scene, const LightRecord& light,
+                             Vec3d from, Vec3d w) {
   LightRecord half = light;
-  const SeenLight first = LookAtTriangle(scene, half, from, w);
+  const VisibleLight first = LookAtTriangle(scene, half, from, w);
   half.primitive = light.second_primitive;
   return first.met ? first : LookAtTriangle(scene, half, from, w);
 }
 
-SeenLight LookAtDisk(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-                     Vec3d w) {
-  SeenLight seen;
+VisibleLight LookAtDisk(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                        Vec3d w) {
+  VisibleLight seen;
   const DiskRecord& disk = DiskOf(scene, light);
   const Vec3d center = ToVec(disk.center), n = ToVec(disk.normal);
   seen.distance = Dot(center - from, n) / Dot(w, n);
@@ -82,9 +82,9 @@ SeenLight LookAtDisk(const CompiledScene& scene, const LightRecord& light, Vec3d
 }
 
 // From outside the sphere is sampled by its cone of directions, from inside by its area.
-SeenLight LookAtSphere(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-                       Vec3d w) {
-  SeenLight seen;
+VisibleLight LookAtSphere(const CompiledScene& scene, const LightRecord& light,
+                          Vec3d from, Vec3d w) {
+  VisibleLight seen;
   const SphereRecord& sphere = SphereOf(scene, light);
   const Vec3d c = ToVec(sphere.center) - from;
   const double r = sphere.radius, d2 = Dot(c, c), along = Dot(c, w);
@@ -99,8 +99,8 @@ SeenLight LookAtSphere(const CompiledScene& scene, const LightRecord& light, Vec
   return seen;
 }
 
-SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d w) {
-  SeenLight seen;
+VisibleLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d w) {
+  VisibleLight seen;
   seen.met = seen.facing = true;
   seen.distance = std::numeric_limits<double>::infinity();
   if (light.environment < 0) {
@@ -129,9 +129,9 @@ SeenLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec3d 
 
 }  // namespace
 
-SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w,
-               bool solid_angle) {
-  SeenLight seen;
+VisibleLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                  Vec3d w, bool solid_angle) {
+  VisibleLight seen;
   switch (static_cast<LightShape>(light.shape)) {
     case LightShape::kTriangle:
       seen = LookAtTriangle(scene, light, from, w);

@@ -43,7 +43,7 @@ struct LightScene {
 LightRecord FlatLight(LightShape shape, Vec3d corner, Vec3d x, Vec3d y);
 
 /// What lies along the unit direction `w` from `from`, if the light is met there.
-struct SeenLight {
+struct VisibleLight {
   bool met = false;     // within rounding of its edges
   bool facing = false;  // the side that emits
   double distance = 0;
@@ -52,8 +52,8 @@ struct SeenLight {
   Vec3d radiance;     // delta lights: radiance / pdf
 };
 /// solid_angle: triangles and rectangles are sampled by that, instead of by area.
-SeenLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from, Vec3d w,
-               bool solid_angle = false);
+VisibleLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
+                  Vec3d w, bool solid_angle = false);
 
 /// Solid angle under which the light is seen, and the integral of the direction over it;
 /// closed forms. Disks: from points of their axis only.

@@ -130,13 +130,13 @@ std::vector<double> DensitiesAlong(const PreparedScene& scene, Vec3d from,
                                    const std::vector<Vec3d>& directions) {
   // A material's density of 1 makes that of the heuristic of powers 1 / (1 + pdf^2).
   const std::vector<Rgb> weighed = SeenAlong(scene, from, directions, 1);
-  const std::vector<Rgb> whole = SeenAlong(scene, from, directions, kSurePdf);
+  const std::vector<Rgb> whole = SeenAlong(scene, from, directions, kLargePdf);
   std::vector<double> pdf;
   bool same = true;  // what is seen at all
   for (std::size_t i = 0; i < weighed.size(); ++i) {
     same &= (weighed[i].x > 0) == (whole[i].x > 0);
-    const double share = weighed[i].x > 0 ? whole[i].x / weighed[i].x : 1;
-    pdf.push_back(std::sqrt(std::max(0.0, share - 1)));
+    const double fraction = weighed[i].x > 0 ? whole[i].x / weighed[i].x : 1;
+    pdf.push_back(std::sqrt(std::max(0.0, fraction - 1)));
   }
   CHECK(same);
   return pdf;

@@ -40,7 +40,7 @@ std::vector<Rgb> SeenAlong(const PreparedScene& scene, Vec3d from,
                            const std::vector<Vec3d>& directions, float bsdf_pdf);
 
 /// A density of materials by which rays have all weight.
-inline constexpr float kSurePdf = 1e15f;
+inline constexpr float kLargePdf = 1e15f;
 
 /// Densities of light samples along the directions that rays know, by their weight; 0
 /// beside the light.

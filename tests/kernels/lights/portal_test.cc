@@ -176,7 +176,7 @@ double PortalPValue(const SceneDescription& sampled, const SceneDescription& cla
 
 }  // namespace
 
-TEST_CASE("portal samples cover the window as densely as they say", "[lights]") {
+TEST_CASE("portal samples cover the window with their stated density", "[lights]") {
   const Vec3d places[] = {{0, 0, 1}, {1.9, -0.7, 0.1}, {-1.5, 1.5, 1.8}};
   const EachTarget target;
   for (const Vec3d from : places) {
@@ -206,7 +206,7 @@ TEST_CASE("portal samples cover the window as densely as they say", "[lights]") 
   }
 }
 
-TEST_CASE("a ray through a portal knows the density of its sample", "[lights]") {
+TEST_CASE("a ray through a portal computes the density of its sample", "[lights]") {
   const EachTarget target;
   PortalSamples s(HallUnderMap(), {0.5, 0.3, 0.6});
   PathColumns& p = s.fixture.wave.path;
@@ -228,7 +228,7 @@ TEST_CASE("a ray through a portal knows the density of its sample", "[lights]") 
 }
 
 // The family of all places, maps and targets raises a false alarm with probability 1e-3.
-TEST_CASE("portal samples are as dense as rays through it know", "[lights][stat]") {
+TEST_CASE("densities of portal samples equal those computed by rays", "[lights][stat]") {
   const Vec3d places[] = {{0, 0, 1}, {1.5, -0.4, 0.3}, {-1.5, 1.5, 1.8}};
   const double level =
       stat::SidakLevel(1e-3, static_cast<int>(6 * AvailableTargets().size()));
@@ -242,7 +242,7 @@ TEST_CASE("portal samples are as dense as rays through it know", "[lights][stat]
   CHECK(PortalPValue(HallUnderMap(), Hall(), places[0]) < 1e-6);
 }
 
-TEST_CASE("environments behind portals render as the reference does", "[lights]") {
+TEST_CASE("environments behind portals agree with the reference", "[lights]") {
   SECTION("of one radiance") { CheckStrategies(Hall()); }
   SECTION("of a map") { CheckStrategies(HallUnderMap()); }
 }

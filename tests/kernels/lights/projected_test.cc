@@ -69,11 +69,11 @@ double Irradiance(const Case& c) {
 
 // Least cosine of its corners.
 double Lowest(const Case& c) {
-  double least = c.f.rectangle ? Cosine(c.n, c.f.At(1, 1)) : 1;
+  double minimum = c.f.rectangle ? Cosine(c.n, c.f.At(1, 1)) : 1;
   for (const Vec3d v : {c.f.At(0, 0), c.f.At(1, 0), c.f.At(0, 1)}) {
-    least = std::min(least, Cosine(c.n, v));
+    minimum = std::min(minimum, Cosine(c.n, v));
   }
-  return least;
+  return minimum;
 }
 
 struct Moments {
@@ -117,7 +117,7 @@ TEST_CASE("projected samples have the density that they report", "[lights]") {
   }
 }
 
-TEST_CASE("projected samples are where their density says", "[lights]") {
+TEST_CASE("projected samples follow their density", "[lights]") {
   constexpr std::uint32_t kCount = 1 << 14;
   const std::vector<std::string> targets = AvailableTargets();
   const std::vector<Case> cases = Cases(false);
@@ -157,7 +157,7 @@ TEST_CASE("projected samples find irradiance and every direction", "[lights]") {
     CAPTURE(c.f.name, c.f.rectangle, c.n.x, c.n.y, c.n.z);
     const Draw draw(c.f, kCount, kProjected, true, c.n);
     const double rounding =
-        4e-6 * (1 + 1 / Clearance(c)) + (AngleOf(c.f) < kLeast ? 1e-3 : 0);
+        4e-6 * (1 + 1 / Clearance(c)) + (AngleOf(c.f) < kMinSolidAngle ? 1e-3 : 0);
     const auto check = [&](int power, double want) {
       const Moments m = Estimate(draw, kCount, c.n, power);
       CHECK(std::abs(m.mean - want) <
@@ -171,7 +171,7 @@ TEST_CASE("projected samples find irradiance and every direction", "[lights]") {
   CHECK(irradiances > 20);
 }
 
-TEST_CASE("light that rays hit knows the density of projected samples", "[lights]") {
+TEST_CASE("hits on lights compute the density of projected samples", "[lights]") {
   constexpr std::uint32_t kCount = 67;
   const EachTarget target;
   for (const Case& c : Cases(true)) {
@@ -179,7 +179,7 @@ TEST_CASE("light that rays hit knows the density of projected samples", "[lights
     Draw draw(c.f, kCount, kProjected, true, c.n);
     draw.Hit(kCount, {Feature::kMis, Feature::kProjectedHits});
     const double size = std::sqrt(AngleOf(c.f) * Clearance(c));
-    const double tolerance = AngleOf(c.f) > kLeast
+    const double tolerance = AngleOf(c.f) > kMinSolidAngle
                                  ? 4e-6 * (1 + 1 / Clearance(c)) + 2e-5 / size
                                  : 1e-4 * (1 + 0.1 / Clearance(c));
     for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("lights below the receiver and tiny ones are not warped", "[lights]") 
   for (const Flat& exact : FlatLights()) {
     const Flat f = Rounded(exact);
     const Vec3d away = -Normalize(f.At(0.4, 0.4));
-    const bool tiny = AngleOf(f) < kLeast;
+    const bool tiny = AngleOf(f) < kMinSolidAngle;
     if (!tiny && Lowest({f, -away}) < 0.01) continue;  // some of it is above
     CAPTURE(f.name, f.rectangle);
     const Draw draw(f, kCount, kProjected, true, tiny ? -away : away);

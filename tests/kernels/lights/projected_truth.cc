@@ -42,9 +42,9 @@ CornerCosines::CornerCosines(const Flat& f, Vec3d n) {
   }
   Vec3d middle;
   for (int i = f.rectangle ? 0 : 1; i < 4; ++i) middle += Normalize(at[i]);
-  double most = Cosine(n, middle);
-  for (int i = 0; i < 4; ++i) most = std::max(most, w[i] = Cosine(n, at[i]));
-  for (double& c : w) c = std::max(c, std::max(most / 10, 1e-6));
+  double maximum = Cosine(n, middle);
+  for (int i = 0; i < 4; ++i) maximum = std::max(maximum, w[i] = Cosine(n, at[i]));
+  for (double& c : w) c = std::max(c, std::max(maximum / 10, 1e-6));
 }
 
 double CornerCosines::Density(Square u) const {

@@ -102,7 +102,7 @@ struct Samples {
 
 // The shadow ray ends in front of the light, but not far in front: by the rounding of
 // both points, and where a ray grazes a sphere, of the square root.
-void CheckDistance(const Samples& s, std::uint32_t i, const SeenLight& seen) {
+void CheckDistance(const Samples& s, std::uint32_t i, const VisibleLight& seen) {
   const double distance = s.fixture.wave.path.ls_distance[i];
   const auto shape = static_cast<LightShape>(s.LightOf(i).record.shape);
   if (std::isinf(seen.distance) || shape == LightShape::kPoint ||
@@ -121,7 +121,7 @@ void CheckSample(const Samples& s, std::uint32_t i) {
   const PathColumns& p = s.fixture.wave.path;
   const NamedLight& light = s.LightOf(i);
   const Vec3d from = {p.p_x[i], p.p_y[i], p.p_z[i]}, w = s.Direction(i);
-  const SeenLight seen =
+  const VisibleLight seen =
       Look(s.lights.scene, light.record, from, Normalize(w), s.solid_angle);
   const auto shape = static_cast<LightShape>(light.record.shape);
   INFO(light.name << ", path " << i << ", cosine " << seen.cosine);
@@ -194,7 +194,7 @@ Vec3f Viewpoint(const LightScene& one) {
 
 }  // namespace
 
-TEST_CASE("light samples are what plain formulas say", "[lights]") {
+TEST_CASE("light samples agree with closed formulas", "[lights]") {
   const EachTarget target;
   const LightScene all;
   CheckAll(all, false);  // with the widest vectors: records in registers

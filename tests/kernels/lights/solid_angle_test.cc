@@ -20,7 +20,7 @@ constexpr int kBins = 8;  // along each side
 double ErrorOfAngle(const Flat& f) {
   const double cosine = std::abs(Dot(f.Normal(), Normalize(f.corner)));
   const double error = 2e-6 * (1 + 1 / cosine);
-  if (AngleOf(f) > kLeast) return error;
+  if (AngleOf(f) > kMinSolidAngle) return error;
   return error + 4 * (Length(f.x) + Length(f.y)) / Length(f.corner);
 }
 
@@ -41,10 +41,11 @@ double PValue(const Draw& draw, std::uint32_t count) {
       return f.At(double(a + u) / kBins, double(b + v) / kBins);
     };
     if (!f.rectangle && a + b > kBins - 1) continue;
-    const double share = count / total;
-    expected[2 * i] = share * TriangleAngle(corner(0, 0), corner(1, 0), corner(0, 1));
+    const double fraction = count / total;
+    expected[2 * i] = fraction * TriangleAngle(corner(0, 0), corner(1, 0), corner(0, 1));
     if (!f.rectangle && a + b == kBins - 1) continue;
-    expected[2 * i + 1] = share * TriangleAngle(corner(1, 1), corner(0, 1), corner(1, 0));
+    expected[2 * i + 1] =
+        fraction * TriangleAngle(corner(1, 1), corner(0, 1), corner(1, 0));
   }
   return stat::ChiSquareTest(observed, expected).p;
 }
@@ -83,7 +84,7 @@ TEST_CASE("samples by solid angle are uniform over it", "[lights]") {
   }
 }
 
-TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
+TEST_CASE("hits on lights compute the density of samples", "[lights]") {
   constexpr std::uint32_t kCount = 67;
   std::vector<Flat> lights = FlatLights();
   // By area, whose density varies by a tenth over it.
@@ -101,7 +102,7 @@ TEST_CASE("light that rays hit knows the density of samples", "[lights]") {
     // As dense as the ray: half of the radiance. By area, the ray has missed the light
     // by the clearance of the shadow ray.
     const double tolerance =
-        AngleOf(f) > kLeast ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
+        AngleOf(f) > kMinSolidAngle ? 4e-6 * (1 + 1 / cosine) : 1e-4 * (1 + 0.1 / cosine);
     for (std::uint32_t i = 0; i < kCount; ++i) {
       CHECK(draw.fixture.wave.path.l_r[i] == Approx(1).epsilon(tolerance));
     }
@@ -144,7 +145,7 @@ TEST_CASE("lights that are too small for solid angles are sampled by area", "[li
   for (const double part : {0.9, 1.1}) {
     for (const double height : {1.0, 0.01}) {
       for (const bool rectangle : {true, false}) {
-        const double away = height < 1 ? 1 : 0, omega = part * kLeast;
+        const double away = height < 1 ? 1 : 0, omega = part * kMinSolidAngle;
         const double d = std::hypot(away, height);
         const double side = std::sqrt(omega * d * d * d / height * (rectangle ? 1 : 2));
         const Flat f = {"", {away, 0, height}, {side, 0, 0}, {0, side, 0}, rectangle};
@@ -196,7 +197,7 @@ TEST_CASE("lights do not light themselves", "[lights]") {
   }
 }
 
-TEST_CASE("no bad numbers in the plane and at the corners of a light", "[lights]") {
+TEST_CASE("samples are finite in the plane and at the corners of a light", "[lights]") {
   for (const bool rectangle : {true, false}) {
     for (const Vec3d corner : {Vec3d{0, 0, 0}, Vec3d{-0.5, 0, 0}, Vec3d{1, 1, 0},
                                Vec3d{-0.5, -0.5, 0}, Vec3d{-1, -1, 0}}) {

@@ -30,7 +30,7 @@ constexpr const char* kStages[] = {
 
 }  // namespace
 
-TEST_CASE("media: nothing of them where there are none", "[media][plan]") {
+TEST_CASE("media: scenes without media have no stages for them", "[media][plan]") {
   const Plan plan = PlanOf(SmallRoom(8, 3));
   for (const char* stage : kStages) {
     INFO(stage);
@@ -68,7 +68,7 @@ TEST_CASE("media: interfaces replace the opaque shadow rays", "[media][plan]") {
   CHECK(plan.ray_kernels.num_surface == 3);
 }
 
-TEST_CASE("media: a medium that nothing bounds is left out", "[media][plan]") {
+TEST_CASE("media: a medium without a boundary is left out", "[media][plan]") {
   SceneDescription scene = SmallRoom(8, 3);
   scene.media.push_back(MakeMedium({1, 1, 1}, {1, 1, 1}));
   CHECK_FALSE(PlanOf(scene).features.Has(Feature::kMedia));

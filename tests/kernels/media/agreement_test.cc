@@ -36,7 +36,7 @@ TEST_CASE("media: on every target", "[media][agreement]") {
   CheckAgreementOnTargets(NestedClouds(), 512, 1500);
 }
 
-TEST_CASE("media: the agreement tests would find a bias", "[media][agreement]") {
+TEST_CASE("media: the agreement tests detect a planted bias", "[media][agreement]") {
   const SceneDescription scene = NestedClouds();
   const auto reference =
       Estimate(RenderReference(scene, Options(ReferenceEstimator::kLightSampling, 1500)));

@@ -40,9 +40,9 @@ namespace test {
 TEST_CASE("media: the density of clouds", "[media]") {
   constexpr std::size_t kPoints = 2048;
   std::mt19937 random(7);
-  std::uniform_real_distribution<float> share(0, 1);
+  std::uniform_real_distribution<float> fraction(0, 1);
   std::vector<float> xyz(3 * kPoints), found(kPoints);
-  for (float& v : xyz) v = share(random);
+  for (float& v : xyz) v = fraction(random);
   Medium still = CloudLump();
   still.wispiness = 0;
   for (const Medium& medium : {CloudLump(), still}) {

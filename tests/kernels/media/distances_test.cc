@@ -75,7 +75,7 @@ TEST_CASE("media: single scattering from a point light", "[media][closed-form]")
 
 // The nearer the light, the more of it comes from a short stretch, which transmittance
 // hardly ever finds.
-TEST_CASE("media: airlight past near and far lights, in thin and thick media",
+TEST_CASE("media: single scattering near and far from lights, in thin and thick media",
           "[media][closed-form]") {
   CheckAirlight({0.01, 2}, kEquiangular, 1 << 18, 0.02);
   CheckAirlight({0.02, -1}, kEquiangular, 1 << 16, 0.03);
@@ -86,8 +86,7 @@ TEST_CASE("media: airlight past near and far lights, in thin and thick media",
   CheckAirlight({0.05, 0.1, {1, 3, 20}, {30, 10, 5}}, kEquiangular, 1 << 16, 0.03);
 }
 
-TEST_CASE("media: equiangular distances see what the reference sees",
-          "[media][agreement]") {
+TEST_CASE("media: equiangular distances agree with the reference", "[media][agreement]") {
   const auto check = [](const SceneDescription& scene, std::uint64_t spp,
                         int reference_spp, double power) {
     const auto result =
@@ -101,7 +100,8 @@ TEST_CASE("media: equiangular distances see what the reference sees",
   check(FilledGlass(), 4096, 2500, 0.12);
 }
 
-TEST_CASE("media: equiangular distances only where they have a use", "[media][plan]") {
+TEST_CASE("media: equiangular distances exist only where they have an effect",
+          "[media][plan]") {
   constexpr Feature kFeature = Feature::kEquiangularDistances;
   CHECK(PlanOf(Fog(), kEquiangular).features.Has(kFeature));
   CHECK_FALSE(PlanOf(Fog(), kIndependent).features.Has(kFeature));

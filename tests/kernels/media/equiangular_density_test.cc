@@ -23,8 +23,8 @@ constexpr std::size_t kSlices = 64;
 
 // A point light beside the z axis.
 struct Beside {
-  double h, a;   // distance from the axis; along it
-  double share;  // of the power of all lights
+  double h, a;      // distance from the axis; along it
+  double fraction;  // of the power of all lights
 };
 
 // A ray from the origin along the z axis up to a surface.
@@ -38,7 +38,7 @@ struct Walks {
     SceneBuilder b(1, 1);
     b.Depth(3).Perspective({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 1);
     b.AddQuad({-1, -1, length}, {0, 2, 0}, {2, 0, 0}, b.AddDiffuse(Grey(0.5)));
-    for (const Beside& l : lights) b.AddPoint({l.h, 0, l.a}, Grey(4 * l.share));
+    for (const Beside& l : lights) b.AddPoint({l.h, 0, l.a}, Grey(4 * l.fraction));
     b.scene().camera.medium = AddMedium(b, MakeMedium(sigma_a, sigma_s));
     SceneDescription scene = b.Build();
     ApplyStrategy("distances=equiangular", {}, scene.strategy);
@@ -55,7 +55,7 @@ struct Walks {
     for (int c = 0; c < 3; ++c) {
       const double sigma = sigma_a[c] + sigma_s[c];
       double turned = 0;
-      for (const Beside& light : lights) turned += light.share * Turned(light, d);
+      for (const Beside& light : lights) turned += light.fraction * Turned(light, d);
       sum += (1 - by_angle) * (1 - std::exp(-sigma * d)) +
              by_angle * (1 - std::exp(-sigma * length)) * turned;
     }
@@ -105,8 +105,8 @@ double DistancesPValue(const Walked& walked, const Walks& claimed) {
       expected(kSlices + 1, kWalks * all / kSlices);
   expected[kSlices] = kWalks * (1 - all);
   for (const double d : walked.distance) {
-    const double share = claimed.Before(d) / all;
-    ++counts[d < 0 ? kSlices : std::min(std::size_t(share * kSlices), kSlices - 1)];
+    const double fraction = claimed.Before(d) / all;
+    ++counts[d < 0 ? kSlices : std::min(std::size_t(fraction * kSlices), kSlices - 1)];
   }
   return stat::ChiSquareTest(counts, expected).p;
 }
@@ -122,7 +122,7 @@ std::vector<Walks> SomeWalks() {
 }  // namespace
 
 // The family of all walks and targets raises a false alarm with probability 1e-6.
-TEST_CASE("media: equiangular points are as dense as theory says", "[media][stat]") {
+TEST_CASE("media: equiangular samples have the theoretical density", "[media][stat]") {
   const std::vector<Walks> all = SomeWalks();
   const double level =
       stat::SidakLevel(1e-6, int(all.size() * AvailableTargets().size()));
@@ -138,7 +138,7 @@ TEST_CASE("media: equiangular points are as dense as theory says", "[media][stat
   }
 }
 
-TEST_CASE("media: throughputs tell the density of equiangular points", "[media]") {
+TEST_CASE("media: throughputs contain the density of equiangular samples", "[media]") {
   const EachTarget target;
   for (const Walks& walks : SomeWalks()) {
     if (walks.lights.size() > 1) continue;  // they know of the one drawn only

@@ -31,9 +31,9 @@ double Distribution(double g, double c) {
 
 // Cells of equal probability in the cosine, so that narrow lobes are seen as well.
 int Cell(double g, Vec3d wo, Vec3d wi) {
-  const double share = Distribution(g, -Dot(wo, wi)) * kCosines;
+  const double fraction = Distribution(g, -Dot(wo, wi)) * kCosines;
   const double turn = std::atan2(wi.y, wi.x) / (2 * std::numbers::pi) + 0.5;
-  const int row = std::clamp(static_cast<int>(share), 0, kCosines - 1);
+  const int row = std::clamp(static_cast<int>(fraction), 0, kCosines - 1);
   const int column = std::clamp(static_cast<int>(turn * kTurns), 0, kTurns - 1);
   return row * kTurns + column;
 }
@@ -89,7 +89,7 @@ TEST_CASE("phase function: values and densities", "[media]") {
   }
 }
 
-TEST_CASE("phase function: the ends of the numbers", "[media]") {
+TEST_CASE("phase function: extreme random numbers", "[media]") {
   for (const double g : {-0.9999, -0.999, 0.999, 0.9999}) {
     ProbeBatch batch(4);
     batch.SetWo({0, 0, 1});

@@ -21,16 +21,16 @@ Spectrum LeftOfSlab() {
 // What the slab emits, of light in units of D65.
 Rgb SlabOfLight(const Spectrum& emission) {
   const Spectrum left = LeftOfSlab();
-  return Seen([&](double nm) { return emission(nm) * (1 - left(nm)); });
+  return FilmRgb([&](double nm) { return emission(nm) * (1 - left(nm)); });
 }
 
 // Over its maximum, in units of D65 and the scale of RgbOfBlackbody.
 Spectrum GlowOf(double kelvin) {
   const Spectrum body = BlackbodySpectrum(kelvin), d65 = DaylightD65();
-  const double most = body(2.897771955e6 / kelvin);
+  const double maximum = body(2.897771955e6 / kelvin);
   const double unit =
-      kPhotometricIntegral / Luminance(Seen([&](double nm) { return 1 / d65(nm); }));
-  return [=](double nm) { return unit * body(nm) / most / d65(nm); };
+      kPhotometricIntegral / Luminance(FilmRgb([&](double nm) { return 1 / d65(nm); }));
+  return [=](double nm) { return unit * body(nm) / maximum / d65(nm); };
 }
 
 stat::ImageTestResult AgainstKnown(const SceneDescription& scene, Rgb expected) {
@@ -149,7 +149,7 @@ TEST_CASE("spectral media: coloured emission of a slab",
   // As a spectrum, whose luminance is the scale.
   const Spectrum lamp = BlackbodySpectrum(2856), d65 = DaylightD65();
   const Spectrum in_d65 = [&](double nm) { return lamp(nm) / d65(nm); };
-  const double scale = 0.7 / Luminance(Seen(in_d65));
+  const double scale = 0.7 / Luminance(FilmRgb(in_d65));
   const Rgb expected = SlabOfLight([&](double nm) { return scale * in_d65(nm); });
   grid.emission = RgbFromBlackbody(2856) * 0.7;
   grid.emission_spectrum = Own(lamp);
@@ -161,7 +161,7 @@ TEST_CASE("spectral media: coloured emission of a slab",
 
 TEST_CASE("spectral media: a grid of one colour is homogeneous",
           "[media][spectral][closed-form]") {
-  CheckSpectralSlab(Slab(ColorGrid(kSlabSigma, {}), Grey(1)), Seen(LeftOfSlab()));
+  CheckSpectralSlab(Slab(ColorGrid(kSlabSigma, {}), Grey(1)), FilmRgb(LeftOfSlab()));
   CheckSpectralSlab(
       Slab(ColorGrid(kSlabSigma, {}, kGlow)),
       SlabOfLight([glow = UpsampledColor(kGlow)](double nm) { return glow(nm) / 2; }));

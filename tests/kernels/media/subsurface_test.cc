@@ -76,7 +76,7 @@ stat::ImageTestResult CompareWith(const SceneDescription& scene, double value,
 
 // Head-on, with r of what goes in coming out again: F + (1 - F) r, whatever the depth.
 // Walks are longer, and errors smaller, the more comes out.
-TEST_CASE("subsurface: a slab reflects what is asked for", "[media][subsurface]") {
+TEST_CASE("subsurface: a slab has the specified reflectance", "[media][subsurface]") {
   int depth = 5;
   for (const double r : {0.1, 0.5, 0.8}) {
     for (const double eta : {1.33, 1.6}) {
@@ -97,7 +97,7 @@ TEST_CASE("subsurface: a slab reflects what is asked for", "[media][subsurface]"
   CHECK(CompareWith(Slab(milk, 5), f + (1 - f) * 0.8, 1024).same);
 }
 
-TEST_CASE("subsurface: an albedo that is 2 % off is found", "[media][subsurface]") {
+TEST_CASE("subsurface: an albedo error of 2 % is detected", "[media][subsurface]") {
   SceneDescription scene =
       Slab(InsideThatReflects({Grey(0.5), kNone}, {1, 1, 1}, 1.33), 5);
   const double f = reference::FresnelDielectric(1, 1.33);
@@ -105,7 +105,7 @@ TEST_CASE("subsurface: an albedo that is 2 % off is found", "[media][subsurface]
 }
 
 // The same medium as one of a scene's own counts each event, and goes dark.
-TEST_CASE("subsurface: only what is in a material does not count",
+TEST_CASE("subsurface: events inside a material do not count towards max depth",
           "[media][subsurface]") {
   const Medium milk = Inside({}, {3, 4, 5}, 1.33);
   SceneDescription free = Slab(milk, 5), counted = free;
@@ -191,7 +191,7 @@ TEST_CASE("subsurface: a textured reflectance", "[media][subsurface]") {
   }
 }
 
-TEST_CASE("subsurface: lights that do not get in are noted", "[media][subsurface]") {
+TEST_CASE("subsurface: lights that cannot enter are noted", "[media][subsurface]") {
   const auto notes = [](double alpha, bool point) {
     SceneDescription scene = Skin(alpha);
     Light light;
@@ -206,7 +206,7 @@ TEST_CASE("subsurface: lights that do not get in are noted", "[media][subsurface
   CHECK_THAT(notes(0, true)[0].message, Catch::Contains("does not get into a smooth"));
 }
 
-TEST_CASE("subsurface: columns are there for those scenes alone", "[media][plan]") {
+TEST_CASE("subsurface: columns exist only in scenes with it", "[media][plan]") {
   const auto has = [](const SceneDescription& scene, Field field) {
     const Plan plan = MakePlan(PrepareScene(scene), {});
     return std::find(plan.live_fields.begin(), plan.live_fields.end(), field) !=

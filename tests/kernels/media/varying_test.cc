@@ -15,8 +15,9 @@ constexpr Rgb kThickness = {0.3, 1, 2.5};
 
 // Returns the light of the slab for `emission`, without absorption in front.
 Rgb SlabOf(Rgb emission) {
-  const auto share = [](double sigma) { return 1 - std::exp(-sigma * 0.8); };
-  return emission * Rgb{share(kThickness.x), share(kThickness.y), share(kThickness.z)};
+  const auto fraction = [](double sigma) { return 1 - std::exp(-sigma * 0.8); };
+  return emission *
+         Rgb{fraction(kThickness.x), fraction(kThickness.y), fraction(kThickness.z)};
 }
 
 void CheckSlab(const SceneDescription& scene, Rgb expected) {
@@ -139,7 +140,8 @@ TEST_CASE("media: a cloud and NanoVDB grids, at length", "[media][agreement][slo
   CheckBall(SparseLump(folder), 4096, 1600, 0.071);
 }
 
-TEST_CASE("media: the tests of varying media would find a bias", "[media][agreement]") {
+TEST_CASE("media: the tests of varying media detect a planted bias",
+          "[media][agreement]") {
   const auto reference = Estimate(RenderReference(
       BallOf(CloudLump()), Options(ReferenceEstimator::kLightSampling, 400)));
   Medium wrong = CloudLump();

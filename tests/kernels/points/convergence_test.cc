@@ -155,7 +155,7 @@ TEST_CASE("edges bring all stratified points near N^-3/4", "[points]") {
   }
 }
 
-TEST_CASE("planted: one repeated index costs the order", "[points]") {
+TEST_CASE("planted: one repeated index lowers the convergence order", "[points]") {
   for (Points points : {Points::kSobol, Points::kPmj02}) {
     CHECK(Slope(points, kSum, Plant::kRepeatedIndex) > -1.3);
     CHECK(Slope(points, kProduct, Plant::kRepeatedIndex) > -1.3);

@@ -141,10 +141,10 @@ TEST_CASE("points: the orders of samples of two keys are independent", "[points]
   for (Points points : kAllPoints) {
     // Of one replicate: across its blocks, and within one.
     for (std::uint32_t first : {0u, 4 * kReplicates}) {
-      for (std::uint32_t turns : {1u, 2u, 3u, 11u}) {
+      for (std::uint32_t rounds : {1u, 2u, 3u, 11u}) {
         PointsQuery q = Across(points, first), key = q;
         key.key = 21;
-        const std::uint32_t other = first + turns * kReplicates;
+        const std::uint32_t other = first + rounds * kReplicates;
         INFO(Name(points) << ", samples " << first << " and " << other);
         CHECK(CorrelationP(Products(q, other), Products(key, other)) > level);
       }
@@ -203,7 +203,7 @@ TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
   }
 }
 
-TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
+TEST_CASE("samples are assigned to replicates in turn", "[points]") {
   constexpr std::uint32_t kCount = 70, kEnd = 1u << 31;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
   const EachTarget target;
@@ -215,10 +215,10 @@ TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
       ProbeGroups(TestTarget(), shift, first, kCount,
                   {group.data(), index.data(), unpaired.data()});
       for (std::uint32_t i = 0; i < kCount; ++i) {
-        const std::uint32_t sample = first + i, turn = sample / kReplicates;
+        const std::uint32_t sample = first + i, round = sample / kReplicates;
         const std::uint32_t points = 1u << shift;
-        REQUIRE(group[i] == turn / points * kReplicates + sample % kReplicates);
-        REQUIRE(index[i] == turn % points);
+        REQUIRE(group[i] == round / points * kReplicates + sample % kReplicates);
+        REQUIRE(index[i] == round % points);
         const std::uint32_t pair = sample / 2, of_replicate = pair / kReplicates;
         REQUIRE(unpaired[i] == (2 * of_replicate + sample % 2) * kReplicates +
                                    SampleGroups{2, true}.Replicate(sample));
@@ -227,7 +227,7 @@ TEST_CASE("samples take turns at replicates, to the last one", "[points]") {
   }
 }
 
-TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
+TEST_CASE("unpaired numbers differ and belong to the replicate of their pair",
           "[points]") {
   constexpr std::uint32_t kCount = 4096;
   std::vector<std::uint32_t> group(kCount + 16), index(group), unpaired(group);
@@ -239,15 +239,16 @@ TEST_CASE("unpaired numbers are all different, of the replicate of their pair",
     REQUIRE(single.Replicate(i / 2) == pairs.Replicate(i));  // paired ones
   }
   // Any whole turns of pairs draw a prefix of the sequences.
-  for (std::uint32_t turn = 8; turn <= kCount; turn += 8) {
-    std::vector<std::uint32_t> prefix(unpaired.begin(), unpaired.begin() + turn);
+  for (std::uint32_t round = 8; round <= kCount; round += 8) {
+    std::vector<std::uint32_t> prefix(unpaired.begin(), unpaired.begin() + round);
     std::sort(prefix.begin(), prefix.end());
-    for (std::uint32_t i = 0; i < turn; ++i) REQUIRE(prefix[i] == i);
+    for (std::uint32_t i = 0; i < round; ++i) REQUIRE(prefix[i] == i);
   }
 }
 
 // The mean is off by six deviations of independent points in 2e-9 of the cases.
-TEST_CASE("points: samples, pixels and events far along are even", "[points]") {
+TEST_CASE("points: numbers at large sample, pixel and event indices are uniform",
+          "[points]") {
   constexpr std::uint32_t kCount = 4096;
   for (const Points points : kAllPoints) {
     std::vector<PointsQuery> queries;

@@ -257,7 +257,7 @@ TEST_CASE("the order of strata is random", "[points]") {
   CHECK(OrderP(Points::kStratified, false, true) < level);  // planted
 }
 
-TEST_CASE("planted: a repeated index and strata left to chance are seen", "[points]") {
+TEST_CASE("planted: a repeated index and random strata are detected", "[points]") {
   const auto of_64 = [](Points points) {
     const std::uint32_t first = points == Points::kCmj ? 64 : 0;
     return PointsQuery{points, 1, 5, 0, kReplicates * first, 64, 1, kReplicates};

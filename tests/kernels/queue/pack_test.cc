@@ -49,17 +49,17 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
 
 }  // namespace
 
-TEST_CASE("pack: paths keep what they carry", "[queue]") {
+TEST_CASE("compaction: paths keep their live columns", "[queue]") {
   std::mt19937 engine(11);
   const EachTarget target;
   for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
-    for (int share = 0; share <= 4; ++share) {
-      CheckPacks(capacity, capacity * share / 4, engine);
+    for (int fraction = 0; fraction <= 4; ++fraction) {
+      CheckPacks(capacity, capacity * fraction / 4, engine);
     }
   }
 }
 
-TEST_CASE("pack: what is not carried is written anew in every wave", "[queue]") {
+TEST_CASE("compaction: dead columns are rewritten in every wave", "[queue]") {
   FieldSet written = fields::EverCarried();
   const auto visit = [&](const Stage& stage) {
     if (stage.input == QueueId::kFree || stage.input == QueueId::kCamera) return;

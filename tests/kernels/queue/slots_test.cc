@@ -72,7 +72,7 @@ void CheckMoves(const std::vector<std::uint32_t>& slots) {
 
 }  // namespace
 
-TEST_CASE("slots: runs anywhere in a column", "[queue]") {
+TEST_CASE("slots: contiguous runs at any offset of a column", "[queue]") {
   const EachTarget target;
   const std::size_t lanes = LANELIGHT_ON(TestTarget(), Lanes)();
   for (std::uint32_t first = 0; first + lanes <= kSlots; ++first) {

@@ -38,7 +38,7 @@ std::vector<Point> FirstBlock(const PixelRect& tile, BlockLayout layout) {
 
 }  // namespace
 
-TEST_CASE("every pixel of a tile is in one block, none too large", "[reuse]") {
+TEST_CASE("every pixel of a tile is in exactly one block of limited size", "[reuse]") {
   for (const BlockLayout layout : kLayouts) {
     for (const PixelRect tile : {PixelRect{16, 32, 32, 48}, PixelRect{0, 0, 1, 1},
                                  PixelRect{0, 0, 16, 3}, PixelRect{3, 5, 14, 14}}) {
@@ -61,7 +61,7 @@ TEST_CASE("every pixel of a tile is in one block, none too large", "[reuse]") {
   }
 }
 
-TEST_CASE("blocks are others for another sample, seed or tile", "[reuse]") {
+TEST_CASE("blocks differ between samples, seeds and tiles", "[reuse]") {
   const PixelRect tile = {16, 32, 32, 48}, other = {32, 32, 48, 48};
   for (const BlockLayout layout : kLayouts) {
     const BlockOrder order = OrderOf({tile, 1, 7}, layout, 16);
@@ -76,7 +76,7 @@ TEST_CASE("blocks are others for another sample, seed or tile", "[reuse]") {
   }
 }
 
-TEST_CASE("rectangles are of neighbours, or of every second pixel", "[reuse]") {
+TEST_CASE("blocks consist of neighbours or of every second pixel", "[reuse]") {
   const PixelRect tile = {16, 32, 32, 48};
   const std::vector<Point> compact = FirstBlock(tile, BlockLayout::kCompact);
   REQUIRE(compact.size() == 16);
@@ -90,7 +90,7 @@ TEST_CASE("rectangles are of neighbours, or of every second pixel", "[reuse]") {
   }
 }
 
-TEST_CASE("any two pixels of a tile meet in a random block as often", "[reuse]") {
+TEST_CASE("any two pixels of a tile share a random block equally often", "[reuse]") {
   const PixelRect tile = {0, 0, 8, 8};
   constexpr std::uint32_t kPaths = 16, kSamples = 4096;
   std::vector<int> met(64 * 64, 0);

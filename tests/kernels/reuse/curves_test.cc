@@ -35,7 +35,7 @@ Shape "curve" "string type" ")" +
 
 }  // namespace
 
-TEST_CASE("second vertices on curves serve their own path only", "[reuse][bias]") {
+TEST_CASE("second vertices on curves are not reused by other paths", "[reuse][bias]") {
   for (const char* type : {"flat", "cylinder"}) {
     INFO(type);
     const SceneDescription scene =

@@ -36,7 +36,7 @@ ReuseScene MirrorSides() {
 
 }  // namespace
 
-TEST_CASE("no roulette takes light away on the way to a second vertex", "[reuse]") {
+TEST_CASE("roulette before the second vertex is unbiased", "[reuse]") {
   for (const char* roulette :
        {"roulette=none", "roulette=constant:0.25", "roulette=throughput:0:1",
         "roulette=luminance:0:1", "roulette=throughput"}) {
@@ -44,7 +44,7 @@ TEST_CASE("no roulette takes light away on the way to a second vertex", "[reuse]
   }
 }
 
-TEST_CASE("every proposal of directions finds second vertices as it says", "[reuse]") {
+TEST_CASE("second vertices follow the density of each direction proposal", "[reuse]") {
   ReuseScene uniform = Room();
   uniform.power = 0.05;
   CheckSame(uniform, "points=sobol,directions=uniform", "reuse=block:8");
@@ -53,7 +53,7 @@ TEST_CASE("every proposal of directions finds second vertices as it says", "[reu
   CheckSame(Room(), "points=sobol,light-candidates=resampled", "reuse=block:8");
 }
 
-TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
+TEST_CASE("path reuse is unbiased for every block layout and size", "[reuse]") {
   for (const char* reuse : {"reuse=block:2", "reuse=block:4:compact",
                             "reuse=block:32:apart", "reuse=block:64"}) {
     CheckSame(Room(), "points=sobol", reuse);
@@ -64,7 +64,7 @@ TEST_CASE("blocks of every layout and size share the same light", "[reuse]") {
   CheckSame(odd, "points=sobol", "reuse=block:16");
 }
 
-TEST_CASE("materials of every kind receive, and are seen", "[reuse]") {
+TEST_CASE("path reuse is unbiased for every kind of material", "[reuse]") {
   for (const Material& material : MaterialZoo()) {
     INFO(material.name);
     ReuseScene plate = {Plate(material, 8, 3), 2048, 0.03};
@@ -76,12 +76,12 @@ TEST_CASE("materials of every kind receive, and are seen", "[reuse]") {
   CheckSame(sides, "points=sobol", "reuse=block:16");
 }
 
-TEST_CASE("first vertices in mirrors are apart from those before", "[reuse]") {
+TEST_CASE("first vertices seen in mirrors form their own blocks", "[reuse]") {
   ReuseScene sides = MirrorSides();
   CheckSame(sides, "points=sobol", "reuse=block:64");
 }
 
-TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
+TEST_CASE("settings that reuse=block does not support are refused", "[reuse]") {
   for (const char* other :
        {"roulette=adjoint", "roulette=efficiency", "control=regression"}) {
     INFO(other);
@@ -91,7 +91,7 @@ TEST_CASE("what reuse=block does not go with is refused", "[reuse]") {
   }
 }
 
-TEST_CASE("without reuse=block nothing of it is there", "[reuse]") {
+TEST_CASE("without reuse=block there are no stages or columns for it", "[reuse]") {
   TestRender options;
   const Plan none = RenderDescription(Room().description, options).plan;
   CHECK(none.Find(PhaseId::kTile) == nullptr);

@@ -94,7 +94,7 @@ void CheckFound(Twin& twin, const SceneDescription& scene,
 
 }  // namespace
 
-TEST_CASE("a black first vertex has no density, and other paths share what they find",
+TEST_CASE("paths that end at a black first vertex are not reused, others contribute",
           "[reuse][bias]") {
   const SceneDescription scene = BlackBlock();
   Twin twin(scene);

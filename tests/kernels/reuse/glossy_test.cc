@@ -54,7 +54,7 @@ std::vector<Named> GlossyMaterials() {
 
 }  // namespace
 
-TEST_CASE("glossy second vertices send each pixel what it would see", "[reuse]") {
+TEST_CASE("glossy second vertices are evaluated towards each pixel", "[reuse]") {
   for (const Named& side : GlossyMaterials()) {
     INFO(side.name);
     ReuseScene room = WithSides(side.material, 4);
@@ -69,7 +69,7 @@ TEST_CASE("glossy second vertices send each pixel what it would see", "[reuse]")
   }
 }
 
-TEST_CASE("glossy second vertices go with every proposal and roulette", "[reuse]") {
+TEST_CASE("glossy second vertices work with every proposal and roulette", "[reuse]") {
   for (const Named& side :
        {Named{"smooth plastic", Plastic(0)}, Named{"rough plastic", Plastic(0.3)},
         Named{"brushed metal", Metal(0.15, 0.5)}}) {
@@ -84,7 +84,7 @@ TEST_CASE("glossy second vertices go with every proposal and roulette", "[reuse]
   }
 }
 
-TEST_CASE("columns of glossy second vertices are there where those are", "[reuse]") {
+TEST_CASE("columns of glossy second vertices exist only with them", "[reuse]") {
   TestRender options;
   options.strategy = "reuse=block";
   const auto stages = [&](const Material& side) {

@@ -58,7 +58,7 @@ std::vector<int> TriplesOf(std::uint32_t pixel, std::uint32_t samples,
 
 }  // namespace
 
-TEST_CASE("spectral reuse: blocks share the light of paths alone", "[reuse][spectral]") {
+TEST_CASE("spectral reuse: path reuse is unbiased", "[reuse][spectral]") {
   ReuseScene room = SaturatedRoom();
   CheckSame(room, "points=sobol", "reuse=block:16");
   CheckSame(room, "points=independent", "reuse=block:64");
@@ -85,7 +85,7 @@ TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {
   }
 }
 
-TEST_CASE("spectral reuse: what is grey is as in RGB", "[reuse][spectral]") {
+TEST_CASE("spectral reuse: grey scenes equal those in RGB", "[reuse][spectral]") {
   SceneDescription room = SmallRoom(16, 4);
   const auto difference = [](const SceneDescription& scene) {
     return LargestDifference(RenderWavefront(scene, 16, "reuse=block"),
@@ -96,7 +96,7 @@ TEST_CASE("spectral reuse: what is grey is as in RGB", "[reuse][spectral]") {
   CHECK(difference(room) < 1e-5);
 }
 
-TEST_CASE("spectral reuse: the same bits for any threads and wavefront size",
+TEST_CASE("spectral reuse: bit-identical for any threads and wavefront size",
           "[reuse][spectral][determinism]") {
   SceneDescription room = SaturatedRoom().description;
   room.film.width = 40;
@@ -119,7 +119,7 @@ TEST_CASE("spectral reuse: the same bits for any threads and wavefront size",
   }
 }
 
-TEST_CASE("spectral reuse: triples are a tile's, and even over its samples",
+TEST_CASE("spectral reuse: a tile shares wavelength triples, uniform over its samples",
           "[reuse][spectral][points]") {
   const std::vector<int> triples = TriplesOf(16 * 1000 + 48, 256, 3);
   // The last pixel of the tile; then others, another tile, another seed.
@@ -148,7 +148,7 @@ TEST_CASE("spectral reuse: triples are a tile's, and even over its samples",
   CHECK(replicates.size() == kReplicates);
 }
 
-TEST_CASE("spectral reuse: glass that disperses is refused", "[reuse][spectral]") {
+TEST_CASE("spectral reuse: dispersive glass is refused", "[reuse][spectral]") {
   SceneDescription room = SaturatedRoom().description;
   Material& glass = room.materials.emplace_back();
   glass.kind = MaterialKind::kDielectric;

@@ -37,7 +37,7 @@ SceneDescription WallInRoom() {
 }
 
 // What renders of independent seeds tell, with standard errors from their scatter.
-struct Told {
+struct Reported {
   stat::MeanEstimate mean;            // of the image, all channels
   stat::MeanEstimate pixel_variance;  // of a sample of a pixel
   stat::MeanEstimate image_variance;  // of the mean of the image at one sample per pixel
@@ -53,7 +53,7 @@ stat::MeanEstimate Scatter(const std::vector<double>& values) {
 
 double Sum(Rgb c) { return c.x + c.y + c.z; }
 
-Told Tell(const std::vector<stat::ImageEstimate>& renders) {
+Reported Report(const std::vector<stat::ImageEstimate>& renders) {
   std::vector<double> means, pixels, images;
   for (const stat::ImageEstimate& render : renders) {
     double mean = 0, variance = 0;
@@ -74,31 +74,31 @@ Told Tell(const std::vector<stat::ImageEstimate>& renders) {
   return {Scatter(means), Scatter(pixels), Scatter(images)};
 }
 
-Told OfTwin(const SceneDescription& scene, const ReuseTwinOptions& asked) {
+Reported OfTwin(const SceneDescription& scene, const ReuseTwinOptions& twin_options) {
   std::vector<stat::ImageEstimate> renders(kRenders);
   ParallelFor(renders.size(), [&](std::size_t i) {
-    ReuseTwinOptions options = asked;
+    ReuseTwinOptions options = twin_options;
     options.samples = kSamples;
     options.seed = 1000 + i;
     renders[i] = Estimate(RenderReuseReference(scene, options));
   });
-  return Tell(renders);
+  return Report(renders);
 }
 
-Told OfRenderer(const SceneDescription& scene) {
+Reported OfRenderer(const SceneDescription& scene) {
   std::vector<stat::ImageEstimate> renders;
   for (int i = 0; i < kRenders; ++i) {
     renders.push_back(EstimateWith(scene, "directions=bsdf,roulette=none,reuse=block:16",
                                    kSamples, 1 + i));
   }
-  return Tell(renders);
+  return Report(renders);
 }
 
 bool Alike(const stat::MeanEstimate& a, const stat::MeanEstimate& b) {
   return stat::WelchPValue(a, b, kFloatTolerance * std::abs(a.mean)) > kTwinFalseAlarm;
 }
 
-std::string ToString(const Told& t) {
+std::string ToString(const Reported& t) {
   const auto text = [](const stat::MeanEstimate& e) {
     return fmt::format("{:.5g} +- {:.2g}", e.mean, std::sqrt(e.variance));
   };
@@ -108,16 +108,16 @@ std::string ToString(const Told& t) {
 
 }  // namespace
 
-TEST_CASE("reuse=block is the estimator that it says", "[reuse]") {
+TEST_CASE("reuse=block equals the reference implementation of its estimator", "[reuse]") {
   const SceneDescription scene = WallInRoom();
-  const Told renderer = OfRenderer(scene);
+  const Reported renderer = OfRenderer(scene);
   const auto twin = [&](const ReuseTwinOptions& options) {
-    Told told = OfTwin(scene, options);
-    UNSCOPED_INFO("twin: " << ToString(told));
-    return told;
+    Reported report = OfTwin(scene, options);
+    UNSCOPED_INFO("twin: " << ToString(report));
+    return report;
   };
   INFO("renderer: " << ToString(renderer));
-  const Told same = twin({});
+  const Reported same = twin({});
   CHECK(Alike(renderer.mean, same.mean));
   CHECK(Alike(renderer.pixel_variance, same.pixel_variance));
   CHECK(Alike(renderer.image_variance, same.image_variance));

@@ -105,7 +105,7 @@ TEST_CASE("constant roulette: mean, variance and path length of the closed room"
   }
 }
 
-TEST_CASE("the closed form of the variance tells probabilities apart", "[roulette]") {
+TEST_CASE("the closed form of the variance distinguishes probabilities", "[roulette]") {
   const stat::MeanEstimate variance =
       SampleVariance(RenderRoom(0.5, 1000, "constant:0.25", 1u << 15).film);
   for (double wrong : {0.22, 0.28}) {

@@ -79,7 +79,7 @@ TEST_CASE("efficiency is at most a tenth below the better simple roulette",
   }
 }
 
-TEST_CASE("where efficiency falls back the image is the simple roulette's",
+TEST_CASE("the fallback of efficiency gives the image of the simple roulette",
           "[roulette]") {
   TestRender t;
   t.spp = 512;
@@ -94,8 +94,7 @@ TEST_CASE("where efficiency falls back the image is the simple roulette's",
   CHECK(chosen.result.rays_closest == simple.result.rays_closest);
 }
 
-TEST_CASE("training passes take a small share of what they are planned for",
-          "[roulette]") {
+TEST_CASE("training passes take a small fraction of the render", "[roulette]") {
   for (const char* roulette : {"adjoint", "efficiency"}) {
     for (std::uint64_t spp : {1, 16, 256}) {
       TestRender t;
@@ -110,7 +109,8 @@ TEST_CASE("training passes take a small share of what they are planned for",
   }
 }
 
-TEST_CASE("cells cover the box and borrow from their surroundings", "[roulette]") {
+TEST_CASE("cells cover the bounding box and are smoothed by their surroundings",
+          "[roulette]") {
   const CellGrid flat = MakeCellGrid({-1, -1, 0}, {1, 1, 0}, 100'000);
   CHECK(flat.size[2] == 1);
   CHECK(flat.size[0] == flat.size[1]);
@@ -137,7 +137,7 @@ TEST_CASE("cells cover the box and borrow from their surroundings", "[roulette]"
   CHECK(values.survive[6] == Approx(std::sqrt(5.0 / 4)).epsilon(0.01));
 }
 
-TEST_CASE("the guess of an image follows its tiles", "[roulette]") {
+TEST_CASE("the image estimate follows its tiles", "[roulette]") {
   std::vector<std::uint32_t> pixels;
   std::vector<Vec3f> samples;
   for (std::uint32_t y = 0; y < 32; ++y) {

@@ -1,5 +1,5 @@
-// Roulette on shadow rays: single decisions against the definition, the rule for what a
-// ray is worth, and whole renders.
+// Roulette on shadow rays: single decisions against the definition, the rule for the
+// thresholds of pixels, and whole renders.
 #include <catch2/catch.hpp>
 
 #include <random>
@@ -17,15 +17,15 @@ namespace {
 
 constexpr std::uint32_t kRays = 300;
 
-// Rays of random brightness over six decades for pixels of random worth.
+// Rays of random brightness over six decades for pixels of random thresholds.
 struct ShadowRays {
   explicit ShadowRays(float floor) : fixture(scene, kRays) {
     PathColumns& p = fixture.wave.path;
     std::mt19937 engine(7);
     std::uniform_real_distribution<float> uniform;
-    tables.shadow_worth.floor = floor;
+    tables.shadow_threshold.floor = floor;
     for (std::uint32_t i = 0; i < 3 * kRays; ++i) {
-      tables.shadow_worth.inverse.push_back(2 * uniform(engine));
+      tables.shadow_threshold.inverse.push_back(2 * uniform(engine));
     }
     for (std::uint32_t i = 0; i < kRays; ++i) {
       const float scale = std::pow(10.0f, 6 * uniform(engine) - 4);
@@ -41,11 +41,11 @@ struct ShadowRays {
   // From the definition.
   double Survival(std::uint32_t slot) const {
     const Vec3f v = before[slot];
-    const float* inverse = &tables.shadow_worth.inverse[3 * (kRays - 1 - slot)];
+    const float* inverse = &tables.shadow_threshold.inverse[3 * (kRays - 1 - slot)];
     const double sum =
         std::hypot(double{v.x} * double{inverse[0]}, double{v.y} * double{inverse[1]},
                    double{v.z} * double{inverse[2]});
-    return std::min(1.0, std::max(double{tables.shadow_worth.floor}, sum));
+    return std::min(1.0, std::max(double{tables.shadow_threshold.floor}, sum));
   }
 
   CompiledScene scene = MakeScene({});
@@ -87,7 +87,7 @@ Rendered RenderRoom(const std::string& strategy, std::uint64_t spp,
 
 }  // namespace
 
-TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
+TEST_CASE("shadow rays survive with the defined probability", "[roulette]") {
   const EachTarget target;
   for (float floor : {0.01f, 0.3f}) {
     ShadowRays rays(floor);
@@ -99,16 +99,15 @@ TEST_CASE("shadow rays survive as the definition says", "[roulette]") {
   }
 }
 
-TEST_CASE("shadow rays are all traced where nothing is known of the image",
-          "[roulette]") {
+TEST_CASE("all shadow rays are traced without an image estimate", "[roulette]") {
   ShadowRays rays(0.1f);
-  rays.tables.shadow_worth.inverse.clear();
+  rays.tables.shadow_threshold.inverse.clear();
   rays.fixture.Run(ShadowRouletteStage, {});
   CHECK(rays.fixture.wave.queue(QueueId::kShadow).size == kRays);
   CHECK(rays.fixture.wave.path.sh_g[5] == rays.before[5].y);
 }
 
-TEST_CASE("what a shadow ray must add follows the pixel and the cost", "[roulette]") {
+TEST_CASE("the threshold of shadow rays depends on pixel and cost", "[roulette]") {
   // Two tiles that do not share neighbours: grey 2 and 0.5 in one row of 8x8 tiles.
   std::vector<std::uint32_t> pixels;
   std::vector<Vec3f> colors;
@@ -118,35 +117,36 @@ TEST_CASE("what a shadow ray must add follows the pixel and the cost", "[roulett
     colors.push_back({v, v, v});
   }
   const ImageGuess image(24, 8, pixels, colors);
-  const AlignedVector<float> once = InverseShadowWorth(image, 24 * 8, 0.5, 1);
+  const AlignedVector<float> once = InverseShadowThreshold(image, 24 * 8, 0.5, 1);
   REQUIRE(once.size() == 3 * 24 * 8);
   for (std::uint32_t pixel : {0u, 12u, 23u}) {
-    // A ray that carries exactly what the pixel is worth has probability 1.
+    // A ray that carries exactly the threshold of the pixel has probability 1.
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
-      const double worth = 0.5 / std::sqrt(image.ErrorWeight(pixel, c));
-      sum += std::pow(worth * double{once[3 * pixel + static_cast<unsigned>(c)]}, 2);
+      const double pixel_threshold = 0.5 / std::sqrt(image.ErrorWeight(pixel, c));
+      sum += std::pow(
+          pixel_threshold * double{once[3 * pixel + static_cast<unsigned>(c)]}, 2);
     }
     CHECK(sum == Approx(1).epsilon(1e-5));
   }
   CHECK(once[0] < once[3 * 12]);
   CHECK(once[3 * 12] < once[3 * 23]);
-  const AlignedVector<float> other = InverseShadowWorth(image, 24 * 8, 0.25, 3);
+  const AlignedVector<float> other = InverseShadowThreshold(image, 24 * 8, 0.25, 3);
   CHECK(other[7] == Approx(6 * once[7]));
-  CHECK(InverseShadowWorth(image, 24 * 8, 0, 1).empty());
+  CHECK(InverseShadowThreshold(image, 24 * 8, 0, 1).empty());
   const ImageGuess black(24, 8, pixels, std::vector<Vec3f>(24 * 8));
-  CHECK(InverseShadowWorth(black, 24 * 8, 1, 1).empty());
+  CHECK(InverseShadowThreshold(black, 24 * 8, 1, 1).empty());
 }
 
-TEST_CASE("what shadow rays are worth is kept and put back", "[roulette]") {
+TEST_CASE("trained thresholds of shadow rays round-trip", "[roulette]") {
   StrategyTables tables, back;
-  CHECK(TakeTraining(tables).size() == 4);
-  tables.shadow_worth.inverse = {0.5f, 3, 1e-7f};
-  PutTraining(TakeTraining(tables), 1, back);
-  CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
+  CHECK(ExportTraining(tables).size() == 4);
+  tables.shadow_threshold.inverse = {0.5f, 3, 1e-7f};
+  ImportTraining(ExportTraining(tables), 1, back);
+  CHECK(back.shadow_threshold.inverse == tables.shadow_threshold.inverse);
 }
 
-TEST_CASE("roulette on shadow rays traces fewer for the same image", "[roulette]") {
+TEST_CASE("roulette on shadow rays traces fewer rays without bias", "[roulette]") {
   const Rendered all = RenderRoom("", 4096);
   const Rendered some = RenderRoom("shadow-roulette=contribution", 4096);
   CHECK(some.result.training.samples > 0);

@@ -99,7 +99,7 @@ SplitMoments MomentsOf(const Prepared& room, const TrainingSamples& samples) {
 
 }  // namespace
 
-TEST_CASE("a pass that splits knows the second moment of one that does not",
+TEST_CASE("a pass with splitting estimates the second moment without splitting",
           "[roulette]") {
   // Each comparison of equal means fails by chance once in 100 000 runs.
   constexpr double kFalseAlarm = 1e-5;
@@ -118,7 +118,7 @@ TEST_CASE("a pass that splits knows the second moment of one that does not",
   }
 }
 
-TEST_CASE("recording of single-path estimates changes nothing of them", "[roulette]") {
+TEST_CASE("recording single-path estimates does not change them", "[roulette]") {
   const Prepared room(TwoRooms(true));
   const TrainingSamples with = Pass(room, "adjoint", true),
                         without = Pass(room, "adjoint", false);
@@ -127,7 +127,7 @@ TEST_CASE("recording of single-path estimates changes nothing of them", "[roulet
   CHECK(without.planes == 0);
 }
 
-TEST_CASE("variances without splitting differ by second moments", "[roulette]") {
+TEST_CASE("variances with and without splitting differ by second moments", "[roulette]") {
   // One pixel, four samples of brightness 0.1 to 0.4, grey; of each the square would be
   // larger by 0.02 without splitting. Exposure 1 / 2: colours are half of the records.
   // SplitMoments are about 0.3, 0.6 in the records.

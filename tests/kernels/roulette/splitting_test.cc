@@ -91,15 +91,14 @@ TEST_CASE("splitting is unbiased on a glossy plate and with every number paired"
   }
 }
 
-TEST_CASE("splitting is unbiased on coats, whose random walks it keeps apart",
-          "[roulette]") {
+TEST_CASE("splitting is unbiased on coats, with independent random walks", "[roulette]") {
   for (const Material& material : MaterialZoo()) {
     if (material.kind != MaterialKind::kCoatedDiffuse) continue;
     CheckSameMean(Plate(material), "roulette=adjoint", 2048, 0.08);
   }
 }
 
-TEST_CASE("copies that keep their parent's weight are rejected", "[roulette]") {
+TEST_CASE("split paths that keep their parent's weight are rejected", "[roulette]") {
   for (bool divide : {true, false}) {
     std::mt19937_64 engine(5);
     const int n = 1 << 15;
@@ -174,7 +173,7 @@ TEST_CASE("splitting without light, at little depth, with few samples", "[roulet
   }
 }
 
-TEST_CASE("plans without splitting have none of it", "[roulette]") {
+TEST_CASE("plans without splitting have no stages for it", "[roulette]") {
   const Rendered plain = RenderSplitting(SmallRoom(8, 4), "roulette=throughput", 4);
   for (Field f : {Field::branch, Field::budget, Field::cell_0, Field::risk_0}) {
     CHECK(std::count(plain.plan.live_fields.begin(), plain.plan.live_fields.end(), f) ==

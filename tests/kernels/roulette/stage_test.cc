@@ -20,13 +20,13 @@ CompiledScene Floor() {
 
 // Paths of random throughput on a floor, at a depth.
 struct Paths {
-  explicit Paths(std::uint32_t depth) : fixture(scene, kPaths * kMostCopies) {
+  explicit Paths(std::uint32_t depth) : fixture(scene, kPaths * kMaxSplitPaths) {
     PathColumns& p = fixture.wave.path;
     std::mt19937 engine(3);
     std::uniform_real_distribution<float> uniform;
     for (std::uint32_t i = 0; i < kPaths; ++i) {
-      p.pixel[i] = i, p.sample[i] = 0, p.output[i] = i * kMostCopies;
-      p.depth[i] = depth, p.branch[i] = 0, p.budget[i] = kMostCopies;
+      p.pixel[i] = i, p.sample[i] = 0, p.output[i] = i * kMaxSplitPaths;
+      p.depth[i] = depth, p.branch[i] = 0, p.budget[i] = kMaxSplitPaths;
       p.beta_r[i] = 3 * std::pow(uniform(engine), 4.0f);
       p.beta_g[i] = 3 * std::pow(uniform(engine), 4.0f);
       p.beta_b[i] = 3 * std::pow(uniform(engine), 4.0f);
@@ -40,7 +40,7 @@ struct Paths {
     fixture.run.tables = &tables;
     fixture.run.roulette = {0.25f, 0, 2};
     Queue& free = fixture.wave.queue(QueueId::kFree);
-    for (std::uint32_t i = kPaths * kMostCopies; i-- > kPaths;) {
+    for (std::uint32_t i = kPaths * kMaxSplitPaths; i-- > kPaths;) {
       free.items[free.size++] = i;
     }
   }
@@ -101,7 +101,7 @@ TEST_CASE("survivors' weights are bounded", "[roulette]") {
   }
 }
 
-TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
+TEST_CASE("splitting divides branch indices, budgets and throughput", "[roulette]") {
   for (bool adjoint : {true, false}) {
     Paths paths(1);
     SetValues(paths, 2, 2);
@@ -117,8 +117,8 @@ TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
     for (std::uint32_t i = 0; i < alive.size; ++i) {
       const std::uint32_t slot = alive.items[i], of = p.pixel[slot];
       CHECK(slots.insert(slot).second);
-      CHECK(p.output[slot] == of * kMostCopies + p.branch[slot]);
-      CHECK(p.branch[slot] + p.budget[slot] <= kMostCopies);
+      CHECK(p.output[slot] == of * kMaxSplitPaths + p.branch[slot]);
+      CHECK(p.branch[slot] + p.budget[slot] <= kMaxSplitPaths);
       for (std::uint32_t k = 0; k < p.budget[slot]; ++k) {
         const std::uint32_t name = 1u << (p.branch[slot] + k);
         CHECK((names[of] & name) == 0);
@@ -133,7 +133,7 @@ TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
     }
     for (std::uint32_t i = 0; i < kPaths; ++i) {
       if (copies[i] == 0) continue;
-      CHECK(budget[i] == kMostCopies);
+      CHECK(budget[i] == kMaxSplitPaths);
       CHECK(gathered[i] == 5);
       // k = floor(r + u), r = before / after.
       const double r = double(paths.before[i].y) / p.beta_g[i];
@@ -143,7 +143,7 @@ TEST_CASE("splitting divides names, budgets and throughput", "[roulette]") {
   }
 }
 
-TEST_CASE("the mean number of copies is r", "[roulette]") {
+TEST_CASE("the mean number of split paths is r", "[roulette]") {
   // Below and above the window of adjoint, to its nearer edge.
   for (const auto& [beta, r] : {std::pair{0.2f, 0.6}, {2.4f, 1.44}, {1.2f, 1.0}}) {
     double copies = 0;
@@ -168,7 +168,7 @@ TEST_CASE("the mean number of copies is r", "[roulette]") {
   }
 }
 
-TEST_CASE("the camera's own hit is never lost, and unknown cells play throughput",
+TEST_CASE("camera hits always survive, and unknown cells use throughput roulette",
           "[roulette]") {
   Paths first(0);
   SetValues(first, 0, 0);

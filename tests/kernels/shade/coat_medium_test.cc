@@ -97,7 +97,7 @@ TEST_CASE("a white coat over a white base loses nothing", "[shade][stat]") {
   }
 }
 
-TEST_CASE("walks end with their depth", "[shade]") {
+TEST_CASE("random walks in coats end at their max depth", "[shade]") {
   // One event is the exit, which no path reaches without another one.
   const TestMaterial one = Haze(0, 0.5, 0, kWhole, kWhole, 1);
   const double r = Mirrored(0.7, 1.5);
@@ -128,7 +128,7 @@ TEST_CASE("a medium without albedo is a clear coat", "[shade][stat]") {
   }
 }
 
-TEST_CASE("light goes either way through a coat that scatters", "[shade][stat]") {
+TEST_CASE("a scattering coat transmits in both directions", "[shade][stat]") {
   const Vec3d a = TestDirections()[0], b = TestDirections()[2];
   const TestMaterial list[] = {Haze(0, 0.7, 0.5, kWhole * 0.9, kWhole * 0.5, 200),
                                Haze(0.3, 0.7, -0.5, kWhole * 0.9, kWhole * 0.5, 200)};

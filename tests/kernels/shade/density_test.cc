@@ -86,7 +86,7 @@ TEST_CASE("materials sample the density they report", "[shade][stat]") {
   }
 }
 
-TEST_CASE("a density of another roughness is rejected", "[shade][stat]") {
+TEST_CASE("the density of another roughness is rejected", "[shade][stat]") {
   for (const TestMaterial& m : TestMaterials()) {
     if (!HasDensity(m) || m.local.interface.ax == 0) continue;
     TestMaterial other = m;

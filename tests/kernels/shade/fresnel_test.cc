@@ -74,9 +74,9 @@ TEST_CASE("indices close to one keep their relative accuracy", "[shade][fresnel]
     CHECK(worst < 3e-5);
   }
   const Incidences none(1, -1);
-  double most = 0;
-  for (int i = 0; i < kCount; ++i) most = std::max<double>(most, none.out[i]);
-  CHECK(most == 0);
+  double maximum = 0;
+  for (int i = 0; i < kCount; ++i) maximum = std::max<double>(maximum, none.out[i]);
+  CHECK(maximum == 0);
 }
 
 TEST_CASE("conductor reflectance", "[shade][fresnel]") {

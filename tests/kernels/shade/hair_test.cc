@@ -59,7 +59,7 @@ Peak BrightestAround(const TestMaterial& m, Vec3d wo) {
 
 }  // namespace
 
-TEST_CASE("hair that absorbs nothing gives back what it gets", "[shade][hair]") {
+TEST_CASE("hair without absorption conserves energy", "[shade][hair]") {
   const EachTarget target;
   for (const double beta_m : {0.15, 0.3, 0.6, 1.0}) {
     for (const double beta_n : {0.15, 0.3, 0.6, 1.0}) {
@@ -76,7 +76,7 @@ TEST_CASE("hair that absorbs nothing gives back what it gets", "[shade][hair]") 
 }
 
 // Black hair does nothing but reflect: at its surface, at the place that h says.
-TEST_CASE("hair reflects about the normal where it is met", "[shade][hair]") {
+TEST_CASE("hair reflects about the normal at the hit", "[shade][hair]") {
   for (const double h : {-0.7, -0.2, 0.0, 0.4, 0.8}) {
     const Vec3d wo = {0, 0, 1}, n = {0, h, std::sqrt(1 - h * h)};
     const Vec3d mirrored = 2 * Dot(wo, n) * n - wo;

@@ -106,7 +106,7 @@ TEST_CASE("diffuse weights are exactly the albedo", "[shade]") {
   }
 }
 
-TEST_CASE("no material gives more energy than it gets", "[shade]") {
+TEST_CASE("no material creates energy", "[shade]") {
   const EachTarget target;
   for (const TestMaterial& m : TestMaterials()) {
     for (Vec3d wo : TestDirections(target.name())) {

@@ -77,7 +77,8 @@ Rgb Albedo(const TestMaterial& m, Vec3d wo) {
 
 }  // namespace
 
-TEST_CASE("measured chalk and metal are what they are made of", "[shade][measured]") {
+TEST_CASE("measured chalk and metal agree with the models that generated them",
+          "[shade][measured]") {
   const auto chalk = reference::ChalkModel(0.5);
   const auto metal = reference::MetalModel(0.35, 0.35, 0.6, 0.6);
   auto brushed = reference::MetalModel(0.5, 0.25, 0.6, 0.6);
@@ -99,17 +100,17 @@ TEST_CASE("measured chalk and metal are what they are made of", "[shade][measure
 }
 
 TEST_CASE("measured: each wavelength has its own value", "[shade][measured][spectral]") {
-  for (const bool turns : {false, true}) {
+  for (const bool is_anisotropic : {false, true}) {
     // Linear between the wavelengths of the file.
-    auto model = reference::MetalModel(0.5, turns ? 0.25 : 0.5, 0.2, 0.9);
-    if (turns) model.phis = 9, model.parts = 4;
+    auto model = reference::MetalModel(0.5, is_anisotropic ? 0.25 : 0.5, 0.2, 0.9);
+    if (is_anisotropic) model.phis = 9, model.parts = 4;
     TestMaterial m = SpectralMaterialOf(model, 0);
     for (const int triple : {0, 40, 100, kTriples - 1}) {
       m.wavelength = WavelengthOf(triple);
       for (int c = 0; c < 3; ++c) {
         const auto bin = static_cast<std::size_t>((2 - c) * kTriples + triple);
         const double nm = CarriedWavelengths().centre[bin];
-        INFO("turns " << turns << ", " << nm << " nm");
+        INFO("turns " << is_anisotropic << ", " << nm << " nm");
         CHECK(DistanceFrom(m, model, Upwards(0.6), c, nm) < 0.12);
         // Power: the value of another wavelength is not that near.
         if (c != 1) CHECK(DistanceFrom(m, model, Upwards(0.6), 1, nm) > 0.14);
@@ -118,7 +119,7 @@ TEST_CASE("measured: each wavelength has its own value", "[shade][measured][spec
   }
 }
 
-TEST_CASE("measured: what is grey is the same by wavelength",
+TEST_CASE("measured: grey materials are equal at all wavelengths",
           "[shade][measured][spectral]") {
   const auto model = reference::ChalkModel(0.5);
   const TestMaterial rgb = MaterialOf(model), spectral = SpectralMaterialOf(model, 17);
@@ -134,7 +135,7 @@ TEST_CASE("measured: what is grey is the same by wavelength",
   }
 }
 
-TEST_CASE("measured: a file that has gone is an error by wavelength",
+TEST_CASE("measured: a missing file is an error in spectral mode",
           "[compile][measured][spectral]") {
   MaterialRow row;
   row.measured = MaterialOf(reference::ChalkModel(0.5)).local.measured;
@@ -142,8 +143,7 @@ TEST_CASE("measured: a file that has gone is an error by wavelength",
   CHECK_THROWS_AS(AddMeasured({row}, table, Transport::kSpectral), InputError);
 }
 
-TEST_CASE("measured: the files of scenes are those of their models",
-          "[shade][measured]") {
+TEST_CASE("measured: files in scenes/ equal the generated models", "[shade][measured]") {
   const auto same = [](const std::string& name, const reference::MeasuredModel& model) {
     const std::string path = std::string(LANELIGHT_SOURCE_DIR) + "/scenes/" + name;
     const auto stored = ReadMeasuredReflectance(path);
@@ -172,7 +172,7 @@ TEST_CASE("measured: the albedo head-on is in the table", "[shade][measured]") {
   }
 }
 
-TEST_CASE("measured: no slice of one direction stands for another", "[shade][measured]") {
+TEST_CASE("measured: slices of different directions are distinct", "[shade][measured]") {
   const auto model = reference::MetalModel(0.35, 0.35, 0.6, 0.6);
   TestMaterial wrong = MaterialOf(model);
   const MeasuredRecord& record = wrong.table.measured.records[0];

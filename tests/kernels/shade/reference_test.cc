@@ -90,7 +90,7 @@ TEST_CASE("samples agree with their own evaluation in the mean", "[shade][stat]"
   }
 }
 
-TEST_CASE("a wrong material is told from the reference", "[shade][stat]") {
+TEST_CASE("a wrong material is detected", "[shade][stat]") {
   for (std::size_t i = 0; i < TestMaterials().size(); ++i) {
     const TestMaterial& m = TestMaterials()[i];
     TestMaterial other = m;

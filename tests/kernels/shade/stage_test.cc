@@ -136,7 +136,7 @@ TEST_CASE("a Lambertian bounce by hand", "[shade][stage]") {
   CHECK(f.Slots(QueueId::kShadow) == shadows);
 }
 
-TEST_CASE("stages leave out what a scene does not have", "[shade][stage]") {
+TEST_CASE("stages omit features that a scene does not use", "[shade][stage]") {
   const EachTarget target;
   for (const TestMaterial& m : TestMaterials()) {
     ShadeFixture f(m);
@@ -152,7 +152,7 @@ TEST_CASE("stages leave out what a scene does not have", "[shade][stage]") {
   }
 }
 
-TEST_CASE("bounces keep the normal on the side they come from", "[shade][stage]") {
+TEST_CASE("shading keeps the normal on the incoming side", "[shade][stage]") {
   const EachTarget target;
   for (const TestMaterial& m : TestMaterials()) {
     if (HasTrait(m.kind, kSpecularOnly)) continue;  // no light sample competes
@@ -192,7 +192,7 @@ TEST_CASE("textured parameters come from the path", "[shade][stage]") {
   for (std::uint32_t i = 0; i < kPaths; ++i) CHECK(p.beta_b[i] == color[i]);
 }
 
-TEST_CASE("absorbed paths are done", "[shade][stage]") {
+TEST_CASE("absorbed paths enter the done queue", "[shade][stage]") {
   TestMaterial black = TestMaterials()[0];
   black.table.color0_r[0] = black.table.color0_g[0] = black.table.color0_b[0] = 0;
   const EachTarget target;
@@ -203,7 +203,7 @@ TEST_CASE("absorbed paths are done", "[shade][stage]") {
   CHECK(f.Slots(QueueId::kShadow).empty());
 }
 
-TEST_CASE("a path's bounce depends on the path alone", "[shade][stage]") {
+TEST_CASE("a bounce depends on its own path only", "[shade][stage]") {
   // All at once, and one by one: bit for bit the same.
   const EachTarget target;
   for (const TestMaterial& m : TestMaterials()) {

@@ -38,7 +38,7 @@ std::set<std::uint32_t> SlotsOf(const Queue& queue) {
 
 }  // namespace
 
-TEST_CASE("vertices: points in a medium draw numbers and are routed", "[sort]") {
+TEST_CASE("vertices: media vertices draw numbers and are queued", "[sort]") {
   const CompiledScene scene = TwoKinds();
   const EachTarget target;
   WaveFixture f(scene, kPaths);
@@ -57,8 +57,7 @@ TEST_CASE("vertices: points in a medium draw numbers and are routed", "[sort]") 
   }
 }
 
-TEST_CASE("vertices: where only surfaces scatter, their queue is all there is",
-          "[sort]") {
+TEST_CASE("vertices: without scattering media only the surface queue exists", "[sort]") {
   const CompiledScene scene = TwoKinds();
   WaveFixture f(scene, kPaths);
   Fill(f.wave);

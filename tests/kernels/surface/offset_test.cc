@@ -97,7 +97,7 @@ int SelfHits(const Case& c, const AccelOptions& options, Random& random, Vec3f c
 
 }  // namespace
 
-TEST_CASE("a ray that leaves a surface does not meet it again", "[surface]") {
+TEST_CASE("a ray that leaves a surface does not hit it again", "[surface]") {
   const EachTarget target;
   Random random(11);
   int tried = 0, without_offset = 0;

@@ -104,7 +104,7 @@ TEST_CASE("triangle surfaces: point, normals, uv and tangent", "[surface]") {
   }
 }
 
-TEST_CASE("tangents of bilinear patches turn as the normal does, by two mirrors",
+TEST_CASE("tangents of bilinear patches follow the normal under two mirrorings",
           "[surface]") {
   constexpr float kSine = 0.6f, kCosine = 0.8f;
   struct Case {
@@ -120,7 +120,7 @@ TEST_CASE("tangents of bilinear patches turn as the normal does, by two mirrors"
       ForceTarget(target);
       Geometry g;
       g.triangles = {MakeTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
-      g.triangles[0].flags = kTurnedTangents;
+      g.triangles[0].flags = kRotatedTangents;
       g.turned_tangents = true;
       g.uvs = {0, 0, 1, 0, 0, 1};
       for (int i = 0; i < 9; ++i) g.normals.push_back(normal[i % 3]);

@@ -4,7 +4,7 @@
 
 #include "kernels/stages.h"
 #include "src/scene/compile/texture_programs.h"
-#include "tests/kernels/surface/relief_files.h"
+#include "tests/kernels/surface/bump_files.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
@@ -76,8 +76,8 @@ struct Lookups {
     for (std::uint32_t i = 0; i < n; ++i) {
       p.material[i] = 0;
       p.uv_u[i] = points[i].u, p.uv_v[i] = points[i].v;
-      p.spread_0[i] = points[i].dudx, p.spread_1[i] = points[i].dudy;
-      p.spread_2[i] = points[i].dvdx, p.spread_3[i] = points[i].dvdy;
+      p.footprint_0[i] = points[i].dudx, p.footprint_1[i] = points[i].dudy;
+      p.footprint_2[i] = points[i].dvdx, p.footprint_3[i] = points[i].dvdy;
       const auto [at, tg, tv] = std::tie(points[i].p, points[i].tg, points[i].tv);
       p.p_x[i] = at.x, p.p_y[i] = at.y, p.p_z[i] = at.z;
       p.tg_x[i] = tg.x, p.tg_y[i] = tg.y, p.tg_z[i] = tg.z;
@@ -140,7 +140,7 @@ TEST_CASE("levels are averages over areas", "[texture][levels]") {
   }
 }
 
-TEST_CASE("without a footprint filters look at the image itself", "[texture][levels]") {
+TEST_CASE("without a footprint filters use the finest level", "[texture][levels]") {
   const auto f = [](double u, double v) { return 0.2 + 0.5 * u + 0.1 * v; };
   for (const ImageFilter filter : {ImageFilter::kTrilinear, ImageFilter::kEwa}) {
     Lookups lookups(32, f, filter);
@@ -171,7 +171,7 @@ TEST_CASE("trilinear: level log2 of twice the longest step", "[texture][levels]"
   CHECK(c[5] == Approx(0.5).margin(1e-4));
 }
 
-TEST_CASE("ewa keeps what lies across the long axis", "[texture][levels]") {
+TEST_CASE("ewa keeps detail across the long axis", "[texture][levels]") {
   const auto stripes = [](double u, double) { return static_cast<int>(u * 64) / 8 % 2; };
   const float texel = 1.0f / 64, u = 12.0f / 64;  // middle of a bright stripe
   const Lookups::Point along = {u, 0.5f, texel / 2, 0, 0, 8 * texel};
@@ -194,7 +194,8 @@ TEST_CASE("ewa keeps what lies across the long axis", "[texture][levels]") {
   CHECK(std::accumulate(all.begin(), all.end(), 0.0) / 256 == Approx(0.5).epsilon(1e-4));
 }
 
-TEST_CASE("images get levels only where a filter asks", "[texture][levels]") {
+TEST_CASE("images have mipmap levels only where a filter uses them",
+          "[texture][levels]") {
   Lookups plain(16, [](double u, double) { return u; }, ImageFilter::kBilinear);
   CHECK(plain.scene.textures.images[0].level_begin.empty());
   CHECK(plain.scene.textures.images[0].rgb.size() == 3 * 256);
@@ -237,7 +238,7 @@ TEST_CASE("checkerboards are filtered by a triangle of 1.5 steps to either side"
   }
 }
 
-TEST_CASE("mappings of places are filtered by steps along the surface",
+TEST_CASE("mappings by position are filtered by steps along the surface",
           "[texture][levels]") {
   constexpr float kPi = 3.14159265f, kStep = 0.02f;
   Texture texture;

@@ -99,7 +99,7 @@ TEST_CASE("noise vanishes on the lattice and has period 256", "[noise]") {
   for (int i = 32; i < 48; ++i) CHECK(got[i] == Approx(got[i + 16]).margin(1e-6));
 }
 
-TEST_CASE("noise of any number is finite or not a number", "[noise]") {
+TEST_CASE("noise of any input is finite or NaN", "[noise]") {
   const float inf = std::numeric_limits<float>::infinity();
   std::vector<float> xyz(3 * 16, 0.5f);
   const float odd[] = {inf, -inf, std::nanf(""), 3e38f, -3e38f, 1e10f, 16777216, 1e-40f};
@@ -109,7 +109,7 @@ TEST_CASE("noise of any number is finite or not a number", "[noise]") {
   for (int i = 3; i < 8; ++i) CHECK(std::abs(got[i]) <= 1.5f);
 }
 
-TEST_CASE("sums of octaves agree with the twin", "[noise]") {
+TEST_CASE("sums of octaves agree with the reference", "[noise]") {
   const std::vector<float> xyz = RandomPoints();
   std::vector<float> got(2 * kPoints);
   const EachTarget target;

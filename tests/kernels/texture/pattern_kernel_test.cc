@@ -132,7 +132,7 @@ Texture Named(const std::string& name, TextureKind kind) {
 
 }  // namespace
 
-TEST_CASE("procedural textures agree with the twin", "[texture]") {
+TEST_CASE("procedural textures agree with the reference", "[texture]") {
   std::vector<Texture> textures = {
       Named("fbm", TextureKind::kFbm),       Named("wrinkled", TextureKind::kWrinkled),
       Named("windy", TextureKind::kWindy),   Named("marble", TextureKind::kMarble),
@@ -147,7 +147,7 @@ TEST_CASE("procedural textures agree with the twin", "[texture]") {
   ComparePlaces(textures, 5e-4);
 }
 
-TEST_CASE("steps and mixtures of places agree with the twin", "[texture]") {
+TEST_CASE("steps and mixtures by position agree with the reference", "[texture]") {
   std::vector<Texture> textures = {
       Named("dots", TextureKind::kDots), Named("bilerp", TextureKind::kBilinear),
       Named("directionmix", TextureKind::kDirectionMix),
@@ -164,7 +164,7 @@ TEST_CASE("steps and mixtures of places agree with the twin", "[texture]") {
   ComparePlaces(textures, 5e-5);
 }
 
-TEST_CASE("every mapping agrees with the twin", "[texture]") {
+TEST_CASE("every mapping agrees with the reference", "[texture]") {
   std::vector<Texture> textures;
   for (const MappingKind kind : {MappingKind::kUv, MappingKind::kSpherical,
                                  MappingKind::kCylindrical, MappingKind::kPlanar}) {

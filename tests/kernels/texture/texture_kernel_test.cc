@@ -298,7 +298,7 @@ TEST_CASE("checkerboard parity holds for negative and huge cells", "[texture]") 
   }
 }
 
-TEST_CASE("coordinates that are no numbers stay inside the image", "[texture]") {
+TEST_CASE("NaN coordinates stay inside the image", "[texture]") {
   const TemporaryFolder folder;
   const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
   std::vector<Texture> textures;

@@ -99,7 +99,8 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE("the texture stage writes what each material asks for", "[texture][stage]") {
+TEST_CASE("the texture stage writes the parameters of each material",
+          "[texture][stage]") {
   const bool color1 = GENERATE(false, true), roughness = GENERATE(false, true);
   FeatureSet features = {Feature::kTextures, Feature::kUv};
   if (color1) features.Add(Feature::kTexturedColor1);

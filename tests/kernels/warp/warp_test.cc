@@ -146,7 +146,8 @@ TEST_CASE("warps invert, and their densities are the stated ones", "[warp]") {
   }
 }
 
-TEST_CASE("warps of numbers at the ends are unit directions with densities", "[warp]") {
+TEST_CASE("warps of extreme random numbers are unit directions with densities",
+          "[warp]") {
   constexpr float kEnds[] = {
       0,    0x1p-24f,        0x1p-12f, 0.25f,        0.5f - 0x1p-24f,
       0.5f, 0.5f + 0x1p-24f, 0.75f,    1 - 0x1p-12f, 1 - 0x1p-24f};

@@ -38,7 +38,7 @@ const AdvisedCandidate& Find(const Advice& advice, const std::string& changes) {
 }
 
 // Without what the clock says.
-nlohmann::json Said(const Advice& advice) {
+nlohmann::json AdviceJson(const Advice& advice) {
   nlohmann::json json = ToJson(advice);
   json.erase("pilot_seconds");
   return json;
@@ -49,13 +49,13 @@ nlohmann::json Said(const Advice& advice) {
 TEST_CASE("advice is a function of scene, settings and seed", "[advise]") {
   const nlohmann::json one = [] {
     const ThreadLimit limit(1);
-    return Said(AdviceOf("cornell-box.pbrt", 0.1, 5));
+    return AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 5));
   }();
-  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 5)) == one);
-  CHECK(Said(AdviceOf("cornell-box.pbrt", 0.1, 6)) != one);
+  CHECK(AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 5)) == one);
+  CHECK(AdviceJson(AdviceOf("cornell-box.pbrt", 0.1, 6)) != one);
 }
 
-TEST_CASE("what the trial's time does not reach is skipped, and --pilot reaches it",
+TEST_CASE("candidates beyond the trial's time are skipped, and --pilot extends it",
           "[advise]") {
   const auto skipped = [](const Advice& advice) {
     int count = 0;
@@ -75,14 +75,15 @@ TEST_CASE("what the trial's time does not reach is skipped, and --pilot reaches 
   CHECK_THAT(none.why, Catch::Contains("too short"));
 }
 
-TEST_CASE("the trial costs what it is said to", "[advise]") {
+TEST_CASE("the trial takes its stated fraction of the time", "[advise]") {
   for (const double pilot : {0.3, 1.0}) {
     const Advice advice = AdviceOf("cornell-box.pbrt", pilot);
     CHECK(double(advice.rays) < 1.5 * pilot * kRaysPerSecond);
   }
 }
 
-TEST_CASE("what pays is advised, and what loses is not", "[advise]") {
+TEST_CASE("more efficient strategies are advised, less efficient ones are not",
+          "[advise]") {
   // Roulette ends most paths of a white room where all that shines is met late.
   const Advice room = AdviceOf("closed-room.pbrt", 0.6);
   INFO(ToJson(room).dump(1));
@@ -102,22 +103,22 @@ TEST_CASE("what pays is advised, and what loses is not", "[advise]") {
   }
 }
 
-TEST_CASE("what misses light is not advised, however even it looks", "[advise]") {
+TEST_CASE("a strategy that misses light is not advised", "[advise]") {
   TriedStrategy entry;
-  entry.usual = {1, std::vector<double>(1000, 1.0)};
+  entry.baseline = {1, std::vector<double>(1000, 1.0)};
   entry.measure = {1, std::vector<double>(1000, 0.01)};
-  entry.usual_light = {100, 1};
+  entry.baseline_light = {100, 1};
   entry.light = {99, 0.1};
-  CHECK(entry.Beyond(kMustGain, 1.645) == Approx(std::log(100 / kMustGain)));
+  CHECK(entry.Beyond(kMinChangeGain, 1.645) == Approx(std::log(100 / kMinChangeGain)));
   entry.light.sum = 96;
   CHECK(entry.MissesLight());
-  CHECK(entry.Beyond(kMustGain, 1.645) == 0);
-  // More than that may be the usual strategy's lack.
+  CHECK(entry.Beyond(kMinChangeGain, 1.645) == 0);
+  // More than that may be the baseline strategy's lack.
   entry.light.sum = 104;
   CHECK_FALSE(entry.MissesLight());
 }
 
-TEST_CASE("a trial that the user ends leaves the default", "[advise]") {
+TEST_CASE("an interrupted trial keeps the default strategy", "[advise]") {
   Job job = JobOf("cornell-box.pbrt", "64x48");
   const std::atomic<bool> stop = true;
   AdviceOptions options;
@@ -128,7 +129,7 @@ TEST_CASE("a trial that the user ends leaves the default", "[advise]") {
   CHECK(advice.chosen == Strategy());
 }
 
-TEST_CASE("an efficiency of which little is known is not stated", "[advise]") {
+TEST_CASE("an uncertain efficiency is not stated", "[advise]") {
   CHECK_FALSE(IsUncertain(WithoutBounds(1)));
   CHECK_FALSE(IsUncertain({1.5, 0.8, 2.5}));
   CHECK(IsUncertain({2, 3.1e-46, 1.1e3}));

@@ -66,7 +66,7 @@ TEST_CASE("renders that differ by noise alone agree", "[agreement]") {
   int alarms = 0;
   for (int pair = 0; pair < 200; ++pair) {
     const Agreement a = TestAgreement(render.Make(), render.Make(), false);
-    REQUIRE(a.verdict != AgreementVerdict::kCannotTell);
+    REQUIRE(a.verdict != AgreementVerdict::kInconclusive);
     CHECK(a.untested == 0);
     CHECK(a.tests == 3 * (a.layout.size() + 1));
     CHECK((a.p <= a.level) == (a.verdict == AgreementVerdict::kDiffer));
@@ -117,14 +117,14 @@ TEST_CASE("differences beyond noise are found, and where they are", "[agreement]
   }
 }
 
-TEST_CASE("without variances nothing can be told", "[agreement]") {
+TEST_CASE("images without variances are inconclusive", "[agreement]") {
   NoisyRender render = {std::mt19937(4)};
   const Image noisy = render.Make();
   Image plain = MakeImage(kWide, kHigh, {"R", "G", "B"});
   const auto why = [](const Image& a, const Image& b, bool exact) {
     const Agreement agreement = TestAgreement(a, b, exact);
     CHECK(std::isnan(agreement.p));
-    CHECK(agreement.verdict == AgreementVerdict::kCannotTell);
+    CHECK(agreement.verdict == AgreementVerdict::kInconclusive);
     return agreement.why;
   };
   CHECK(why(plain, plain, false) == "neither image has variances");
@@ -146,11 +146,11 @@ TEST_CASE("pixels that have paths in common count as fewer", "[agreement]") {
   CHECK(a.detectable > 0.04);
 }
 
-TEST_CASE("equal seeds are told of, and half floats rounded alike", "[agreement]") {
+TEST_CASE("equal seeds and equally rounded half floats are reported", "[agreement]") {
   NoisyRender render = {std::mt19937(6), 4, 0};
   Image image = render.Make(), reference = image;
   image.attributes["seed"] = reference.attributes["seed"] = std::string("7");
-  CHECK_THAT(TestAgreement(image, reference, false).doubt, Catch::Contains("seed 7"));
+  CHECK_THAT(TestAgreement(image, reference, false).caveat, Catch::Contains("seed 7"));
   // 1e-4 below, without noise: rounding to half floats may do that, to floats may not.
   for (int c = 0; c < 3; ++c) Brighten(image, 1 - 1e-4, 0, 0, kWide, kHigh, c);
   for (int c = 3; c < 6; ++c) {

@@ -44,7 +44,7 @@ NamedImage Render(const std::string& name, std::uint32_t seed, double deviation,
 
 }  // namespace
 
-TEST_CASE("a verdict is one sentence of what was found", "[compare]") {
+TEST_CASE("a verdict is one sentence with the findings", "[compare]") {
   const NamedImage reference = Render("ref", 1, 0.002);
   const auto verdict = [&](const NamedImage& image, ComparisonOptions options = {}) {
     return Compare(image, reference, options).verdict;
@@ -107,7 +107,7 @@ TEST_CASE("maps of errors by hand, and scales that fit them", "[compare]") {
   CHECK(ScaleOf(rare) == Approx(0.05));
 }
 
-TEST_CASE("JSON has all that is said", "[compare]") {
+TEST_CASE("JSON has all printed results", "[compare]") {
   const ImageComparison c = Compare(Render("a", 2, 0.05, 1.3), Render("b", 1, 0.01),
                                     {.flip = true, .pixels_per_degree = 40});
   const nlohmann::json json = ToJson(c);
@@ -127,7 +127,7 @@ TEST_CASE("JSON has all that is said", "[compare]") {
         nullptr);
 }
 
-TEST_CASE("bytes have FLIP of a screen alone", "[compare]") {
+TEST_CASE("8-bit images have LDR-FLIP only", "[compare]") {
   NamedImage a = {"a.png", Image{8, 8, 3, {"R", "G", "B"}, {}, {}, {}}};
   a.image.bytes.assign(8 * 8 * 3, 90);
   NamedImage b = a;
@@ -137,7 +137,7 @@ TEST_CASE("bytes have FLIP of a screen alone", "[compare]") {
   CHECK(c.flip->summary().mean > 0.05);
 }
 
-TEST_CASE("a sheet has a row for each image, and says its scales", "[compare]") {
+TEST_CASE("a sheet has a row for each image, and states its scales", "[compare]") {
   const NamedImage reference = Render("ref", 1, 0.001);
   const NamedImage tests[] = {Render("a", 2, 0.001), Render("b", 3, 0.001, 1.4)};
   std::vector<ImageComparison> comparisons;

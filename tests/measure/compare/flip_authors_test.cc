@@ -122,7 +122,7 @@ void CheckSummary(const FlipSummary& got, const FlipSummary& expected) {
 
 }  // namespace
 
-TEST_CASE("FLIP of images on a screen has the authors' numbers", "[flip]") {
+TEST_CASE("LDR-FLIP equals the authors' values", "[flip]") {
   // Mean, weighted quartiles, largest.
   const AuthorsRow rows[] = {
       {kGradient, 48, 32, kPpd, {0.116752, 0.097121, 0.127268, 0.167933, 0.336246}},
@@ -146,8 +146,7 @@ TEST_CASE("FLIP of images on a screen has the authors' numbers", "[flip]") {
   }
 }
 
-TEST_CASE("FLIP of a high dynamic range has the authors' numbers and exposures",
-          "[flip]") {
+TEST_CASE("HDR-FLIP equals the authors' values and exposures", "[flip]") {
   const AuthorsRow rows[] = {
       {kRamp,
        48,

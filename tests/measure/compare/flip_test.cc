@@ -99,7 +99,7 @@ TEST_CASE("exposures of HDR-FLIP follow the reference's light", "[flip]") {
         Approx(0.85));
 }
 
-TEST_CASE("HDR-FLIP sees what a screen clamps", "[flip]") {
+TEST_CASE("HDR-FLIP detects differences beyond the clamp of a screen", "[flip]") {
   LinearImage a = Flat(24, 24, 20, 20, 20), b = a;
   for (int c = 0; c < 3; ++c) b.planes[c][300] = 40;
   CHECK(MeanOf(LdrFlip(a, b)) == 0);

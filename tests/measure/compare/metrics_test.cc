@@ -75,7 +75,8 @@ TEST_CASE("equal images have no error and infinite PSNR", "[metrics]") {
   CHECK(ToJson(r)["z"]["count"] == 192);
 }
 
-TEST_CASE("the trimmed measure ignores fireflies, the plain one does not", "[metrics]") {
+TEST_CASE("the trimmed metric ignores fireflies, the plain metric does not",
+          "[metrics]") {
   const Image reference = Noisy(64, 0, 0, 1);
   Image test = Noisy(64, 0.1, 0.1, 2);
   const CompareResult clean = CompareImages(test, reference);
@@ -104,7 +105,7 @@ TEST_CASE("NaN and infinity are counted and left out", "[metrics]") {
   CHECK(ToJson(none)["relmse"].dump() == "null");
 }
 
-TEST_CASE("z-scores of honest noise are standard normal", "[metrics]") {
+TEST_CASE("z-scores of correct variances are standard normal", "[metrics]") {
   const int side = 128;
   const double n = 3.0 * side * side;
   const ZScores z = CompareImages(Noisy(side, 0.2, 0.2, 1), Noisy(side, 0.1, 0.1, 2)).z;
@@ -132,7 +133,7 @@ TEST_CASE("z-scores expose bias and wrong variances", "[metrics]") {
   CHECK(one_sided.standard_deviation == Approx(1).epsilon(0.02));
 }
 
-TEST_CASE("samples without variance are told apart", "[metrics]") {
+TEST_CASE("samples without variance are reported separately", "[metrics]") {
   Image test = Noisy(2, 0, 0, 1), reference = Noisy(2, 0, 0, 1);
   test.At(0, 0, 0) = 2;
   test.At(1, 0, 3) = -1;
@@ -146,7 +147,7 @@ TEST_CASE("samples without variance are told apart", "[metrics]") {
   CHECK(z.mean == 0);
 }
 
-TEST_CASE("images that cannot be compared say why", "[metrics]") {
+TEST_CASE("images that cannot be compared are refused with the reason", "[metrics]") {
   CHECK_THROWS_WITH(CompareImages(MakeImage(4, 3, {"Y"}), MakeImage(5, 2, {"Y"})),
                     Catch::Contains("4 x 3 and 5 x 2"));
   CHECK_THROWS_AS(CompareImages(MakeImage(4, 3, {"Y"}), MakeImage(5, 2, {"Y"})),

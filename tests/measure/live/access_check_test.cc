@@ -7,18 +7,18 @@
 namespace lanelight::live {
 namespace {
 
-const std::string kDoorToken = "0123456789abcdef0123456789abcdef";
+const std::string kAccessToken = "0123456789abcdef0123456789abcdef";
 
-HttpRequest PageVisit() {
-  return {"GET", "/" + kDoorToken + "/", "127.0.0.1:8080", "", false};
+HttpRequest PageRequest() {
+  return {"GET", "/" + kAccessToken + "/", "127.0.0.1:8080", "", false};
 }
-HttpRequest SocketVisit() {
-  return {"GET", "/" + kDoorToken + "/socket", "127.0.0.1:8080", "http://127.0.0.1:8080",
-          true};
+HttpRequest SocketRequest() {
+  return {"GET", "/" + kAccessToken + "/socket", "127.0.0.1:8080",
+          "http://127.0.0.1:8080", true};
 }
 
 unsigned StatusOf(const HttpRequest& request) {
-  return AccessCheck(8080, kDoorToken).Decide(request).status;
+  return AccessCheck(8080, kAccessToken).Decide(request).status;
 }
 
 }  // namespace
@@ -37,33 +37,33 @@ TEST_CASE("tokens are long, different, and compared as a whole", "[live]") {
   CHECK_FALSE(SameToken("", "abc"));
 }
 
-TEST_CASE("the page and its socket are behind the token", "[live]") {
-  const AccessCheck access(8080, kDoorToken);
-  CHECK(access.Address() == "http://127.0.0.1:8080/" + kDoorToken + "/");
-  CHECK(access.Decide(PageVisit()).answer == Answer::kPage);
-  CHECK(access.Decide(SocketVisit()).answer == Answer::kSocket);
+TEST_CASE("the page and its socket require the token", "[live]") {
+  const AccessCheck access(8080, kAccessToken);
+  CHECK(access.Address() == "http://127.0.0.1:8080/" + kAccessToken + "/");
+  CHECK(access.Decide(PageRequest()).answer == Answer::kPage);
+  CHECK(access.Decide(SocketRequest()).answer == Answer::kSocket);
   for (const char* target : {"/", "", "x", "//", "/0123456789abcdef0123456789abcdee/",
                              "/0123456789abcdef0123456789abcdef", "/favicon.ico"}) {
-    HttpRequest request = PageVisit();
+    HttpRequest request = PageRequest();
     request.target = target;
     INFO(target);
     CHECK(access.Decide(request).answer == Answer::kRefused);
     CHECK(StatusOf(request) == 404);
-    request = SocketVisit();
+    request = SocketRequest();
     request.target = target + std::string("socket");
     CHECK(access.Decide(request).answer == Answer::kRefused);
   }
 }
 
-TEST_CASE("names that were pointed at the loopback are refused", "[live]") {
+TEST_CASE("foreign host names that resolve to loopback are refused", "[live]") {
   for (const char* host : {"", "evil.example:8080", "127.0.0.1", "127.0.0.1:80",
                            "127.0.0.1:8080.evil.example", "0.0.0.0:8080", "[::1]:8080"}) {
-    HttpRequest request = PageVisit();
+    HttpRequest request = PageRequest();
     request.host = host;
     INFO(host);
     CHECK(StatusOf(request) == 403);
   }
-  HttpRequest local = PageVisit();
+  HttpRequest local = PageRequest();
   local.host = "localhost:8080";
   CHECK(StatusOf(local) == 200);
 }
@@ -71,12 +71,12 @@ TEST_CASE("names that were pointed at the loopback are refused", "[live]") {
 TEST_CASE("sockets of other pages are refused", "[live]") {
   for (const char* origin : {"", "null", "http://evil.example", "http://127.0.0.1",
                              "https://127.0.0.1:8080", "http://localhost:8080"}) {
-    HttpRequest request = SocketVisit();
+    HttpRequest request = SocketRequest();
     request.origin = origin;
     INFO(origin);
     CHECK(StatusOf(request) == 403);
   }
-  HttpRequest post = PageVisit();
+  HttpRequest post = PageRequest();
   post.method = "POST";
   CHECK(StatusOf(post) == 405);
 }

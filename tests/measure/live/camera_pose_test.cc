@@ -38,7 +38,7 @@ Camera ParsedCamera(const std::string& lines) {
 
 }  // namespace
 
-TEST_CASE("an pose is where the camera is, in units of the scene", "[live]") {
+TEST_CASE("a pose is the camera's position in units of the scene", "[live]") {
   const CameraPose pose = PoseOf(OddCamera(), 5);
   CHECK(Length(pose.position - Vec3d{1, 2, 3}) < 1e-12);
   CHECK(Length(pose.target - pose.position) == Approx(5));
@@ -46,7 +46,7 @@ TEST_CASE("an pose is where the camera is, in units of the scene", "[live]") {
   CHECK(pose.focus == Approx(3));
 }
 
-TEST_CASE("a camera that is not moved keeps its bits, and a moved one its mirror",
+TEST_CASE("an unmoved camera is bit-identical, and a moved one keeps its mirroring",
           "[live]") {
   const Camera camera = OddCamera();
   const CameraPose pose = PoseOf(camera, 5);
@@ -84,7 +84,7 @@ TEST_CASE("the text of a camera is that camera again", "[live]") {
   CHECK(ParsedCamera(PbrtText(camera)).kind == CameraKind::kOrthographic);
 }
 
-TEST_CASE("eyes as JSON, and those that cannot be", "[live]") {
+TEST_CASE("camera poses in JSON, and invalid ones", "[live]") {
   const CameraPose pose = PoseOf(OddCamera(), 5);
   CHECK(CameraPoseFromJson(ToJson(pose)) == pose);
   const auto refused = [&](const char* member, const nlohmann::json& value) {
@@ -107,7 +107,7 @@ TEST_CASE("eyes as JSON, and those that cannot be", "[live]") {
   CHECK_THROWS_AS(CameraPoseFromJson(lacking), nlohmann::json::exception);
 }
 
-TEST_CASE("a reduced view shows what the whole one does", "[live]") {
+TEST_CASE("a reduced view shows the same image as the full view", "[live]") {
   const LiveScene live_scene = SmallLiveScene(33, 24);
   const View whole = MakeView(live_scene, live_scene.pose, 1),
              half = MakeView(live_scene, live_scene.pose, 2);

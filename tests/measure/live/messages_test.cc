@@ -39,8 +39,7 @@ ReadPicture Read(const std::string& message) {
 
 }  // namespace
 
-TEST_CASE("messages that are not understood are refused, with what would be right",
-          "[live]") {
+TEST_CASE("invalid messages are refused with a remedy", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   Session session(live_scene, "", [](const std::string&, bool) {});
   const auto obey = [&](const std::string& text) { session.Do(ParseMessage(text)); };
@@ -63,7 +62,7 @@ TEST_CASE("messages that are not understood are refused, with what would be righ
                     Catch::Contains("\"rays\""));
 }
 
-TEST_CASE("a picture has the film's numbers, once, and then what has changed", "[live]") {
+TEST_CASE("a picture message has all values once, then only changed ones", "[live]") {
   LiveScene live_scene = SmallLiveScene(80, 70);
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
   NoObserver observer;
@@ -92,7 +91,7 @@ TEST_CASE("a picture has the film's numbers, once, and then what has changed", "
   CHECK(Read(EncodePicture(renderer, {}, sent)).head.at("squares").size() == 4);
 }
 
-TEST_CASE("the numbers of a pixel are exact, and unknown where they are", "[live]") {
+TEST_CASE("pixel values are exact, or null where unknown", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
   NoObserver observer;

@@ -11,14 +11,14 @@
 namespace lanelight::live {
 namespace {
 
-class NoAttendant : public PassObserver {
+class PlainObserver : public PassObserver {
  public:
   bool Due() const override { return false; }
   void Observe() override {}
 };
 
 // Wants to look all the time.
-class CuriousAttendant : public PassObserver {
+class QueryingObserver : public PassObserver {
  public:
   bool Due() const override { return due_; }
   void Observe() override {
@@ -54,7 +54,7 @@ JobRun WholeRender(const LiveScene& live_scene, const Strategy& strategy,
 
 }  // namespace
 
-TEST_CASE("passes have the bits of a render at once", "[live]") {
+TEST_CASE("passes are bit-identical to a single render", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   const std::atomic<bool> never{false};
   for (const char* changes :
@@ -66,26 +66,26 @@ TEST_CASE("passes have the bits of a render at once", "[live]") {
     // Another one uses the same scene in between.
     PassRenderer other(live_scene, MakeView(live_scene, live_scene.pose, 2),
                        ChangedStrategy("light-selection=uniform"));
-    NoAttendant observer;
-    CuriousAttendant curious;
+    PlainObserver observer;
+    QueryingObserver querying;
     for (const int spp : {2, 4, 10, 16}) {
       renderer.Pass(std::uint64_t(spp),
-                    spp == 10 ? static_cast<PassObserver&>(curious) : observer, never);
+                    spp == 10 ? static_cast<PassObserver&>(querying) : observer, never);
       other.Pass(std::uint64_t(spp), observer, never);
       CHECK(renderer.spp() == std::uint64_t(spp));
     }
-    CHECK(curious.looks > 0);
+    CHECK(querying.looks > 0);
     renderer.Fit();
     CheckSameFilms(renderer.film(), WholeRender(live_scene, strategy, 16).film);
     CHECK(renderer.record().counts.samples == 16u * 32 * 24);
   }
 }
 
-TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
+TEST_CASE("a stopped pass resumes bit-identically", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   const Strategy strategy;
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), strategy);
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false}, at_once{true};
   renderer.Pass(3, observer, never);
   renderer.Pass(8, observer, at_once);
@@ -95,14 +95,14 @@ TEST_CASE("a pass that was stopped goes on as if it had not been", "[live]") {
   CheckSameFilms(renderer.film(), WholeRender(live_scene, strategy, 8).film);
 }
 
-TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
+TEST_CASE("a moved camera renders the image of the equivalent scene file", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   CameraPose pose = live_scene.pose;
   pose.position = pose.position + Vec3d{0.2, 0.1, 0.3};
   pose.fov = 45;
   const View view = MakeView(live_scene, pose, 1);
   PassRenderer renderer(live_scene, view, Strategy{});
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false};
   renderer.Pass(4, observer, never);
   SceneDescription scene =
@@ -116,10 +116,10 @@ TEST_CASE("a moved camera sees what its scene file would show", "[live]") {
   CheckSameFilms(renderer.film(), RunJob(job).film);
 }
 
-TEST_CASE("a renderer counts stages, rays by places, and its errors", "[live]") {
+TEST_CASE("a renderer counts stages, rays per cell and errors", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   PassRenderer renderer(live_scene, MakeView(live_scene, live_scene.pose, 1), Strategy{});
-  NoAttendant observer;
+  PlainObserver observer;
   const std::atomic<bool> never{false};
   renderer.Pass(8, observer, never);
   renderer.Pass(9, observer, never);
@@ -142,7 +142,7 @@ TEST_CASE("a renderer counts stages, rays by places, and its errors", "[live]") 
   CHECK(rays == Approx(double(counts.rays_closest + counts.rays_shadow)));
 }
 
-TEST_CASE("a strategy that the scene does not take is refused", "[live]") {
+TEST_CASE("a strategy that the scene does not support is refused", "[live]") {
   const LiveScene live_scene = SmallLiveScene();
   CHECK_THROWS_AS(PassRenderer(live_scene, MakeView(live_scene, live_scene.pose, 1),
                                ChangedStrategy("reuse=block,roulette=adjoint")),

@@ -27,7 +27,7 @@ class PretendedPage {
   }
   ~PretendedPage() { Leave(); }
 
-  void Ask(const std::string& message) { render_thread_.Receive(number_, message); }
+  void Send(const std::string& message) { render_thread_.Receive(number_, message); }
   void Leave() {
     if (number_ != 0) render_thread_.Leave(number_);
     number_ = 0;
@@ -50,7 +50,7 @@ class PretendedPage {
     while (!condition()) {
       if (std::chrono::steady_clock::now() > end) return false;
       for (const char* what : {"0", "1", "2"}) {
-        Ask(std::string(R"({"do": "seen", "what": )") + what + "}");
+        Send(std::string(R"({"do": "seen", "what": )") + what + "}");
       }
       std::unique_lock lock(mutex_);
       come_.wait_for(lock, std::chrono::milliseconds(20));
@@ -81,14 +81,14 @@ std::string ChooseText(int slot, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") {
+TEST_CASE("a page receives a greeting, pictures, states and pixel values", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "lanelight render box.pbrt");
   PretendedPage page(render_thread);
   REQUIRE(page.Until([&] { return page.Last("hello").is_object(); }));
   CHECK(page.Last("hello").at("width") == 32);
   CHECK(page.Last("hello").at("strategies").at("presets").size() == AllPresets().size());
-  page.Ask(ChooseText(0, "default"));
+  page.Send(ChooseText(0, "default"));
   REQUIRE(page.UntilSpp(0, 16));
   CHECK(page.Pictures() > 1);
   const nlohmann::json slot = page.Last("state").at("slots")[0];
@@ -97,21 +97,21 @@ TEST_CASE("a page is greeted, and gets pictures, states and numbers", "[live]") 
         0);
   CHECK(slot.at("looks").size() > 0);
   CHECK(slot.at("omitted").size() > 0);
-  page.Ask(R"({"do": "ask", "x": 1, "y": 2})");
+  page.Send(R"({"do": "ask", "x": 1, "y": 2})");
   REQUIRE(page.Until([&] { return page.Last("pixel").is_object(); }));
   CHECK(page.Last("pixel").at("slots")[0].at("samples") >= 16);
 }
 
-TEST_CASE("two strategies take turns at equal samples", "[live]") {
+TEST_CASE("two strategies alternate at equal sample counts", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
-  page.Ask(R"({"do": "pace", "by": "samples"})");
-  page.Ask(ChooseText(0, "paper-plain"));
-  page.Ask(ChooseText(1, "paper-roulette"));
+  page.Send(R"({"do": "pace", "by": "samples"})");
+  page.Send(ChooseText(0, "paper-plain"));
+  page.Send(ChooseText(1, "paper-roulette"));
   REQUIRE(page.UntilSpp(0, 64));
   REQUIRE(page.UntilSpp(1, 64));
-  page.Ask(R"({"do": "pause", "on": true})");
+  page.Send(R"({"do": "pause", "on": true})");
   REQUIRE(page.Until([&] { return page.Last("state").value("paused", false); }));
   const nlohmann::json state = page.Last("state");
   const double a = state["slots"][0]["spp"], b = state["slots"][1]["spp"];
@@ -119,37 +119,37 @@ TEST_CASE("two strategies take turns at equal samples", "[live]") {
   CHECK(state["ratio"]["value"].get<double>() > 0);
 }
 
-TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
+TEST_CASE("refused requests are reported, and rendering continues", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
-  page.Ask("no JSON");
+  page.Send("no JSON");
   REQUIRE(page.Until([&] { return page.Last("refused").is_object(); }));
   CHECK_THAT(page.Last("refused")["text"].get<std::string>(), Catch::Contains("JSON"));
-  page.Ask(ChooseText(0, "reuse=block,roulette=adjoint"));
-  page.Ask(ChooseText(1, "default"));
+  page.Send(ChooseText(0, "reuse=block,roulette=adjoint"));
+  page.Send(ChooseText(1, "default"));
   REQUIRE(page.UntilSpp(1, 4));
   const nlohmann::json slots = page.Last("state")["slots"];
   CHECK_THAT(slots[0]["refused"].get<std::string>(),
              Catch::Contains("reuse=block needs"));
-  page.Ask(R"({"do": "exr", "slot": 0})");
+  page.Send(R"({"do": "exr", "slot": 0})");
   CHECK(page.Until([&] {
     return page.Last("refused")["text"].get<std::string>().find("no whole picture") !=
            std::string::npos;
   }));
 }
 
-TEST_CASE("a strategy that was left goes on where it was", "[live]") {
+TEST_CASE("a strategy selected again resumes", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
-  page.Ask(ChooseText(0, "default"));
+  page.Send(ChooseText(0, "default"));
   REQUIRE(page.UntilSpp(0, 32));
-  page.Ask(ChooseText(0, "paper-plain"));
+  page.Send(ChooseText(0, "paper-plain"));
   REQUIRE(page.Until(
       [&] { return page.Last("state")["slots"][0]["name"] == "paper-plain"; }));
-  page.Ask(R"({"do": "pause", "on": true})");
-  page.Ask(ChooseText(0, "default"));
+  page.Send(R"({"do": "pause", "on": true})");
+  page.Send(ChooseText(0, "default"));
   REQUIRE(page.Until([&] {
     const nlohmann::json slot = page.Last("state")["slots"][0];
     return slot["name"] == "default" && slot.contains("spp");
@@ -157,31 +157,31 @@ TEST_CASE("a strategy that was left goes on where it was", "[live]") {
   CHECK(page.Last("state")["slots"][0]["spp"] >= 32);
 }
 
-TEST_CASE("a moved camera begins anew, and is what the page is told", "[live]") {
+TEST_CASE("a moved camera restarts the render and is sent to the page", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage page(render_thread);
-  page.Ask(ChooseText(0, "default"));
+  page.Send(ChooseText(0, "default"));
   REQUIRE(page.UntilSpp(0, 4));
   CHECK(page.Last("state").at("moved") == false);
   CameraPose pose = live_scene.pose;
   pose.fov = 50;
-  page.Ask(nlohmann::json{{"do", "camera"}, {"eye", ToJson(pose)}}.dump());
+  page.Send(nlohmann::json{{"do", "camera"}, {"eye", ToJson(pose)}}.dump());
   REQUIRE(page.Until([&] { return page.Last("state").at("moved") == true; }));
   CHECK(page.Last("state").at("eye").at("fov") == 50);
   REQUIRE(page.UntilSpp(0, 4));
-  page.Ask(R"({"do": "camera-text"})");
+  page.Send(R"({"do": "camera-text"})");
   REQUIRE(page.Until([&] { return page.Last("camera-text").is_object(); }));
   CHECK_THAT(page.Last("camera-text")["text"].get<std::string>(),
              Catch::Contains("\"float fov\" [ 50 ]"));
 }
 
-TEST_CASE("who has left is sent nothing any more, and others are", "[live]") {
+TEST_CASE("closed pages receive no messages, others do", "[live]") {
   LiveScene live_scene = SmallLiveScene();
   RenderThread render_thread(live_scene, "");
   PretendedPage leaves(render_thread), stays(render_thread);
-  leaves.Ask(ChooseText(0, "default"));
-  stays.Ask(ChooseText(0, "paper-plain"));
+  leaves.Send(ChooseText(0, "default"));
+  stays.Send(ChooseText(0, "paper-plain"));
   REQUIRE(leaves.UntilSpp(0, 4));
   leaves.Leave();
   const std::size_t before = leaves.Received();

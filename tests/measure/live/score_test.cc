@@ -23,7 +23,7 @@ Look LookOf(Interval relmse, std::uint64_t spp, double seconds) {
 
 }  // namespace
 
-TEST_CASE("the ratio is of errors times what they cost", "[live]") {
+TEST_CASE("the efficiency ratio is of squared error times cost", "[live]") {
   const Look a = LookOf({0.4, 0.2, 0.8}, 10, 3), b = LookOf({0.1, 0.1, 0.1}, 5, 6);
   const Ratio time = EfficiencyOf(a, b, Pace::kTime);
   REQUIRE(time.available);
@@ -35,7 +35,7 @@ TEST_CASE("the ratio is of errors times what they cost", "[live]") {
         Approx(0.4 * 10 / (0.1 * 5)));
 }
 
-TEST_CASE("the ends of a ratio join those of both", "[live]") {
+TEST_CASE("the interval of a ratio combines the intervals of both errors", "[live]") {
   const Look a = LookOf({1, 0.5, 3}, 1, 1), b = LookOf({1, 0.25, 2}, 1, 1);
   const Ratio ratio = EfficiencyOf(a, b, Pace::kTime);
   CHECK(ratio.interval.low ==
@@ -44,7 +44,7 @@ TEST_CASE("the ends of a ratio join those of both", "[live]") {
         Approx(std::exp(std::hypot(std::log(3.0), std::log(4.0)))));
 }
 
-TEST_CASE("an end that is not known is open, with the reason", "[live]") {
+TEST_CASE("an unknown end of an interval is open, with the reason", "[live]") {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   Look a = LookOf({1, 0.5, kInfinite}, 1, 1);
   a.error.why = "few pixels carry it";
@@ -63,7 +63,7 @@ TEST_CASE("an end that is not known is open, with the reason", "[live]") {
 // 400 pairs of images of independent normal noise whose errors differ threefold: the
 // 95 % interval misses in 20 of them on average, and in more than 38 with a probability
 // of 1e-4 (binomial).
-TEST_CASE("the interval of a ratio holds the true one", "[live]") {
+TEST_CASE("the interval of a ratio contains the true ratio", "[live]") {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const auto look = [&](double deviation) {
@@ -161,7 +161,7 @@ class SimulatedRace {
 // 200 races of 30 looks each, held against the errors that the images have. If intervals
 // hold at all looks in 95 % of the races, 10 fail on average, and more than 23 with a
 // probability of 1e-4 (binomial).
-TEST_CASE("intervals of a race hold at all looks together", "[live]") {
+TEST_CASE("intervals of a comparison are simultaneously valid at all looks", "[live]") {
   std::mt19937 random(7);
   constexpr int kRaces = 200, kLooks = 30;
   int missed = 0, missed_one_look = 0, wrong = 0;
@@ -191,7 +191,7 @@ TEST_CASE("intervals of a race hold at all looks together", "[live]") {
   CHECK(missed_one_look > kRaces / 5);
 }
 
-TEST_CASE("a verdict that was certain stays until the contrary is", "[live]") {
+TEST_CASE("a certain verdict stays until the opposite is certain", "[live]") {
   const auto steady = [](double relmse, std::uint64_t spp) {
     return LookOf({relmse, relmse / 1.1, relmse * 1.1}, spp, double(spp));
   };

@@ -56,8 +56,8 @@ int Connect(std::uint32_t address, std::uint16_t port, std::uint32_t client = 0)
   to.sin_family = AF_INET;
   to.sin_port = htons(port);
   to.sin_addr.s_addr = htonl(address);
-  const timeval patience = {20, 0};
-  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  const timeval timeout = {20, 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
   if (connect(fd, reinterpret_cast<sockaddr*>(&to), sizeof(to)) == 0) return fd;
   close(fd);
   return -1;
@@ -104,7 +104,7 @@ std::string UpgradeText(const RunningServer& server, const std::string& origin) 
 
 }  // namespace
 
-TEST_CASE("the page comes to who knows the address, with its rules", "[live]") {
+TEST_CASE("the page is served under its address, with security headers", "[live]") {
   const RunningServer server;
   const std::string page = Request(server, GetText(server.path, server.host));
   CHECK(page.rfind("HTTP/1.1 200", 0) == 0);
@@ -116,7 +116,7 @@ TEST_CASE("the page comes to who knows the address, with its rules", "[live]") {
         0);
 }
 
-TEST_CASE("a socket opens for its own page alone", "[live]") {
+TEST_CASE("a socket accepts its own page only", "[live]") {
   const RunningServer server;
   const std::string own = "http://" + server.host;
   const std::string good =
@@ -128,7 +128,7 @@ TEST_CASE("a socket opens for its own page alone", "[live]") {
   CHECK(other.rfind("HTTP/1.1 403", 0) == 0);
 }
 
-TEST_CASE("what is no request ends with its connection alone", "[live]") {
+TEST_CASE("an invalid request closes only its own connection", "[live]") {
   const RunningServer server;
   Request(server, "\r\n\r\n\x01\x02\x03");
   Request(server, "GET " + std::string(100000, 'a') + " HTTP/1.1\r\n");
@@ -140,11 +140,11 @@ TEST_CASE("what is no request ends with its connection alone", "[live]") {
   CHECK(Request(server, GetText(server.path, server.host)).rfind("HTTP/1.1 200", 0) == 0);
 }
 
-TEST_CASE("one client cannot keep others out", "[live]") {
+TEST_CASE("one client cannot block others", "[live]") {
   const RunningServer server;
   // Half-open requests from 127.0.0.1: half of all connections, however many it asks for.
   std::vector<int> open;
-  for (int i = 0; i < 2 * kMostConnections; ++i) {
+  for (int i = 0; i < 2 * kMaxConnections; ++i) {
     open.push_back(Connect(INADDR_LOOPBACK, server.port));
     REQUIRE(send(open.back(), "GET /", 5, MSG_NOSIGNAL) == 5);
   }
@@ -154,7 +154,7 @@ TEST_CASE("one client cannot keep others out", "[live]") {
     char byte;
     refused += recv(fd, &byte, 1, MSG_DONTWAIT) == 0 || errno == ECONNRESET;
   }
-  CHECK(refused == 2 * kMostConnections - kMostFromOne);
+  CHECK(refused == 2 * kMaxConnections - kMaxPerAddress);
   // 127.0.0.2 of the same machine.
   const std::string page =
       Request(server, GetText(server.path, server.host), {.client = INADDR_LOOPBACK + 1});
@@ -163,17 +163,16 @@ TEST_CASE("one client cannot keep others out", "[live]") {
 }
 
 TEST_CASE("connections are limited in all, and from one address", "[live]") {
-  std::map<int, int> connections = {{1, kMostFromOne - 1}};
+  std::map<int, int> connections = {{1, kMaxPerAddress - 1}};
   CHECK(MayConnect(connections, 1));
-  connections[1] = kMostFromOne;
+  connections[1] = kMaxPerAddress;
   CHECK_FALSE(MayConnect(connections, 1));
   CHECK(MayConnect(connections, 2));
-  connections[2] = kMostFromOne;
+  connections[2] = kMaxPerAddress;
   CHECK_FALSE(MayConnect(connections, 3));
 }
 
-TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
-          "[live]") {
+TEST_CASE("the server listens on 127.0.0.1 only and reports used ports", "[live]") {
   RunningServer server;
   // Another address of this machine's loopback.
   CHECK(Connect(INADDR_LOOPBACK + 1, server.port) < 0);
@@ -181,7 +180,7 @@ TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
                     Catch::Contains("cannot be had"));
 }
 
-TEST_CASE("pages are told goodbye", "[live]") {
+TEST_CASE("pages receive a close message", "[live]") {
   RunningServer server;
   std::string all;
   std::thread reader([&] {

@@ -77,7 +77,7 @@ Json OneName(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("The page holds the study that went in", "[report]") {
+TEST_CASE("The page contains the study", "[report]") {
   const SyntheticStudy synthetic = MakeSyntheticStudy();
   const std::string page =
       ReportPage(PageKind::kStudy, synthetic.study, synthetic.images);
@@ -93,7 +93,7 @@ TEST_CASE("The page is the same for the same study", "[report]") {
         ReportPage(PageKind::kStudy, b.study, b.images));
 }
 
-TEST_CASE("No text ends its script or begins a comment", "[report]") {
+TEST_CASE("Texts are escaped inside the page's script", "[report]") {
   for (const std::string& text :
        {std::string(kHostileName), std::string("</SCRIPT >"), std::string("<!--<script>"),
         std::string("\"\\\n\t\x01 ]]>"), std::string("nul\0inside", 10)}) {
@@ -134,7 +134,7 @@ TEST_CASE("Half floats are the nearest ones and saturate", "[report]") {
   CHECK(ToHalfBits(float(0.5 * (HalfValue(0x3c01) + HalfValue(0x3c02)))) == 0x3c02);
 }
 
-TEST_CASE("Images come back from the page", "[report]") {
+TEST_CASE("Images round-trip through the page", "[report]") {
   for (const int width : {1, 2, 3, 4}) {  // every length of the last base64 group
     ReportImage image{"an image", width, 2, width == 3 ? 3 : 1, {}};
     const int count = image.width * image.height * image.channels;
@@ -152,7 +152,7 @@ TEST_CASE("Images come back from the page", "[report]") {
   }
 }
 
-TEST_CASE("An image of the wrong size is a mistake", "[report]") {
+TEST_CASE("An image of the wrong size fails a check", "[report]") {
   CHECK_THROWS_AS(
       ReportPage(PageKind::kStudy, Json::object(), {{"x", 2, 2, 3, {1, 2, 3}}}),
       CheckFailure);
@@ -160,7 +160,7 @@ TEST_CASE("An image of the wrong size is a mistake", "[report]") {
                   CheckFailure);
 }
 
-TEST_CASE("The page names no place in the network", "[report]") {
+TEST_CASE("The page loads nothing from the network", "[report]") {
   std::string page = ReportPage(PageKind::kStudy, Json::object(), {});
   // The namespace of SVG is no address that a browser fetches.
   const std::string space = "http://www.w3.org/2000/svg";

@@ -45,7 +45,7 @@ double Room(double u, double v, int c) {
 
 double NoiseScale(double v, double noise) { return noise * (0.35 + 1.1 * v); }
 
-double BiasShare(double u, double v, double bias) {
+double BiasedFraction(double u, double v, double bias) {
   return u > 0.6 && v > 0.6 ? bias : 0.0;
 }
 
@@ -74,7 +74,7 @@ ReportImage SyntheticRender(const std::string& name, double noise, double bias,
                             int seed) {
   return FromFormula(name, 3, [=](double u, double v, int c, int index) {
     const double relative =
-        1 + BiasShare(u, v, bias) + NoiseScale(v, noise) * Noise(seed, index);
+        1 + BiasedFraction(u, v, bias) + NoiseScale(v, noise) * Noise(seed, index);
     return std::max(0.0, Room(u, v, c) * relative);
   });
 }
@@ -89,7 +89,7 @@ ReportImage SyntheticVariance(const std::string& name, double noise) {
 ReportImage SyntheticBias(const std::string& name, double noise, double bias, int seed) {
   return FromFormula(name, 3, [=](double u, double v, int c, int index) {
     return Room(u, v, c) *
-           (BiasShare(u, v, bias) + NoiseScale(v, noise) * Noise(seed, index) / 3);
+           (BiasedFraction(u, v, bias) + NoiseScale(v, noise) * Noise(seed, index) / 3);
   });
 }
 

@@ -83,15 +83,15 @@ Json MakeTiles(const Recipe& recipe, int seed) {
 }
 
 Json MakeStages(const Recipe& recipe, double seconds) {
-  const std::vector<std::pair<const char*, double>> shares = {
+  const std::vector<std::pair<const char*, double>> fractions = {
       {"intersect", 0.41},   {"shadow", 0.21},  {"shade diffuse", 0.13},
       {"generate", 0.07},    {"lights", 0.06},  {"roulette", 0.03},
       {"shade glass", 0.03}, {"route", 0.025},  {"accumulate", 0.02},
       {"compact", 0.01},     {"control", 0.005}};
   Json stages = Json::array();
   double tilt = recipe.seconds * 40;
-  for (const auto& [name, share] : shares) {
-    const double mine = name == shares[1].first ? share * (1 - tilt) : share;
+  for (const auto& [name, fraction] : fractions) {
+    const double mine = name == fractions[1].first ? fraction * (1 - tilt) : fraction;
     stages.push_back({{"name", name},
                       {"seconds", mine * seconds},
                       {"share", mine},

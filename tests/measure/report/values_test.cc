@@ -6,7 +6,7 @@
 
 namespace lanelight {
 
-TEST_CASE("what is not known is null in reports, and a dash in texts", "[report]") {
+TEST_CASE("unknown values are null in reports and a dash in texts", "[report]") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   CHECK(NumberJson(0.25) == 0.25);

@@ -11,7 +11,7 @@
 
 namespace lanelight::stress {
 
-TEST_CASE("stress: Fresnel terms are the reference's", "[stress]") {
+TEST_CASE("stress: Fresnel terms equal those of the reference", "[stress]") {
   for (double eta : {0.3, 0.75, 1.0 + 1e-6, 1.5, 10.0}) {
     for (double c : {1e-6, 0.01, 0.5, 0.9}) {
       CAPTURE(eta, c);
@@ -26,7 +26,7 @@ TEST_CASE("stress: Fresnel terms are the reference's", "[stress]") {
   }
 }
 
-TEST_CASE("stress: coats are the reference's", "[stress]") {
+TEST_CASE("stress: coats equal those of the reference", "[stress]") {
   for (double cosine : {0.2, 1.0}) {
     CHECK(CoatFurnace({0.6, 1.5, 0, 5}, cosine) ==
           Approx(closed_form::CoatedFurnace(0.6, 1.5, cosine, 5)).epsilon(1e-5));
@@ -35,7 +35,7 @@ TEST_CASE("stress: coats are the reference's", "[stress]") {
   CHECK(CoatFurnace({1, 1.5, 100}, 0.5) == Approx(FresnelDielectric(0.5, 1.5)));
 }
 
-TEST_CASE("stress: the GGX integral has its limits", "[stress]") {
+TEST_CASE("stress: the GGX integral has the known limits", "[stress]") {
   const auto white = [](double) { return 1.0; };
   const auto glass = [](double c) { return FresnelDielectric(c, 1.5); };
   for (double cosine : {0.1, 0.7, 1.0}) {
@@ -55,7 +55,8 @@ TEST_CASE("stress: the GGX integral has its limits", "[stress]") {
         Approx(1 - std::numbers::ln2).epsilon(1e-4));
 }
 
-TEST_CASE("stress: rooms, spheres and polygons are the reference's", "[stress]") {
+TEST_CASE("stress: rooms, spheres and polygons equal those of the reference",
+          "[stress]") {
   CHECK(ClosedRoom(2, 0.9, 30) == Approx(closed_form::ClosedRoom(2, 0.9, 30)));
   CHECK(ClosedRoom(2, 1, 30) == 62);
   CHECK(SphereIrradiance(0.1, 2, 0.6) ==

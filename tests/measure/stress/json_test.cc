@@ -33,7 +33,7 @@ void CheckNumber(const Json& json, double x) {
 
 }  // namespace
 
-TEST_CASE("stress: stress.json holds every number, to the last bit", "[stress]") {
+TEST_CASE("stress: stress.json contains every value exactly", "[stress]") {
   const SuiteResult result = SyntheticRun();
   const Json json = Json::parse(ToJson(result).dump());
   REQUIRE(json["cases"].size() == result.cases.size());

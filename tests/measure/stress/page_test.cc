@@ -14,7 +14,7 @@ namespace lanelight::stress {
 
 using Json = nlohmann::json;
 
-TEST_CASE("stress: one sentence says what came out", "[stress]") {
+TEST_CASE("stress: the result is summarised in one sentence", "[stress]") {
   SuiteResult result = SyntheticRun();
   CHECK(Sentence(result) ==
         "1 of 7 cases fails on AVX3 and EMU128: wrong-inside; in 1 more some points "
@@ -28,7 +28,7 @@ TEST_CASE("stress: one sentence says what came out", "[stress]") {
   CHECK(Sentence(result) == "There was no case to measure.");
 }
 
-TEST_CASE("stress: results are written whole", "[stress]") {
+TEST_CASE("stress: results are replaced atomically", "[stress]") {
   const TemporaryFolder folder;
   const std::string dir = folder.File("a/b");
   WriteResults(SyntheticRun(), dir);

@@ -41,7 +41,7 @@ TEST_CASE("stress: cases are chosen by name, group and pattern", "[stress]") {
   CHECK(Chosen({"ggx-?lass", "ggx-*"}) == "ggx-alpha ggx-glass ");
 }
 
-TEST_CASE("stress: cases of a group stand together", "[stress]") {
+TEST_CASE("stress: cases of a group are listed together", "[stress]") {
   std::vector<Case> cases = Some();
   std::swap(cases[1], cases[2]);
   std::string text;
@@ -49,7 +49,7 @@ TEST_CASE("stress: cases of a group stand together", "[stress]") {
   CHECK(text == "ggx-alpha ggx-glass tiny-light many-lights ");
 }
 
-TEST_CASE("stress: a word that means nothing gets the nearest name", "[stress]") {
+TEST_CASE("stress: an unknown name is reported with the nearest name", "[stress]") {
   CHECK_THROWS_WITH(Chosen({"ggx-alhpa"}), Contains("did you mean \"ggx-alpha\"?"));
   CHECK_THROWS_WITH(Chosen({"lights", "material"}), Contains("\"materials\""));
   CHECK_THROWS_WITH(Chosen({"xyz*"}), Contains("--list"));

@@ -60,7 +60,7 @@ TEST_CASE("stress: planted faults inside the promise fail the case", "[stress]")
   CHECK(plant([] { return Around1(1, 0.05); }).outcome == Outcome::kWeak);
 }
 
-TEST_CASE("stress: a case that measures nothing that is promised fails", "[stress]") {
+TEST_CASE("stress: a case without a promised measurement fails", "[stress]") {
   CHECK(RunMap([](double) { return std::vector<Point>(); }).outcome == Outcome::kFailed);
   Case elsewhere =
       PlantedMap("elsewhere", [](double) { return std::vector{Around1(1)}; });
@@ -70,7 +70,7 @@ TEST_CASE("stress: a case that measures nothing that is promised fails", "[stres
   CHECK(result.why == "no promised point was measured");
 }
 
-TEST_CASE("stress: what a case leaves out is neither good nor bad", "[stress]") {
+TEST_CASE("stress: omitted points count neither as good nor as bad", "[stress]") {
   const auto leave_out = [](double x) {
     Point point = Around1(2);  // wrong, if it counted
     point.not_measured = "too rare";
@@ -86,7 +86,8 @@ TEST_CASE("stress: what a case leaves out is neither good nor bad", "[stress]") 
   CHECK(RunOne(none).outcome == Outcome::kFailed);
 }
 
-TEST_CASE("stress: a map breaks where it is first wrong going outward", "[stress]") {
+TEST_CASE("stress: the limit of a map is the first wrong point going outward",
+          "[stress]") {
   const CaseResult result = RunMap([](double x) {
     Point refused;
     refused.refused = "too small";
@@ -118,7 +119,7 @@ TEST_CASE("stress: a thrown refusal breaks every curve of the map", "[stress]") 
   CHECK(result.breaks[1].fault == Fault::kRefused);
 }
 
-TEST_CASE("stress: every target is measured, and the best is in force again",
+TEST_CASE("stress: every SIMD target is measured, and the best one restored",
           "[stress]") {
   const std::string best = TestTarget().name();
   SuiteOptions options;
@@ -137,7 +138,7 @@ TEST_CASE("stress: every target is measured, and the best is in force again",
   CHECK_THROWS_AS(RunSuite({&planted, 1}, options), InputError);
 }
 
-TEST_CASE("stress: a stop leaves what was measured", "[stress]") {
+TEST_CASE("stress: a stop keeps finished measurements", "[stress]") {
   std::atomic<bool> stop = false;
   const auto good = [](double) { return std::vector{Around1(1)}; };
   const auto stopping = [&](double x) {
@@ -185,7 +186,7 @@ TEST_CASE("stress: full values replace the quick ones where there are any", "[st
 // 4000 correct runs of 40 points, with noise that is estimated from 5 values each and a
 // mean at the very end of its tolerance. With probability 1e-6 the count is further than
 // 4.9 standard deviations above the 5 % asked for.
-TEST_CASE("stress: correct runs fail as seldom as is said", "[stress]") {
+TEST_CASE("stress: correct runs fail with the stated probability", "[stress]") {
   constexpr int kRuns = 4000, kPoints = 40, kValues = 5;
   std::mt19937_64 random(11);
   std::normal_distribution<double> noise(1.003, 0.02);
@@ -212,8 +213,8 @@ TEST_CASE("stress: correct runs fail as seldom as is said", "[stress]") {
     JudgeSuite(result);
     failed += result.cases[0].outcome == Outcome::kFailed;
   }
-  const double most = 0.05 * kRuns;
-  CHECK(failed < most + 4.9 * std::sqrt(most * 0.95));
+  const double maximum = 0.05 * kRuns;
+  CHECK(failed < maximum + 4.9 * std::sqrt(maximum * 0.95));
   CHECK(failed > 0.01 * kRuns);  // and the test is not useless: half of it is used
 }
 

@@ -28,7 +28,7 @@ TEST_CASE("stress: without noise the tolerance decides", "[stress]") {
   CHECK(Judge(Around1(1.1), kLevel).why == "off by +10 %");
 }
 
-TEST_CASE("stress: noise is allowed for by the level", "[stress]") {
+TEST_CASE("stress: the significance level allows for noise", "[stress]") {
   CHECK(FaultOf(Around1(1 + 4.89 * 0.01, 0.01)) == Fault::kNone);
   CHECK(FaultOf(Around1(1 - 4.90 * 0.01, 0.01)) == Fault::kOff);
   CHECK(FaultOf(Around1(1 + 5 * 0.01, 0.01)) == Fault::kOff);
@@ -45,7 +45,7 @@ TEST_CASE("stress: noise is allowed for by the level", "[stress]") {
   CHECK(FaultOf(few) == Fault::kOff);
 }
 
-TEST_CASE("stress: what is no number fails", "[stress]") {
+TEST_CASE("stress: NaN fails", "[stress]") {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     CHECK(FaultOf(Around1(bad)) == Fault::kNotNumber);
     CHECK(FaultOf(Around1(1, bad)) == Fault::kNotNumber);

@@ -57,15 +57,15 @@ double AtMost(int k, int n, double p) {
 }
 
 // Counts of intervals that held.
-struct Held {
-  int total = 0, held = 0, halves = 0;
+struct IntervalCoverage {
+  int total = 0, covered = 0, halves = 0;
 
   void Add(const Interval& stated, double truth) {
     ++total;
-    held += stated.Contains(truth);
+    covered += stated.Contains(truth);
     halves += Widened(stated, 0.5).Contains(truth);
   }
-  bool OftenEnough() const { return AtMost(held, total, 0.9) >= kFalseAlarm; }
+  bool OftenEnough() const { return AtMost(covered, total, 0.9) >= kFalseAlarm; }
   // Normal logarithms (F with hundreds of degrees of freedom) that are 99 % inside the
   // interval are 80.2 % inside half of it: 2.576 / 2 deviations.
   bool NotTooOften() const { return 1 - AtMost(halves - 1, total, 0.803) >= kFalseAlarm; }
@@ -73,11 +73,11 @@ struct Held {
 
 struct Tally {
   int renders = 0, refused = 0;
-  int lower_held = 0;  // of those refused
-  Held relmse, rmse;
+  int lower_covered = 0;  // of those refused
+  IntervalCoverage relmse, rmse;
   // With mistakes: single samples for replicates, a part of the error left out, intervals
   // thrice as wide, nothing but the scatter of normal pixels.
-  Held ungrouped, without_tail, wide, normal;
+  IntervalCoverage ungrouped, without_tail, wide, normal;
 
   void Add(const Rendered& r, const FilmAccumulator& reference, std::uint64_t spp) {
     const TrueError truth(r.film, reference);
@@ -86,7 +86,7 @@ struct Tally {
     if (e.rmse.HasBounds()) rmse.Add(e.rmse, std::sqrt(std::max(0.0, truth.mse)));
     if (!e.relmse.HasBounds()) {
       ++refused;
-      lower_held += e.relmse.low <= truth.relmse;
+      lower_covered += e.relmse.low <= truth.relmse;
       return;
     }
     const Interval& v = e.relmse;
@@ -110,13 +110,13 @@ Tally Measure(const SceneDescription& scene, TestRender t, int seeds,
     tally.Add(RenderDescription(scene, t), reference, t.spp);
   }
   UNSCOPED_INFO(tally.renders << " renders, " << tally.refused
-                              << " refused, held: relmse " << tally.relmse.held
+                              << " refused, held: relmse " << tally.relmse.covered
                               << ", half " << tally.relmse.halves << ", rmse "
-                              << tally.rmse.held << ", half " << tally.rmse.halves
-                              << ", without tail " << tally.without_tail.held
-                              << ", ungrouped " << tally.ungrouped.held << ", wide "
-                              << tally.wide.halves << ", normal " << tally.normal.held
-                              << ", lower ends " << tally.lower_held);
+                              << tally.rmse.covered << ", half " << tally.rmse.halves
+                              << ", without tail " << tally.without_tail.covered
+                              << ", ungrouped " << tally.ungrouped.covered << ", wide "
+                              << tally.wide.halves << ", normal " << tally.normal.covered
+                              << ", lower ends " << tally.lower_covered);
   return tally;
 }
 
@@ -143,9 +143,9 @@ TEST_CASE("the Cornell box states its error", "[study]") {
   for (Points points : {Points::kIndependent, Points::kSobol}) {
     const Tally tally = Measure(scene, WithPoints(points, 32), 120, reference);
     CHECK(tally.refused * 5 <= tally.renders);
-    for (const Held& held : {tally.relmse, tally.rmse}) {
-      CHECK(held.OftenEnough());
-      CHECK(held.NotTooOften());
+    for (const IntervalCoverage& covered : {tally.relmse, tally.rmse}) {
+      CHECK(covered.OftenEnough());
+      CHECK(covered.NotTooOften());
     }
     // Each mistake is found.
     CHECK_FALSE(tally.without_tail.OftenEnough());
@@ -154,7 +154,7 @@ TEST_CASE("the Cornell box states its error", "[study]") {
   }
 }
 
-TEST_CASE("the edge of a lamp that paths see is in the interval", "[study]") {
+TEST_CASE("the error interval includes directly visible light edges", "[study]") {
   const SceneDescription scene = CornellBox();
   const FilmAccumulator reference = LongRender(scene, 4096);
   TestRender t = WithPoints(Points::kIndependent, 32);
@@ -165,8 +165,7 @@ TEST_CASE("the edge of a lamp that paths see is in the interval", "[study]") {
   CHECK_FALSE(tally.normal.OftenEnough());
 }
 
-TEST_CASE("where rare samples carry the error, the interval holds or none is stated",
-          "[study]") {
+TEST_CASE("with rare bright samples the interval is valid or omitted", "[study]") {
   const SceneDescription scene = Scene("scenes/lights.pbrt", 6);
   const FilmAccumulator reference = LongRender(scene, 4096);
   const Tally tally =
@@ -175,7 +174,7 @@ TEST_CASE("where rare samples carry the error, the interval holds or none is sta
   CHECK(tally.relmse.OftenEnough());
   // Half as wide, they do not.
   CHECK(AtMost(tally.relmse.halves, tally.relmse.total, 0.9) < kFalseAlarm);
-  CHECK(AtMost(tally.lower_held, tally.refused, kEstimateConfidence) >= kFalseAlarm);
+  CHECK(AtMost(tally.lower_covered, tally.refused, kEstimateConfidence) >= kFalseAlarm);
 }
 
 TEST_CASE("the Cornell box states its error, at length", "[study][slow]") {

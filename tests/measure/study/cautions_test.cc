@@ -54,12 +54,12 @@ struct Simulation {
 
 }  // namespace
 
-TEST_CASE("a ranking at 64 samples that all levels share needs no caution", "[study]") {
+TEST_CASE("a ranking confirmed by all levels gets no caution", "[study]") {
   const Simulation s({Simulated(0.02, -1, 1), Simulated(0.01, -1, 2)});
   CHECK(s.Texts().empty());
 }
 
-TEST_CASE("ranks that change with the number of samples are named", "[study]") {
+TEST_CASE("ranks that change with the sample count are reported", "[study]") {
   // The second is better from 29 samples on.
   const Simulation s({Simulated(0.02, -0.6, 1), Simulated(0.0145, -1, 2)});
   const auto texts = s.Texts();
@@ -68,7 +68,8 @@ TEST_CASE("ranks that change with the number of samples are named", "[study]") {
              Contains("at 16 samples per pixel a is more efficient than b, at 64"));
 }
 
-TEST_CASE("a ranking after few samples is named, unless the error is small", "[study]") {
+TEST_CASE("a ranking after few samples gets a caution, unless the error is small",
+          "[study]") {
   Simulation s({Simulated(0.02, -1, 1), Simulated(0.01, -1, 2)});
   for (StrategyAnalysis& strategy : s.analysis.strategies) strategy.at = 1;
   const auto texts = s.Texts();
@@ -80,7 +81,7 @@ TEST_CASE("a ranking after few samples is named, unless the error is small", "[s
   CHECK(s.Texts().empty());
 }
 
-TEST_CASE("a machine whose load exceeds its cores is named", "[study]") {
+TEST_CASE("a machine whose load exceeds its cores gets a caution", "[study]") {
   Simulation s({Simulated(0.02, -1, 1), Simulated(0.01, -1, 2)});
   MachineInfo machine;
   machine.cores = 2;

@@ -42,7 +42,7 @@ Interval EfficiencyOf(const Case& c) {
   for (const char* name : {"first", "second"}) {
     runs.strategies.push_back({{name, {}}, RunStatus::kOk, "", {64}});
   }
-  runs.strategies[1].count_spread = c.spread;
+  runs.strategies[1].count_deviation = c.spread;
   StudyOptions options;
   options.repetitions = 8;
   if (c.budget) options.budget = 1;
@@ -56,7 +56,8 @@ double LogWidth(const Interval& v) { return std::log(v.high / v.value); }
 
 }  // namespace
 
-TEST_CASE("the spread of a budget's pilots is in the efficiency's interval", "[study]") {
+TEST_CASE("the efficiency's interval includes the scatter of the budget's trial runs",
+          "[study]") {
   const double plain = LogWidth(EfficiencyOf({}));
   const double spread = 0.2, sensitivity = 0.6;  // |1 - 2 x 0.8|
   const double more = stat::NormalQuantile(0.975) * spread * sensitivity;
@@ -64,7 +65,7 @@ TEST_CASE("the spread of a budget's pilots is in the efficiency's interval", "[s
   CHECK(LogWidth(EfficiencyOf({spread, 1, false})) == Approx(plain));
 }
 
-TEST_CASE("a budget that was missed makes the comparison less sure", "[study]") {
+TEST_CASE("a missed budget widens the comparison's interval", "[study]") {
   const double plain = LogWidth(EfficiencyOf({}));
   // One of the two took ten times as long: equal time it was not.
   const Interval missed = EfficiencyOf({0, 10, true});

@@ -48,7 +48,7 @@ Coverage Cover(int runs, int repetitions, double factor, bool forget_reference) 
 
 }  // namespace
 
-TEST_CASE("variance and bias are inside their intervals", "[study]") {
+TEST_CASE("intervals of variance and bias contain the true values", "[study]") {
   const Coverage c = Cover(300, 8, 1, false);
   // 95 % of 300 are 285, with a standard deviation of 3.8.
   CHECK(c.bias >= 268);
@@ -73,7 +73,7 @@ TEST_CASE("a bias of three percent is found and measured", "[study]") {
   CHECK(c.bias2 >= 85);
 }
 
-TEST_CASE("an image that missed the rarest samples is not called biased", "[study]") {
+TEST_CASE("missing rare samples is not reported as bias", "[study]") {
   // 3 % too dark, and steady. By the reference's variance, independent samples scatter by
   // 3 % of the mean: 0.02 x sqrt(192) of a pixel is what its 192 pixels' mean varies by.
   Random random(6);
@@ -154,7 +154,7 @@ TEST_CASE("degenerate renders have defined results", "[study]") {
   }
 }
 
-TEST_CASE("tiles that differ are found, others are not", "[study]") {
+TEST_CASE("only tiles that differ are reported", "[study]") {
   Random random(8);
   int alarms = 0, found = 0, misplaced = 0;
   for (int run = 0; run < 60; ++run) {
@@ -179,7 +179,7 @@ TEST_CASE("tiles that differ are found, others are not", "[study]") {
   CHECK(found >= 50);
 }
 
-TEST_CASE("tiles whose pixels have paths in common raise no alarms", "[study]") {
+TEST_CASE("tiles of pixels with common paths raise no false alarms", "[study]") {
   // All pixels of a block of 16 x 16 have one error, as those of path reuse have a part
   // of theirs: the variance of a tile's mean is that of a pixel.
   Random random(9);
@@ -197,7 +197,7 @@ TEST_CASE("tiles whose pixels have paths in common raise no alarms", "[study]") 
     };
     Moments moments = Simulate(r, 6, 0.001, random, shift).moments;
     independent += !TestTiles(moments, r, 16, 0.01).failed.empty();
-    moments.pixels_as_one = PixelsAsOne(16 * 16);
+    moments.pixels_as_one = DependenceFactor(16 * 16);
     alarms += !TestTiles(moments, r, 16, 0.01).failed.empty();
   }
   CHECK(independent == 40);

@@ -22,7 +22,7 @@ Reference Exact(const std::vector<Rgb>& mean, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("errors of a small image are what one computes by hand", "[study]") {
+TEST_CASE("errors of a small image agree with a calculation by hand", "[study]") {
   const Reference r = Exact({{1, 1, 1}, {0, 2, 0}}, 2, 1);
   Measurement m;
   MeasureErrors({{2, 1, 1}, {0, 2, 0.3}}, r, m);
@@ -65,7 +65,7 @@ TEST_CASE("the error of a noisy reference is subtracted", "[study]") {
   CHECK(rmse2 == Approx(0.01 * square).epsilon(0.03));
 }
 
-TEST_CASE("measurements survive the way to JSON and back", "[study]") {
+TEST_CASE("measurements round-trip through JSON", "[study]") {
   Measurement m;
   m.seed = 0xffffffffffffffffu;
   m.relmse = 0.1 + 0.2;

@@ -23,7 +23,7 @@ Shape "sphere" "float radius" 1
 
 }  // namespace
 
-TEST_CASE("a reference that was stopped goes on where it was", "[study]") {
+TEST_CASE("an interrupted reference render resumes", "[study]") {
   const TemporaryFolder folder;
   Job job = PrepareJob(folder.Write("scene.pbrt", kScene), {});
   ReferenceOptions options;
@@ -55,7 +55,7 @@ TEST_CASE("a reference that was stopped goes on where it was", "[study]") {
   CHECK(resumed.variance == whole.variance);
 }
 
-TEST_CASE("a damaged state of a reference is refused with the cure", "[study]") {
+TEST_CASE("a damaged checkpoint of a reference is refused with a remedy", "[study]") {
   const TemporaryFolder folder;
   Job job = PrepareJob(folder.Write("scene.pbrt", kScene), {});
   ReferenceOptions options;

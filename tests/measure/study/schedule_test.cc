@@ -5,8 +5,7 @@
 
 namespace lanelight {
 
-TEST_CASE("study: what a strategy learns first does not count for each sample",
-          "[study]") {
+TEST_CASE("study: training counts once, not per sample", "[study]") {
   // 0.3 s before the first sample, and 0.01 s each: a budget of 2 s is enough for 170.
   CHECK(SamplesOfBudget(2, {64, 0.94}, {16, 0.46}) == Approx(170));
   CHECK(SamplesOfBudget(2, {64, 0.64}, {16, 0.16}) == Approx(200));
@@ -17,7 +16,7 @@ TEST_CASE("study: what a strategy learns first does not count for each sample",
   CHECK(SamplesOfBudget(2, {1, 4}, {1, 4}) == Approx(0.5));
 }
 
-TEST_CASE("study: counts double up to the largest", "[study]") {
+TEST_CASE("study: sample counts double up to the largest", "[study]") {
   CHECK(CountsUpTo(5) == std::vector<std::uint64_t>{1, 2, 4, 5});
   CHECK(CountsUpTo(1000) ==
         std::vector<std::uint64_t>{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000});

@@ -10,14 +10,14 @@ namespace {
 using Catch::Matchers::Contains;
 
 // A render whose interval holds or not; pixel (31, 5) is the worst where it does not.
-Measurement Rendered(std::uint64_t seed, bool holds) {
+Measurement Rendered(std::uint64_t seed, bool covers) {
   Measurement m;
   m.seed = seed;
-  m.relmse = holds ? 1 : 3;
+  m.relmse = covers ? 1 : 3;
   m.self_relmse = 1, m.self_low = 0.9, m.self_high = 1.1;
-  m.worst_share = holds ? 0.02 : 0.24;
-  m.worst_x = holds ? seed : 31;
-  m.worst_y = holds ? 1 : 5;
+  m.worst_share = covers ? 0.02 : 0.24;
+  m.worst_x = covers ? seed : 31;
+  m.worst_y = covers ? 1 : 5;
   return m;
 }
 
@@ -25,21 +25,21 @@ struct Studied {
   SceneRuns runs;
   SceneAnalysis analysis;
 
-  // Returns cells of a strategy whose render of seed i holds if `holds` says so.
+  // Returns cells of a strategy whose render of seed i holds if `covers` says so.
   template <class Holds>
-  void Add(const std::string& name, int seeds, const Holds& holds,
+  void Add(const std::string& name, int seeds, const Holds& covers,
            double reference_share = 0) {
     std::vector<Measurement> renders;
     LevelAnalysis level;
     level.reference_share = reference_share;
     for (int i = 0; i < seeds; ++i) {
-      renders.push_back(Rendered(static_cast<std::uint64_t>(i), holds(i)));
+      renders.push_back(Rendered(static_cast<std::uint64_t>(i), covers(i)));
       ++level.self.total;
-      level.self.inside += holds(i);
+      level.self.inside += covers(i);
     }
     StrategyAnalysis strategy;
     strategy.levels.push_back(level);
-    if (reference_share <= kMaxReferenceShare) strategy.self.Add(renders);
+    if (reference_share <= kMaxReferenceFraction) strategy.self.Add(renders);
     analysis.strategies.push_back(strategy);
     runs.strategies.emplace_back();
     runs.strategies.back().named.name = name;
@@ -52,8 +52,7 @@ struct Studied {
 
 }  // namespace
 
-TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
-          "[study]") {
+TEST_CASE("a strategy with too narrow intervals is reported with its pixels", "[study]") {
   Studied s;
   s.Add("good", 24, [](int i) { return i != 3; });
   s.Add("narrow", 24, [](int i) { return i % 8 < 3; });
@@ -69,7 +68,7 @@ TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
                        Contains("24 %") && !Contains("good") && !Contains("other"));
 }
 
-TEST_CASE("strategies whose intervals hold are not named", "[study]") {
+TEST_CASE("strategies with valid intervals are not reported", "[study]") {
   Studied s;
   for (int k = 0; k < 30; ++k) {
     s.Add("s" + std::to_string(k), 8, [&](int i) { return k != 5 || i > 0; });
@@ -80,10 +79,10 @@ TEST_CASE("strategies whose intervals hold are not named", "[study]") {
 
 TEST_CASE("renders that share seeds are not counted as independent", "[study]") {
   // Two seeds of 16 fail with all strategies, or as many renders of any seeds.
-  const auto width = [](const auto& holds) {
+  const auto width = [](const auto& covers) {
     Studied s;
     for (int k = 0; k < 16; ++k) {
-      s.Add("s" + std::to_string(k), 16, [&](int i) { return holds(k, i); });
+      s.Add("s" + std::to_string(k), 16, [&](int i) { return covers(k, i); });
     }
     s.Text();
     CHECK(s.analysis.calibration_share.value == Approx(14.0 / 16));
@@ -95,7 +94,7 @@ TEST_CASE("renders that share seeds are not counted as independent", "[study]") 
   CHECK(together > 3 * apart);
 }
 
-TEST_CASE("renders that the reference decides about are not counted", "[study]") {
+TEST_CASE("renders limited by the reference's error are not counted", "[study]") {
   Studied s;
   s.Add("good", 8, [](int) { return true; });
   s.Add("below the reference's noise", 8, [](int) { return false; }, 0.2);

@@ -42,7 +42,7 @@ SceneAnalysis Analyse(const Reference& reference, Random& random,
   return out;
 }
 
-Reference Usual(Random& random) {
+Reference TypicalReference(Random& random) {
   return NoisyReference(kBiasWidth, kBiasHeight, 0.01, random);
 }
 
@@ -54,16 +54,16 @@ std::size_t FailedTiles(const SceneAnalysis& analysis) {
 
 }  // namespace
 
-TEST_CASE("an error of the reference is not held against the strategies", "[study]") {
+TEST_CASE("an error of the reference is not attributed to the strategies", "[study]") {
   Random random(21);
   std::size_t suspected = 0, failed = 0, alike = 0, biased = 0;
   for (int run = 0; run < 20; ++run) {
-    Reference r = Usual(random);
+    Reference r = TypicalReference(random);
     BrightenTile(r.mean);  // its variance does not know
     const SceneAnalysis tile = Analyse(r, random);
     failed += FailedTiles(tile);
     suspected += tile.suspect_tiles == std::vector<std::size_t>{kTile};
-    Reference bright = Usual(random);
+    Reference bright = TypicalReference(random);
     for (Rgb& c : bright.mean) c *= 1.03;
     const SceneAnalysis whole = Analyse(bright, random);
     alike += whole.biased_alike.size();
@@ -81,12 +81,12 @@ TEST_CASE("the bias of one strategy is found among others", "[study]") {
   Random random(22);
   int tiles = 0, images = 0;
   for (int run = 0; run < 20; ++run) {
-    const SceneAnalysis tile = Analyse(Usual(random), random, BrightenTile);
+    const SceneAnalysis tile = Analyse(TypicalReference(random), random, BrightenTile);
     const TileTest& test = *tile.strategies.back().tiles;
     tiles += test.failed == std::vector<std::size_t>{kTile} && FailedTiles(tile) == 1;
     CHECK(test.z[kTile] > 0);
     const SceneAnalysis whole =
-        Analyse(Usual(random), random, [](std::vector<Rgb>& image) {
+        Analyse(TypicalReference(random), random, [](std::vector<Rgb>& image) {
           for (Rgb& c : image) c *= 1.03;
         });
     images += whole.biased == std::vector<std::size_t>{kStrategies - 1} &&
@@ -111,7 +111,7 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
   };
   std::size_t failed = 0, untested = 0;
   for (int run = 0; run < 60; ++run) {
-    Reference r = Usual(random);
+    Reference r = TypicalReference(random);
     r.spp = 12 * kSpp * kRepetitions;
     for (int y = 16; y < 24; ++y) {
       for (int x = 8; x < 16; ++x) {
@@ -134,7 +134,7 @@ TEST_CASE("a tile of rare samples is not tested", "[study]") {
   CHECK(untested >= 290);
 }
 
-TEST_CASE("skewed samples raise no alarms", "[study]") {
+TEST_CASE("skewed samples raise no false alarms", "[study]") {
   // Bright samples, one in 120, so that about 26 of them make the mean of a tile: few of
   // them look like a low mean with a small variance.
   Random random(24);
@@ -147,7 +147,7 @@ TEST_CASE("skewed samples raise no alarms", "[study]") {
     }
   };
   std::size_t failed = 0;
-  Reference r = Usual(random);
+  Reference r = TypicalReference(random);
   r.mean.assign(r.mean.size(), Rgb{8 * kRare, 8 * kRare, 8 * kRare});
   r.variance.assign(r.mean.size(), Rgb{});
   for (int run = 0; run < 120; ++run) {

@@ -33,7 +33,7 @@ Cells SomeCells(int repetitions) {
 
 }  // namespace
 
-TEST_CASE("finished renders come back from the disk as they were", "[study]") {
+TEST_CASE("finished renders round-trip through the disk", "[study]") {
   const TemporaryFolder folder;
   const CellStore store(folder.File("cells"), {3, 1, 7, 4});
   Cells cells = SomeCells(3);
@@ -157,7 +157,7 @@ TEST_CASE("images of a large study are shrunk for the report", "[study]") {
   CHECK(images[0].values == std::vector<float>{2.5f, 7.0f});
 }
 
-TEST_CASE("names of files come from names of strategies", "[study]") {
+TEST_CASE("file names are derived from strategy names", "[study]") {
   CHECK(Slug("paper-plain") == "paper-plain");
   CHECK(Slug("points=sobol,pairs=antithetic:all") == "points-sobol-pairs-antithetic-all");
   CHECK(Slug("../../etc") == "etc");

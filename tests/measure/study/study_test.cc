@@ -146,7 +146,7 @@ TEST_CASE("a continued study is the same, up to timings", "[study]") {
   }
 }
 
-TEST_CASE("a study can be extended, and not mixed with another", "[study]") {
+TEST_CASE("a study can be extended but not mixed with another", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
   options.repetitions = 1;
@@ -162,7 +162,7 @@ TEST_CASE("a study can be extended, and not mixed with another", "[study]") {
   CHECK_THROWS_WITH(Study(options, {}), Contains("max_depth"));
 }
 
-TEST_CASE("what a scene does not take is reported, and the rest goes on", "[study]") {
+TEST_CASE("unsupported strategies are reported, and the study continues", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
   options.scenes.push_back(folder.File("missing.pbrt"));
@@ -187,7 +187,7 @@ TEST_CASE("what a scene does not take is reported, and the rest goes on", "[stud
   CHECK_THAT(dark["verdict"].get<std::string>(), Contains("No error is left"));
 }
 
-TEST_CASE("strategies that do the same on a scene are rendered once", "[study]") {
+TEST_CASE("equivalent strategies of a scene are rendered once", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
   const std::string text = kStudyScene;
@@ -233,7 +233,7 @@ TEST_CASE("a study is not continued without one of its scenes", "[study]") {
   CHECK(Study(options, {}).size() == 2);
 }
 
-TEST_CASE("a damaged reference of a study is named, with the cure", "[study]") {
+TEST_CASE("a damaged reference of a study is reported with a remedy", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
   options.spp = {2};
@@ -268,7 +268,7 @@ TEST_CASE("errors against a given reference", "[study]") {
   CHECK_FALSE(std::filesystem::exists(options.out + "/tiny/cells/reference.exr"));
 }
 
-TEST_CASE("a wrong reference is blamed on itself, not on the strategies", "[study]") {
+TEST_CASE("a wrong reference is reported as such, not as biased strategies", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "first");
   const auto right = Study(options, {});
@@ -314,7 +314,7 @@ TEST_CASE("sample counts", "[study]") {
   }
 }
 
-TEST_CASE("the diffuse models are rendered for the paper's page alone", "[study]") {
+TEST_CASE("the diffuse models are rendered only for the paper's page", "[study]") {
   const TemporaryFolder folder;
   StudyOptions options = TinyStudy(folder, "out");
   options.spp = {1};
@@ -334,7 +334,7 @@ TEST_CASE("a study without counts goes on to 64 samples, or to a small error",
   CHECK(DefaultLargest({300, 0, unknown}) == 256);
 }
 
-TEST_CASE("the verdict names what rare bright samples hide", "[study]") {
+TEST_CASE("the verdict mentions the effect of rare bright samples", "[study]") {
   SceneRuns runs;
   SceneAnalysis analysis;
   for (const char* name : {"base", "steady", "wild"}) {
@@ -373,9 +373,9 @@ TEST_CASE("the verdict names what rare bright samples hide", "[study]") {
 
 TEST_CASE("lists of strategies", "[study]") {
   StudyOptions options;
-  const auto usual = StudyStrategies(options, {});
-  REQUIRE(usual.size() == 9);
-  CHECK(usual[8].strategy == usual[7].strategy);  // the scene's own is the default
+  const auto defaults = StudyStrategies(options, {});
+  REQUIRE(defaults.size() == 9);
+  CHECK(defaults[8].strategy == defaults[7].strategy);  // the scene's own is the default
   Strategy own;
   own.points = Points::kLattice;
   const auto named = StudyStrategies(options, own);

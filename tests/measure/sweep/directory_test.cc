@@ -40,8 +40,7 @@ TEST_CASE("sweep: a directory that cannot be written", "[sweep][cli]") {
   CHECK(RenderedBy(Sweep(file, out)) == kSweepCells / 2);
 }
 
-TEST_CASE("sweep: what killed processes left in its directory is removed",
-          "[sweep][cli]") {
+TEST_CASE("sweep: files left by killed processes are removed", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out, {"--part", "1/11"}).exit_code == kExitGood);
@@ -85,7 +84,7 @@ TEST_CASE("sweep: a file system without locks needs parts", "[sweep][cli]") {
   CHECK(RenderedBy(Sweep(file, out, {"--part", "2/2"}, options)) == 11);
 }
 
-TEST_CASE("sweep: a report that is not ours is refused by name", "[sweep][cli]") {
+TEST_CASE("sweep: a foreign report file is refused with its name", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out, {"--part", "1/22"}).exit_code == kExitGood);

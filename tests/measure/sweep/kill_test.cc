@@ -28,11 +28,12 @@ void KillAndResume(int kills, std::uint32_t seed) {
   std::mt19937 random(seed);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
-    const double share = std::uniform_real_distribution<double>(0, 0.6)(random);
+    const double fraction = std::uniform_real_distribution<double>(0, 0.6)(random);
     ProcessOptions options;
     options.trigger = "";
     options.action = [&](int child) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(share * whole.seconds));
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(fraction * whole.seconds));
       kill(child, SIGKILL);
     };
     const ProcessResult r = RunLanelight(arguments("out"), options);
@@ -59,11 +60,11 @@ void KillAndResume(int kills, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("sweep: killed five times, it makes the same images", "[sweep][cli]") {
+TEST_CASE("sweep: killed five times, images are bit-identical", "[sweep][cli]") {
   KillAndResume(5, 1);
 }
 
-TEST_CASE("sweep: killed twenty-five times, it makes the same images",
+TEST_CASE("sweep: killed twenty-five times, images are bit-identical",
           "[sweep][cli][slow]") {
   KillAndResume(25, 2);
 }

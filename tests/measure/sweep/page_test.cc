@@ -152,7 +152,7 @@ void WriteIfAsked(const char* variable, const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("sweep: the page has all cells", "[sweep][report]") {
+TEST_CASE("sweep: the page contains all cells", "[sweep][report]") {
   const Sweep sweep = SyntheticSweep();
   const Json json = SyntheticJson(sweep);
   REQUIRE(json["cells"].size() == 96);
@@ -178,7 +178,7 @@ TEST_CASE("sweep: the page has all cells", "[sweep][report]") {
   CHECK(page.substr(0, 15) == "<!doctype html>");
 }
 
-TEST_CASE("sweep: the table quotes what commas and quotes would break", "[sweep]") {
+TEST_CASE("sweep: the CSV table quotes commas and quotes", "[sweep]") {
   const Sweep sweep = SyntheticSweep();
   const std::string table = SweepCsv(SyntheticCells(sweep));
   CHECK(table.find(",\"error: out of <i>memory</i>, \"\"quoted\"\"\"\n") !=
@@ -188,7 +188,7 @@ TEST_CASE("sweep: the table quotes what commas and quotes would break", "[sweep]
   CHECK(table.find(",<b>Small</b>,2,,,1.0,") != std::string::npos);
 }
 
-TEST_CASE("sweep: open parts of strategies are axes, and seeds are repetitions",
+TEST_CASE("sweep: strategy patterns are axes, and seeds are repetitions",
           "[sweep][report]") {
   const Sweep sweep = ParameterSweep();
   const Json json = SyntheticJson(sweep);
@@ -247,11 +247,11 @@ TEST_CASE("sweep: efficiencies are ratios over pairs of equal seeds", "[sweep][r
   REQUIRE(json["leaders"].size() == 3);
   CHECK(json["leaders"][1]["values"] == Json({{"scene", "attic"}, {"spp", "16"}}));
   std::string best;
-  double most = 0;
+  double maximum = 0;
   for (const Json& group : json["groups"]) {
     if (group["values"]["scene"] != "attic" || group["values"]["spp"] != "16") continue;
-    if (group["efficiency"]["value"] <= most) continue;
-    most = group["efficiency"]["value"];
+    if (group["efficiency"]["value"] <= maximum) continue;
+    maximum = group["efficiency"]["value"];
     best = group["strategy"];
   }
   CHECK(json["leaders"][1]["best"] == best);

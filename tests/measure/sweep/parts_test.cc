@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-TEST_CASE("sweep: parts are disjoint and make the whole", "[sweep][cli]") {
+TEST_CASE("sweep: parts are disjoint and cover the grid", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory);
   REQUIRE(Sweep(file, directory / "whole").exit_code == kExitGood);
@@ -67,7 +67,8 @@ TEST_CASE("sweep: several processes render each cell once", "[sweep][cli]") {
         TableWithoutTimes(directory / "whole/sweep.csv"));
 }
 
-TEST_CASE("sweep: Ctrl-C gives up a cell and says so to schedulers", "[sweep][cli]") {
+TEST_CASE("sweep: Ctrl-C aborts the cell and sets the exit code for schedulers",
+          "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   Replace(file, "spp = [4, 64]", "spp = [4, 4096]");

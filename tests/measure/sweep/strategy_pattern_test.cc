@@ -46,14 +46,14 @@ TEST_CASE("strategy pattern: a star is all choices", "[sweep]") {
   CHECK(all[1].place.parameters.at("points") == "stratified");
 }
 
-TEST_CASE("strategy pattern: without open parts it is itself", "[sweep]") {
+TEST_CASE("strategy pattern: without alternatives it is the strategy itself", "[sweep]") {
   const auto all = ExpandStrategy("points=cmj", {});
   REQUIRE(all.size() == 1);
   CHECK(all[0].text == "points=cmj");
   CHECK(all[0].place == StrategyPlace{"points=cmj", {}});
 }
 
-TEST_CASE("strategy pattern: mistakes are told", "[sweep]") {
+TEST_CASE("strategy pattern: mistakes are reported", "[sweep]") {
   const auto [text, message] = GENERATE(table<std::string, std::string>(
       {{"points={cmj", "'{' without"},
        {"points=cmj}", "'}' without"},

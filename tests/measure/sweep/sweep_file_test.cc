@@ -93,7 +93,7 @@ spp = [16, 64]
   CHECK(names.size() == sweep.cells.size());
 }
 
-TEST_CASE("sweep: names are of the values alone", "[sweep]") {
+TEST_CASE("sweep: cell names depend on the values only", "[sweep]") {
   const auto first = [](const char* text) { return Parse(text).cells.front(); };
   const SweepCell a = first("[grid]\nscene = 'a.pbrt'\nspp = 16\nseed = [1]");
   const SweepCell b = first("[grid]\nseed = 1\nscene = ['./a.pbrt']\nspp = [16, 4]");
@@ -108,8 +108,7 @@ TEST_CASE("sweep: names are of the values alone", "[sweep]") {
                          "a_64x48_AVX2_points=cmj-roulette=constant-0.5_relmse0.001-"));
 }
 
-TEST_CASE("sweep: cells of scenes that are all called alike have their folder's name",
-          "[sweep]") {
+TEST_CASE("sweep: scenes of equal file names are named by their folder", "[sweep]") {
   const auto named = [](const char* scene) {
     AxisValues values;
     values[static_cast<std::size_t>(Axis::kScene)] = scene;
@@ -161,7 +160,7 @@ skip-unsupported = false
   CHECK(s.texts.at("skip-unsupported") == "false");
 }
 
-TEST_CASE("sweep: what a cell's values do to a render", "[sweep]") {
+TEST_CASE("sweep: a cell's values set the options of its render", "[sweep]") {
   const Sweep sweep = Parse(R"(
 [grid]
 scene = "a.pbrt"
@@ -293,7 +292,7 @@ TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") 
   }
 }
 
-TEST_CASE("sweep: a grid beyond all bounds is refused before it is made", "[sweep]") {
+TEST_CASE("sweep: an oversized grid is refused before it is built", "[sweep]") {
   std::string list;
   for (int i = 0; i < 2000; ++i) list += std::to_string(i + 1) + ",";
   CHECK_THAT(Mistake("[grid]\nscene = 'a.pbrt'\nspp = [" + list + "]\nseed = [" + list +
@@ -301,7 +300,7 @@ TEST_CASE("sweep: a grid beyond all bounds is refused before it is made", "[swee
              Contains("1:1") && Contains("more than 1000000 cells"));
 }
 
-TEST_CASE("sweep: a file nested beyond all bounds is refused with its place", "[sweep]") {
+TEST_CASE("sweep: a file nested too deeply is refused with its location", "[sweep]") {
   const auto many = [](const std::string& part, int times) {
     std::string text;
     for (int i = 0; i < times; ++i) text += part;
@@ -333,7 +332,7 @@ TEST_CASE("sweep: dots and brackets of texts and comments do not nest", "[sweep]
   CHECK(Parse("[grid]\nscene = 'a.pbrt'\ntime = [" + times + "]").cells.size() == 101);
 }
 
-TEST_CASE("sweep: the example in scenes/ is understood", "[sweep]") {
+TEST_CASE("sweep: the example in scenes/ can be parsed", "[sweep]") {
   const Sweep sweep = ReadSweep(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/sweep.toml");
   CHECK(sweep.cells.size() == 2 * 3 * 4 * 2 - 2 + 2);
 }

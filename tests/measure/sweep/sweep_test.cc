@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 }  // namespace
 
-TEST_CASE("sweep: a cell is the render of its settings", "[sweep][cli]") {
+TEST_CASE("sweep: a cell equals the render of its settings", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   const ProcessResult r = Sweep(file, out, {"--threads"});

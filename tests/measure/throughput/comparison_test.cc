@@ -39,7 +39,7 @@ TEST_CASE("half widths of the logarithms of two rates add as squares", "[through
         Approx(std::hypot(std::log(56.0 / 50), std::log(100.0 / 90))));
 }
 
-TEST_CASE("slower is what is so beyond doubt, and by more than is allowed",
+TEST_CASE("a row is slower if the loss is significant and above the tolerance",
           "[throughput]") {
   const KnownThroughput before = Known({{100, 99, 101}});
   const auto regresses = [&](Interval now) {
@@ -51,7 +51,7 @@ TEST_CASE("slower is what is so beyond doubt, and by more than is allowed",
   CHECK_FALSE(regresses({110, 109, 111}));
 }
 
-TEST_CASE("rows of one measurement alone are named, and not compared", "[throughput]") {
+TEST_CASE("rows that only one measurement has are listed, not compared", "[throughput]") {
   const RateComparison c =
       CompareRates(Known({{1, 1, 1}, {2, 2, 2}}), Known({{3, 3, 3}}));
   CHECK(c.rows.size() == 1);
@@ -91,7 +91,7 @@ TEST_CASE("rates of a busy machine are not compared", "[throughput]") {
   }
 }
 
-TEST_CASE("rows are told apart by what of a strategy is not as by default",
+TEST_CASE("rows are identified by the non-default parts of their strategy",
           "[throughput]") {
   KnownRow row = Known({{1, 1, 1}}).rows[0];
   Strategy strategy;
@@ -102,7 +102,7 @@ TEST_CASE("rows are told apart by what of a strategy is not as by default",
   CHECK(row.Key() == "scene, AVX2, 1 thread, 64x64, 16 spp, roulette=none");
 }
 
-TEST_CASE("texts of a bench fit, whether or not medians are known", "[throughput]") {
+TEST_CASE("texts of a bench fit with and without medians", "[throughput]") {
   ThroughputRow row;
   row.scene = "scene";
   row.target = "AVX2";

@@ -35,8 +35,7 @@ std::vector<ThroughputRow> Measure(const ThroughputOptions& options) {
 
 }  // namespace
 
-TEST_CASE("every scene of the program is that of its file, without comments",
-          "[throughput]") {
+TEST_CASE("every built-in scene equals its file without comments", "[throughput]") {
   for (const BenchScene& scene : BenchScenes()) {
     INFO(scene.name);
     TestRender small;
@@ -108,7 +107,7 @@ TEST_CASE("a busy machine is one whose load exceeds its cores, or where threads 
   CHECK_THAT(BusyReasons({row}, machine).at(0), Catch::Contains("14 %"));
 }
 
-TEST_CASE("kinds of stages have all the time of stages", "[throughput]") {
+TEST_CASE("groups of stages account for all stage time", "[throughput]") {
   const ThroughputRow row = Measure(SmallBench()).at(0);
   double all = 0, groups = 0;
   for (const StageProfile& s : row.counts.stages) all += s.seconds;
@@ -120,7 +119,7 @@ TEST_CASE("kinds of stages have all the time of stages", "[throughput]") {
   CHECK(groups == Approx(all));
 }
 
-TEST_CASE("efficiency is the rate over that of as many times one thread",
+TEST_CASE("efficiency is the rate relative to perfect scaling of one thread",
           "[throughput]") {
   const std::vector<ThroughputRow> rows = Measure(SmallBench());
   const nlohmann::json json = ToJson(rows, 1);
@@ -146,7 +145,7 @@ TEST_CASE("The page of a bench can be written", "[throughput][report]") {
   REQUIRE(file.flush().good());
 }
 
-TEST_CASE("a scene that is not there is an error", "[throughput]") {
+TEST_CASE("a missing scene is an error", "[throughput]") {
   ThroughputOptions options = SmallBench();
   options.scenes = {"no-such-scene.pbrt"};
   CHECK_THROWS_AS(Measure(options), InputError);

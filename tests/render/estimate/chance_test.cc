@@ -29,8 +29,7 @@ ErrorEstimate ErrorOf(const std::string& scene, const std::string& strategy) {
 
 }  // namespace
 
-TEST_CASE("a sun that chance hardly finds leaves errors without an interval",
-          "[estimate]") {
+TEST_CASE("a sun that is rarely sampled gives errors without an interval", "[estimate]") {
   for (const char* strategy : {"directions=bsdf", "directions=uniform"}) {
     INFO(strategy);
     const ErrorEstimate blinds = ErrorOf("blinds.pbrt", strategy);
@@ -41,7 +40,7 @@ TEST_CASE("a sun that chance hardly finds leaves errors without an interval",
   CHECK(ErrorOf("blinds.pbrt", "directions=mis").why.find("chance") == std::string::npos);
 }
 
-TEST_CASE("pixels that depend on each other count for less", "[estimate]") {
+TEST_CASE("dependent pixels lower the degrees of freedom", "[estimate]") {
   const auto pixel = [](int x, int y) {
     const double v = 1 + 0.1 * ((x * 7 + y * 3) % 5);
     return PixelEstimate{true, {1, 1, 1}, {v, v, v}, 3};
@@ -56,7 +55,8 @@ TEST_CASE("pixels that depend on each other count for less", "[estimate]") {
   CHECK(width(shared.rmse) == Approx(4 * width(alone.rmse)).epsilon(0.1));
 }
 
-TEST_CASE("the chance to meet light is its share of directions", "[estimate]") {
+TEST_CASE("the probability of hitting a light is its fraction of directions",
+          "[estimate]") {
   CHECK(ChanceOfLight(JobWith("blinds.pbrt", "directions=mis").scene) == 1);
   CHECK(ChanceOfLight(JobWith("furnace.pbrt", "directions=bsdf").scene) == 1);
   // A disk of 0.27 degrees, straight on, whose light is nearly all there is.

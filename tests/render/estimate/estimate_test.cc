@@ -125,7 +125,7 @@ Coverage MeasureCoverage(const SimulatedImage& image, int trials) {
 // A coverage of 0.93 or more gives less than this in 150 trials once in 10^6 times
 // (binomial distribution); mistakes give much less.
 constexpr int kTrials = 150;
-constexpr double kLeast = 0.81;
+constexpr double kMinCoverage = 0.81;
 
 }  // namespace
 
@@ -137,13 +137,13 @@ TEST_CASE("intervals contain the true error for any distribution", "[study]") {
       image.groups = groups;
       const Coverage honest = MeasureCoverage(image, kTrials);
       INFO(groups << " groups");
-      CHECK(honest.rmse >= kLeast);
-      CHECK(honest.relmse >= kLeast);
+      CHECK(honest.rmse >= kMinCoverage);
+      CHECK(honest.relmse >= kMinCoverage);
     }
   }
 }
 
-TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[study]") {
+TEST_CASE("the interval includes light edges that few samples hit", "[study]") {
   SimulatedImage image;
   image.lamp = 11;
   image.deviation = 0.2;
@@ -151,13 +151,13 @@ TEST_CASE("the edge of a lamp, which few samples meet, is in the interval", "[st
     image.groups = groups;
     const Coverage c = MeasureCoverage(image, kTrials);
     INFO(groups << " groups");
-    CHECK(c.relmse + c.refused >= kLeast);
+    CHECK(c.relmse + c.refused >= kMinCoverage);
     CHECK(c.refused < 0.2);
-    CHECK(c.half + c.refused < kLeast);
+    CHECK(c.half + c.refused < kMinCoverage);
   }
 }
 
-TEST_CASE("noise as large as the image is in the interval", "[study]") {
+TEST_CASE("the interval is valid for noise as large as the image", "[study]") {
   SimulatedImage image;
   image.noise = Rare;
   image.deviation = 4;
@@ -165,11 +165,11 @@ TEST_CASE("noise as large as the image is in the interval", "[study]") {
   image.equal = true;
   image.width = 48, image.height = 32;
   const Coverage c = MeasureCoverage(image, kTrials);
-  CHECK(c.relmse >= kLeast);
+  CHECK(c.relmse >= kMinCoverage);
   CHECK(c.refused == 0);
 }
 
-TEST_CASE("one bright sample leaves open whether its pixel is bright", "[study]") {
+TEST_CASE("one bright sample leaves its pixel's value uncertain", "[study]") {
   SimulatedImage image;
   image.equal = true;
   std::mt19937_64 random(5);
@@ -189,7 +189,7 @@ TEST_CASE("one bright sample leaves open whether its pixel is bright", "[study]"
   CHECK(e.relmse.Contains(rest + dark / n));  // its mean is its neighbours'
 }
 
-TEST_CASE("what samples cannot tell is not told", "[study]") {
+TEST_CASE("no interval is printed when the sample is too small", "[study]") {
   // A lamp of the size of a pixel; one sample of the pixel beside it has met it too.
   SimulatedImage image;
   image.equal = true;
@@ -247,7 +247,7 @@ TEST_CASE("dividing by the noisy means themselves is rejected", "[study]") {
   image.equal = true;
   image.width = 48, image.height = 32;
   const Coverage c = MeasureCoverage(image, kTrials);
-  CHECK(c.relmse >= kLeast);
+  CHECK(c.relmse >= kMinCoverage);
   CHECK(c.plain < 0.5);
 }
 
@@ -323,7 +323,8 @@ TEST_CASE("an image of one pixel has the estimate of that pixel", "[study]") {
   CHECK(one.available);
   CHECK(one.rmse.value == Approx(2));
   // The correction for skewness is undone here.
-  CHECK(one.relmse.value == Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMostSkewed))));
+  CHECK(one.relmse.value ==
+        Approx(4 / 1.01 * std::exp(kSkew * std::sqrt(kMaxSkewError))));
 }
 
 ErrorEstimate OfAllPixels(double value) {
@@ -335,11 +336,11 @@ ErrorEstimate OfAllPixels(double value) {
   });
 }
 
-TEST_CASE("an estimate that is stopped says nothing, and ends", "[study]") {
+TEST_CASE("a stopped estimate returns early without a result", "[study]") {
   std::atomic<bool> stop{false};
-  std::atomic<int> asked{0};
+  std::atomic<int> calls{0};
   const auto pixel = [&](int, int y) {
-    ++asked;
+    ++calls;
     if (y == 2) stop = true;
     PixelEstimate p;
     p.known = true;
@@ -348,13 +349,13 @@ TEST_CASE("an estimate that is stopped says nothing, and ends", "[study]") {
   };
   const ErrorEstimate halfway = EstimateError({0, 0, 8, 800}, pixel, 1, &stop);
   CHECK_FALSE(halfway.available);
-  CHECK(asked < 8 * 800);
-  asked = 0;
+  CHECK(calls < 8 * 800);
+  calls = 0;
   CHECK_FALSE(EstimateError({0, 0, 8, 800}, pixel, 1, &stop).available);
-  CHECK(asked == 0);
+  CHECK(calls == 0);
 }
 
-TEST_CASE("images without noise have no error but that of rounding", "[study]") {
+TEST_CASE("images without noise have rounding errors only", "[study]") {
   const ErrorEstimate e = OfAllPixels(0.7);
   CHECK(e.has_interval);
   CHECK(e.rmse.value == 0);
@@ -363,7 +364,7 @@ TEST_CASE("images without noise have no error but that of rounding", "[study]") 
   CHECK(e.relmse.high == Approx(1e-10 * 0.49 / 0.5).epsilon(0.05));
 }
 
-TEST_CASE("black images do not say that there is no light", "[study]") {
+TEST_CASE("black images give no error estimate", "[study]") {
   const ErrorEstimate e = OfAllPixels(0);
   CHECK(e.available);
   CHECK_FALSE(e.has_interval);

@@ -25,7 +25,8 @@ using Catch::Contains;
 class Viewer {
  public:
   /// Reads this many bytes, then ends the connection; `reads` false: keeps it, unread.
-  explicit Viewer(std::size_t most = ~std::size_t{0}, bool reads = true) : most_(most) {
+  explicit Viewer(std::size_t max_bytes = ~std::size_t{0}, bool reads = true)
+      : max_bytes_(max_bytes) {
     listener_ = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address = {};
     address.sin_family = AF_INET;
@@ -58,8 +59,8 @@ class Viewer {
     const int client = accept(listener_, nullptr, nullptr);
     if (client < 0) return;
     char buffer[4096];
-    while (bytes_.size() < most_) {
-      const ssize_t n = read(client, buffer, std::min(sizeof(buffer), most_));
+    while (bytes_.size() < max_bytes_) {
+      const ssize_t n = read(client, buffer, std::min(sizeof(buffer), max_bytes_));
       if (n <= 0) break;
       bytes_.append(buffer, static_cast<std::size_t>(n));
     }
@@ -67,7 +68,7 @@ class Viewer {
     close(client);
   }
 
-  const std::size_t most_;
+  const std::size_t max_bytes_;
   int listener_ = -1;
   std::uint16_t port_ = 0;
   std::string bytes_;
@@ -209,7 +210,7 @@ FilmAccumulator OneSample(int width, int height, float value) {
 
 }  // namespace
 
-TEST_CASE("a viewer shows the image that is written", "[render]") {
+TEST_CASE("a viewer receives the image that is written", "[render]") {
   Viewer viewer;
   const TemporaryFolder folder;
   const std::string exr = folder.File("shown.exr");
@@ -248,27 +249,30 @@ TEST_CASE("only tiles that have changed are sent", "[render]") {
   CHECK(shown.rgb == std::vector<float>(3 * 40 * 20, 0.5f));
 }
 
-TEST_CASE("localhost is a viewer that listens on IPv4 alone, as tev does", "[render]") {
+TEST_CASE("localhost connects to a viewer that listens on IPv4 only, as tev does",
+          "[render]") {
   Viewer viewer;
   const FilmAccumulator film = OneSample(8, 8, 2);
   std::string problem;
   {
     Display display({"localhost", viewer.endpoint().port}, "film", film, "srgb",
-                    [&](const std::string& told) { problem = told; });
+                    [&](const std::string& message) { problem = message; });
     display.Finish(film);
   }
   CHECK(problem.empty());
   CHECK(Decode(viewer.Bytes()).rgb == std::vector<float>(3 * 8 * 8, 2.0f));
 }
 
-TEST_CASE("where nobody listens, that is said once and the image is made", "[render]") {
-  Endpoint nobody;
+TEST_CASE(
+    "without a listening viewer a warning is printed once and the image is rendered",
+    "[render]") {
+  Endpoint unused_port;
   {
-    nobody = Viewer(0, false).endpoint();  // whose port is free again
+    unused_port = Viewer(0, false).endpoint();  // whose port is free again
   }
   const TemporaryFolder folder;
   const std::string exr = folder.File("shown.exr");
-  const ShownRender render = RenderShown(nobody, exr);
+  const ShownRender render = RenderShown(unused_port, exr);
   CHECK(render.image.width == 48);
   REQUIRE(render.problems.size() == 1);
   CHECK_THAT(render.problems[0], Contains("no display server at 127.0.0.1:") &&
@@ -276,7 +280,7 @@ TEST_CASE("where nobody listens, that is said once and the image is made", "[ren
                                      Contains("the render continues"));
 }
 
-TEST_CASE("a viewer that goes away, or does not read, is said once", "[render]") {
+TEST_CASE("a viewer that disconnects or stalls is reported once", "[render]") {
   const FilmAccumulator film = OneSample(2048, 2048, 0.25f);  // 50 MB: more than buffers
   std::vector<std::string> problems;
   const auto on_problem = [&](const std::string& problem) {
@@ -297,7 +301,7 @@ TEST_CASE("a viewer that goes away, or does not read, is said once", "[render]")
                               Contains("the display server 127.0.0.1:"));
 }
 
-TEST_CASE("places of servers are read whole", "[core]") {
+TEST_CASE("server addresses are parsed strictly", "[core]") {
   const EndpointType type{14158};
   CHECK(ReadValue(type, "here").Text() == "here:14158");
   CHECK(ReadValue(type, "here:99").Text() == "here:99");

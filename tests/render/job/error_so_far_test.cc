@@ -9,8 +9,8 @@
 namespace lanelight {
 namespace {
 
-Job SmallBox(const RenderSettings& asked) {
-  RenderSettings settings = asked;
+Job SmallBox(const RenderSettings& render_settings) {
+  RenderSettings settings = render_settings;
   settings.resolution = {16, 12};
   return PrepareJob(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/cornell-box.pbrt",
                     settings);
@@ -18,7 +18,7 @@ Job SmallBox(const RenderSettings& asked) {
 
 }  // namespace
 
-TEST_CASE("a render shows its film, and its image is the same", "[render]") {
+TEST_CASE("showing the film does not change the image", "[render]") {
   RenderSettings settings;
   settings.spp = 20000;
   const Job job = SmallBox(settings);
@@ -52,7 +52,8 @@ TEST_CASE("a render shows its film, and its image is the same", "[render]") {
   }
 }
 
-TEST_CASE("with a target, looks tell the error and what is left", "[render]") {
+TEST_CASE("with a target, progress shows the error and the remaining samples",
+          "[render]") {
   RenderSettings settings;
   settings.target_relmse = 1e-4;
   const Job job = SmallBox(settings);
@@ -60,13 +61,13 @@ TEST_CASE("with a target, looks tell the error and what is left", "[render]") {
   ErrorSoFar error(job.target);
   error.Listen(job.window.pixels(), options);
   CHECK_FALSE(options.on_film);
-  std::vector<RenderProgress> told;
+  std::vector<RenderProgress> reports;
   const auto look = options.samples_needed;
   options.samples_needed = [&](const FilmAccumulator& film, std::uint64_t done) {
     const double needed = look(film, done);
-    told.push_back(error.At({0, 2, done * job.window.pixels()}));
-    if (told.back().target_seconds) {
-      CHECK(*told.back().target_seconds ==
+    reports.push_back(error.At({0, 2, done * job.window.pixels()}));
+    if (reports.back().target_seconds) {
+      CHECK(*reports.back().target_seconds ==
             Approx(std::max(0.0, 2 * (needed / double(done) - 1))));
     }
     return needed;
@@ -74,10 +75,10 @@ TEST_CASE("with a target, looks tell the error and what is left", "[render]") {
   FilmAccumulator film = MakeFilm(job);
   const RunResult result = Run(job.scene, job.plan, options, film);
   CHECK(result.stop_reason == StopReason::kTarget);
-  REQUIRE(!told.empty());
-  REQUIRE(told.back().error);
-  CHECK(told.back().error->relmse.high < 1e-4);
-  CHECK(told.back().target_seconds == 0.0);
+  REQUIRE(!reports.empty());
+  REQUIRE(reports.back().error);
+  CHECK(reports.back().error->relmse.high < 1e-4);
+  CHECK(reports.back().target_seconds == 0.0);
 }
 
 }  // namespace lanelight

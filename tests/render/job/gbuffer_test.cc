@@ -93,7 +93,7 @@ TEST_CASE("gbuffer: points, normals and coordinates of a plane, in the world",
   }
 }
 
-TEST_CASE("gbuffer: the camera's space is the world's, moved", "[render]") {
+TEST_CASE("gbuffer: camera space is the transformed world space", "[render]") {
   const Buffer world = RenderBuffer("world"), camera = RenderBuffer("camera");
   const SceneDescription scene = ParseSceneText(Scene("camera", 0), "test.pbrt", ".");
   const Transform to_camera = scene.camera.world_from_camera.Inverse();
@@ -149,16 +149,15 @@ TEST_CASE("gbuffer: slopes lead from pixel to pixel", "[render]") {
   }
 }
 
-TEST_CASE("gbuffer: what nothing is hit by is zero, edges are means of hits",
-          "[render]") {
+TEST_CASE("gbuffer: pixels without hits are zero, edges are means of hits", "[render]") {
   const Buffer b = RenderBuffer("world");
   int edges = 0;
   for (int y = 0; y < kHeight; ++y) {
     CHECK(b.At(kWidth - 1, y, kHit) == 0);
     CHECK(b.At(kWidth - 1, y, kP + 2) == 0);
     for (int x = 0; x < kWidth; ++x) {
-      const double share = b.At(x, y, kHit);
-      if (share == 0 || share == 1) continue;
+      const double fraction = b.At(x, y, kHit);
+      if (fraction == 0 || fraction == 1) continue;
       ++edges;
       CheckVector(b.Vector(x, y, kNs), {0, 0.6, -0.8}, 1e-5);
     }

@@ -53,8 +53,7 @@ std::size_t BytesOf(const LightChances& chances) {
 
 // Each pair differs in what used to be written into the scene: which light is selected,
 // by a table or a tree; texels of a sky; places that points in media are looked for at.
-TEST_CASE("two jobs of a scene render at the same time as one after the other",
-          "[render]") {
+TEST_CASE("concurrent jobs of a scene give the images of sequential ones", "[render]") {
   struct Pair {
     const char *scene, *one, *other;
   };
@@ -76,7 +75,7 @@ TEST_CASE("two jobs of a scene render at the same time as one after the other",
   }
 }
 
-TEST_CASE("a job is as it was after others were made of it", "[render]") {
+TEST_CASE("deriving jobs does not change a job", "[render]") {
   const Job job = SceneJob("many-lights.pbrt");
   const AlignedVector<float> pmf = job.scene.chances->pmf;
   const Job other = With(job, "light-selection=tree");
@@ -95,7 +94,7 @@ TEST_CASE("a job is as it was after others were made of it", "[render]") {
 
 // What is allocated on the way, for the strategy's tables and for the plan, which does
 // not grow with the scene.
-TEST_CASE("another strategy on a scene takes the memory of its tables", "[render]") {
+TEST_CASE("another strategy on a scene adds only the memory of its tables", "[render]") {
   if (!CanInterpose()) return;
   constexpr std::size_t kPlan = 150'000;
   for (const char* name :

@@ -55,19 +55,19 @@ struct KeptRender {
 };
 
 // Stops a run once it has begun so many tasks.
-class TaskCounter : public RunKeeper {
+class TaskCounter : public Checkpointer {
  public:
-  TaskCounter(RunKeeper& keeper, int tasks, std::atomic<bool>& stop)
-      : keeper_(keeper), left_(tasks), stop_(stop) {}
-  bool Restore(RunState& state) override { return keeper_.Restore(state); }
+  TaskCounter(Checkpointer& checkpointer, int tasks, std::atomic<bool>& stop)
+      : checkpointer_(checkpointer), left_(tasks), stop_(stop) {}
+  bool Restore(RunState& state) override { return checkpointer_.Restore(state); }
   bool Due() const override {
     if (left_ > 0 && --left_ == 0) stop_ = true;
-    return keeper_.Due();
+    return checkpointer_.Due();
   }
-  void Keep(RunState& state) override { keeper_.Keep(state); }
+  void Keep(RunState& state) override { checkpointer_.Keep(state); }
 
  private:
-  RunKeeper& keeper_;
+  Checkpointer& checkpointer_;
   mutable std::atomic<int> left_;
   std::atomic<bool>& stop_;
 };
@@ -84,7 +84,7 @@ inline Outcome RenderKept(const KeptRender& r) {
                         [&](const std::string& p) { problems.push_back(p); });
   std::atomic<bool> stop = false;
   TaskCounter counter(checkpoint, r.tasks, stop);
-  options.keeper = &counter;
+  options.checkpointer = &counter;
   options.stop = &stop;
   options.tiles = checkpoint.tiles();
   const RunResult result = Run(job.scene, job.plan, options, film);

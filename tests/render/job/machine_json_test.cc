@@ -9,7 +9,7 @@ namespace lanelight {
 
 using Json = nlohmann::json;
 
-TEST_CASE("a machine's JSON has all of it, unknown parts as null", "[machine]") {
+TEST_CASE("a machine's JSON has all members, unknown ones as null", "[machine]") {
   MachineInfo machine;
   machine.processor = "a \"b\", c";
   machine.memory_bytes = 123456789012;

@@ -59,7 +59,7 @@ TEST_CASE("parts: every pixel is in exactly one", "[merge]") {
        {PixelRect{0, 0, 100, 70}, PixelRect{13, 5, 90, 66}, PixelRect{0, 0, 9, 1}}) {
     for (int count : {1, 2, 3, 7, 8}) {
       std::set<std::pair<int, int>> seen;
-      std::uint64_t least = ~std::uint64_t{0}, most = 0;
+      std::uint64_t minimum = ~std::uint64_t{0}, maximum = 0;
       for (int i = 1; i <= count; ++i) {
         std::uint64_t pixels = 0;
         for (const PixelRect& t : TilesOfPart(window, {i, count})) {
@@ -68,20 +68,20 @@ TEST_CASE("parts: every pixel is in exactly one", "[merge]") {
             for (int x = t.x0; x < t.x1; ++x) REQUIRE(seen.insert({x, y}).second);
           }
         }
-        least = std::min(least, pixels);
-        most = std::max(most, pixels);
+        minimum = std::min(minimum, pixels);
+        maximum = std::max(maximum, pixels);
       }
       CHECK(seen.size() == window.pixels());
-      INFO(window.pixels() << " pixels, " << count << " parts: " << least << " to "
-                           << most);
-      CHECK(most - least <= 2 + window.pixels() / std::uint64_t(count) / 8);
+      INFO(window.pixels() << " pixels, " << count << " parts: " << minimum << " to "
+                           << maximum);
+      CHECK(maximum - minimum <= 2 + window.pixels() / std::uint64_t(count) / 8);
     }
   }
   CHECK_THAT(ErrorOf([] { TilesOfPart({0, 0, 3, 3}, {1, 10}); }),
              Contains("at most 9 parts"));
 }
 
-TEST_CASE("merge: parts of other renders are refused by name", "[merge]") {
+TEST_CASE("merge: parts of other renders are refused with their names", "[merge]") {
   TemporaryFolder folder;
   const KeptRender r = Small(folder, "a");
   const std::string first = PartOf(r, 1, 2);
@@ -102,7 +102,7 @@ TEST_CASE("merge: parts of other renders are refused by name", "[merge]") {
              Contains("both have pixel") && Contains("a-1") && Contains("e-3"));
 }
 
-TEST_CASE("merge: missing parts are counted, and what is there is right", "[merge]") {
+TEST_CASE("merge: missing parts are counted, and the others are correct", "[merge]") {
   TemporaryFolder folder;
   const KeptRender r = Small(folder, "a");
   const std::string one = PartOf(r, 1, 3), three = PartOf(r, 3, 3);
@@ -123,7 +123,7 @@ TEST_CASE("merge: missing parts are counted, and what is there is right", "[merg
   }
 }
 
-TEST_CASE("merge: merges of merges, and going on from one", "[merge]") {
+TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   TemporaryFolder folder;
   KeptRender r = Small(folder, "a");
   std::vector<std::string> parts;
@@ -208,7 +208,7 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
              Contains("multiple of 4"));
 }
 
-TEST_CASE("states of other renders are not gone on with", "[merge]") {
+TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   TemporaryFolder folder;
   KeptRender r = Small(folder, "a");
   StateOf(r);

@@ -82,8 +82,7 @@ TEST_CASE("outputs that cannot be files are refused", "[render]") {
   CHECK_NOTHROW(CheckWritable(existing));
 }
 
-TEST_CASE("a name that is too long, and one that is just not, are told apart",
-          "[render]") {
+TEST_CASE("names at and beyond the length limit are distinguished", "[render]") {
   TempDirectory directory;
   const std::string longest = directory / (std::string(251, 'a') + ".exr");
   CHECK_NOTHROW(CheckWritable(longest));
@@ -104,7 +103,7 @@ TEST_CASE("a name that is too long, and one that is just not, are told apart",
   CHECK(FallbackPath(longest).ends_with("a.exr"));
 }
 
-TEST_CASE("outputs spare what is read, whatever links lead there", "[render]") {
+TEST_CASE("outputs never overwrite inputs, even through links", "[render]") {
   TempDirectory directory;
   namespace fs = std::filesystem;
   const std::string input = WriteText(directory / "in.png", "x");
@@ -135,7 +134,7 @@ TEST_CASE("outputs spare what is read, whatever links lead there", "[render]") {
   CHECK_NOTHROW(CheckOutputPaths({{}, {directory / "sub", directory / "in"}}, {input}));
 }
 
-TEST_CASE("the scene hash leaves out where the film would go", "[render]") {
+TEST_CASE("the scene hash excludes the film's file name", "[render]") {
   TempDirectory directory;
   const std::string scene = WriteText(directory / "a.pbrt", R"(
 Film "rgb" # "rgb.txt"

@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-TEST_CASE("the loops that measure peaks compute what they say, on every target",
+TEST_CASE("the loops that measure peaks compute the stated result on every target",
           "[peaks]") {
   AlignedVector<std::uint32_t> words(4096);
   std::uint32_t sum = 0;
@@ -31,7 +31,7 @@ TEST_CASE("the loops that measure peaks compute what they say, on every target",
   ForceTarget("");
 }
 
-TEST_CASE("peaks have levels from near to far", "[peaks]") {
+TEST_CASE("peaks are listed from the nearest to the farthest memory level", "[peaks]") {
   const Peaks peaks = MeasurePeaks({}, false);
   REQUIRE(peaks.levels.size() >= 3);
   CHECK(peaks.levels.front().name == "L1");
@@ -44,7 +44,7 @@ TEST_CASE("peaks have levels from near to far", "[peaks]") {
   }
 }
 
-TEST_CASE("a working set lives in the nearest level that holds it", "[peaks]") {
+TEST_CASE("a working set belongs to the nearest level that fits it", "[peaks]") {
   Peaks peaks;
   peaks.levels = {
       {"L1", 32 << 10, 0, 0}, {"L2", 1 << 20, 0, 0}, {"memory", 1 << 30, 0, 0}};

@@ -72,12 +72,12 @@ TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
   const ProfileReport report = MakeProfileReport(SomeResult(), SomePeaks());
   CHECK(report.seconds == Approx(1));
   REQUIRE(report.rows.size() == 6);  // parts that never ran are left out
-  double shares = 0;
+  double fractions = 0;
   for (std::size_t i = 0; i < report.rows.size(); ++i) {
-    shares += report.rows[i].share;
-    if (i > 0) CHECK(report.rows[i].share <= report.rows[i - 1].share);
+    fractions += report.rows[i].fraction;
+    if (i > 0) CHECK(report.rows[i].fraction <= report.rows[i - 1].fraction);
   }
-  CHECK(shares == Approx(1));
+  CHECK(fractions == Approx(1));
   CHECK(report.rows[0].counts.name == "seen: intersect_triangles");
   CHECK(report.rows[0].NsPerItem() == Approx(100));
   CHECK(report.rows[0].counts.Occupancy() == Approx(0.5));
@@ -86,16 +86,16 @@ TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
   CHECK(report.Ratio() == Approx(0.5));
   CHECK(report.RatioWithAll() == Approx(0.4 / 0.6));
   CHECK(report.level.name == "L2");
-  CHECK(report.rows.back().share == Approx(0.05));
+  CHECK(report.rows.back().fraction == Approx(0.05));
 }
 
 TEST_CASE("a profile without time or intersection has no ratio", "[profile]") {
   const ProfileReport empty = MakeProfileReport({}, SomePeaks());
   CHECK(empty.Ratio() == 0);
-  for (const ProfileRow& row : empty.rows) CHECK(row.share == 0);
+  for (const ProfileRow& row : empty.rows) CHECK(row.fraction == 0);
 }
 
-TEST_CASE("what a stage is bound by follows from numbers only", "[profile]") {
+TEST_CASE("the bound of a stage is computed from measured values only", "[profile]") {
   // 10 M items of 32 bytes in a second: 0.32 GB/s, far below.
   CHECK(BoundOf(CountedRow(0, 0, 0, 0)) == Bound::kUnknown);
   CHECK(BoundOf(CountedRow(300, 300, 0, 0)) == Bound::kNeither);

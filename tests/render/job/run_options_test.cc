@@ -5,7 +5,7 @@
 
 namespace lanelight {
 
-TEST_CASE("each render towards a target looks at its own film", "[render]") {
+TEST_CASE("each render with a target checks its own film", "[render]") {
   RenderSettings settings;
   settings.resolution = {16, 12};
   settings.spp = 1u << 12;

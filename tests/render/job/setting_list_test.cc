@@ -54,7 +54,7 @@ std::set<std::string> Keys(const Json& json) {
 
 }  // namespace
 
-TEST_CASE("each setting is read, told and known to be set", "[render]") {
+TEST_CASE("each setting is parsed, printed and marked as set", "[render]") {
   const auto texts = OtherTexts();
   std::set<std::string> names;
   RenderSettings all;
@@ -131,10 +131,10 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
   CHECK(reported.at("depth") == "half");
 }
 
-TEST_CASE("what changes pixels, and only that, makes another render", "[render]") {
+TEST_CASE("only settings that change pixels change the render's identity", "[render]") {
   RenderSettings small;
   small.resolution = {8, 6};
-  const Json usual = IdentityOf(BoxWith(small));
+  const Json defaults = IdentityOf(BoxWith(small));
   for (const auto& [name, text] : OtherTexts()) {
     const Setting& setting = SettingNamed(name);
     INFO(name);
@@ -148,7 +148,7 @@ TEST_CASE("what changes pixels, and only that, makes another render", "[render]"
     }
     // What there is of them after all, which identities have.
     const bool differs = setting.Is(kIdentity) || name == "sampler" || name == "strategy";
-    CHECK((IdentityOf(BoxWith(settings)) != usual) == differs);
+    CHECK((IdentityOf(BoxWith(settings)) != defaults) == differs);
   }
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("settings out of range are refused", "[render]") {
     CHECK_THROWS_WITH(ApplySettings(settings, scene), Contains(message));
   };
   refused([](auto& s, auto&) { s.spp = 0; }, "samples per pixel");
-  refused([](auto& s, auto&) { s.spp = kMostSamplesPerPixel + 1; }, "1099511627777");
+  refused([](auto& s, auto&) { s.spp = kMaxSamplesPerPixel + 1; }, "1099511627777");
   refused([](auto& s, auto&) { s.spp = ~std::uint64_t{0}; }, "samples per pixel");
   refused([](auto&, auto& d) { d.sampler.spp = -1; }, "-1 samples per pixel");
   refused([](auto& s, auto&) { s.seconds = 0; }, "time budget");
@@ -97,7 +97,8 @@ RenderSettings Samples(std::uint64_t spp) {
 
 }  // namespace
 
-TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]") {
+TEST_CASE("long renders choose a strategy by a trial run, unless one is given",
+          "[render]") {
   CHECK(DecisionOf(Samples(127)) == Decide::kNone);
   CHECK(DecisionOf(Samples(128)) == Decide::kPilot);
   RenderSettings small = Samples(1u << 12);
@@ -121,15 +122,15 @@ TEST_CASE("long renders decide by a pilot, unless they are told how", "[render]"
   towards.resolution = {1280, 720};
   CHECK(DecisionOf(towards) == Decide::kPilot);
   // Any word about the strategy.
-  RenderSettings told = Samples(1024);
-  told.strategy = ParseStrategy("points=cmj", {});
-  CHECK(DecisionOf(told) == Decide::kNone);
-  told.strategy = ParseStrategy("points=cmj,decide=pilot", {});
-  CHECK(DecisionOf(told) == Decide::kPilot);
+  RenderSettings explicit_settings = Samples(1024);
+  explicit_settings.strategy = ParseStrategy("points=cmj", {});
+  CHECK(DecisionOf(explicit_settings) == Decide::kNone);
+  explicit_settings.strategy = ParseStrategy("points=cmj,decide=pilot", {});
+  CHECK(DecisionOf(explicit_settings) == Decide::kPilot);
   CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
 }
 
-TEST_CASE("only who may decide does, or who goes on with a decision", "[render]") {
+TEST_CASE("the strategy is decided only where allowed or resumed", "[render]") {
   for (const auto& [decision, decide] :
        {std::pair{DefaultDecision::kNever, Decide::kNone},
         {DefaultDecision::kAlways, Decide::kPilot}}) {

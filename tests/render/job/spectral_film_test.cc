@@ -28,11 +28,11 @@ std::string SpectralText(const std::string& film, const std::string& world,
 
 Job SpectralJob(const std::string& text, std::uint64_t spp = 16,
                 const std::string& strategy = "",
-                std::optional<AskedTransport> asked = std::nullopt) {
+                std::optional<TransportSetting> requested = std::nullopt) {
   RenderSettings settings;
   settings.spp = spp;
   settings.seed = 3;
-  settings.transport = asked;
+  settings.transport = requested;
   settings.strategy = ParseStrategy(strategy, {});
   return PrepareJob(ParseSceneText(text, "test.pbrt", "."), settings);
 }
@@ -66,7 +66,7 @@ Rgb ColorOfBuckets(const FilmAccumulator& film, int x, int y) {
   for (int k = 0; k < buckets.count; ++k) {
     const double low = buckets.Edge(k), high = buckets.Edge(k + 1);
     for (int c = 0; c < 3; ++c) {
-      const Spectrum seen = [&](double nm) { return WhiteShare(nm)[c] / white(nm); };
+      const Spectrum seen = [&](double nm) { return WhiteFraction(nm)[c] / white(nm); };
       sum[c] += film.Bucket(x, y, k) * MeanOver(seen, low, high) * (high - low);
     }
   }
@@ -118,7 +118,7 @@ TEST_CASE("spectral film: buckets of an even sky", "[render][spectral][buckets]"
   CHECK(white.Bucket(1, 2, 15) == 0);  // 800 to 830 nm
 }
 
-TEST_CASE("spectral film: a grey furnace has the same in all buckets, in the mean",
+TEST_CASE("spectral film: a grey furnace has equal buckets on average",
           "[render][spectral][buckets]") {
   // A ball in front of the whole film, in an even sky: half of the sky's radiance.
   const auto film = SpectralRender(
@@ -184,7 +184,7 @@ TEST_CASE("spectral film: buckets seen by the observer are the colours of the im
   }
 }
 
-TEST_CASE("spectral film: colours that are composed leave buckets as they are",
+TEST_CASE("spectral film: color transforms do not change buckets",
           "[render][spectral][buckets]") {
   // The plain samples: control variates and directly visible lights change colours only.
   const std::string text = SpectralText(
@@ -211,12 +211,12 @@ TEST_CASE("spectral film: colours that are composed leave buckets as they are",
   }
 }
 
-TEST_CASE("spectral film: nothing of it is there without", "[render][plan][buckets]") {
+TEST_CASE("spectral film: other films have no stages for it", "[render][plan][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment + kGreyBall);
   std::string plain = text;
   plain.replace(plain.find("\"spectral\""), 10, "\"rgb\"");
   const Job with = SpectralJob(text);
-  const Job without = SpectralJob(plain, 16, "", AskedTransport::kSpectral);
+  const Job without = SpectralJob(plain, 16, "", TransportSetting::kSpectral);
   CHECK(with.plan.features.Has(Feature::kSpectralFilm));
   CHECK_FALSE(without.plan.features.Has(Feature::kSpectralFilm));
   CHECK(SamplePlanes(with.plan.features).count() == 7);
@@ -230,24 +230,24 @@ TEST_CASE("spectral film: nothing of it is there without", "[render][plan][bucke
   for (int i = 0; i < 16; ++i) CHECK(a.Mean(i % 4, i / 4) == b.Mean(i % 4, i / 4));
 }
 
-TEST_CASE("spectral film: it decides on transport", "[render][spectral][buckets]") {
+TEST_CASE("spectral film: it selects spectral transport", "[render][spectral][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment);
-  for (const auto asked : {AskedTransport::kSpectral, AskedTransport::kByScene}) {
-    const Job job = SpectralJob(text, 1, "", asked);
+  for (const auto requested : {TransportSetting::kSpectral, TransportSetting::kByScene}) {
+    const Job job = SpectralJob(text, 1, "", requested);
     CHECK(job.scene.compiled->features.Has(Feature::kSpectral));
     CHECK(job.loaded->transport_why == "the film keeps spectra");
   }
-  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", AskedTransport::kRgb); }),
+  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", TransportSetting::kRgb); }),
              Catch::Contains("Film \"spectral\" keeps wavelengths") &&
                  Catch::Contains("--transport rgb"));
   const std::string says = SpectralText(
       "", kOneEnvironment, "Integrator \"path\" \"string transport\" \"rgb\"");
   CHECK_THAT(Refused([&] { SpectralJob(says); }),
              Catch::Contains("\"transport\" \"rgb\" of its Integrator"));
-  CHECK_NOTHROW(SpectralJob(says, 1, "", AskedTransport::kSpectral));
+  CHECK_NOTHROW(SpectralJob(says, 1, "", TransportSetting::kSpectral));
 }
 
-TEST_CASE("spectral film: what has no wavelengths is refused", "[render][buckets]") {
+TEST_CASE("spectral film: RGB-only settings are refused", "[render][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment + kGreyBall);
   CHECK_THAT(Refused([&] { SpectralJob(text, 1, "reuse=block"); }),
              Catch::Contains("reuse=block does not work with Film \"spectral\""));
@@ -278,7 +278,7 @@ TEST_CASE("spectral film: a note says which wavelengths paths carry",
   CHECK(notes("\"float lambdamin\" 405 \"float lambdamax\" 680") == 0);
 }
 
-TEST_CASE("spectral film: its memory counts", "[render][buckets]") {
+TEST_CASE("spectral film: memory is included in the estimate", "[render][buckets]") {
   const PixelRect window = {0, 0, 100, 100};
   // Sums in double, and planes of the file twice.
   CHECK(FilmBytes(window, {Auxiliary::kNone, 32}) ==
@@ -290,7 +290,7 @@ TEST_CASE("spectral film: its memory counts", "[render][buckets]") {
   CHECK(LayersOf({}, job.loaded->description.film).buckets == 9);
 }
 
-TEST_CASE("spectral film: the file has a channel of each bucket, and says so",
+TEST_CASE("spectral film: the file has a channel per bucket and metadata",
           "[render][exr][buckets]") {
   const Job job = SpectralJob(SpectralText(
       "\"integer nbuckets\" 3 \"float lambdamin\" 400 \"float lambdamax\" 700",

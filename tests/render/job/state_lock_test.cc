@@ -19,7 +19,7 @@ const auto kNoProblem = [](const std::string& problem) { FAIL(problem); };
 
 }  // namespace
 
-TEST_CASE("a state is kept by one at a time, and its lock file goes away",
+TEST_CASE("a checkpoint has one writer, and its lock file is removed",
           "[render][state]") {
   const TemporaryFolder folder;
   const std::string state = folder.File("s");
@@ -34,7 +34,7 @@ TEST_CASE("a state is kept by one at a time, and its lock file goes away",
   CHECK(folder.Count() == 0);
 }
 
-TEST_CASE("a lock file that a killed process has left means nothing", "[render][state]") {
+TEST_CASE("a lock file left by a killed process is ignored", "[render][state]") {
   const TemporaryFolder folder;
   folder.Write("s.lock", "process 1 on another machine, of a longer text than the next");
   const StateLock lock(folder.File("s"), kNoProblem);
@@ -65,7 +65,7 @@ TEST_CASE("a lock removes the state's temporary files only", "[render][state]") 
   }
 }
 
-TEST_CASE("one who is refused removes nothing of the one at work", "[render][state]") {
+TEST_CASE("a refused process removes no files of the active one", "[render][state]") {
   const TemporaryFolder folder;
   std::optional<StateLock> lock;
   lock.emplace(folder.File("s"), kNoProblem);

@@ -30,14 +30,14 @@ SceneDescription SceneOf(const std::string& world) {
 }
 
 TransportChoice ChoiceFor(const std::string& world, const std::string& strategy = "") {
-  Strategy asked;
-  ApplyStrategy(strategy, {}, asked);
-  return ChooseTransport(SceneOf(world), {&asked, 1});
+  Strategy requested;
+  ApplyStrategy(strategy, {}, requested);
+  return ChooseTransport(SceneOf(world), {&requested, 1});
 }
 
-Job JobOf(const std::string& world, std::optional<AskedTransport> asked) {
+Job JobOf(const std::string& world, std::optional<TransportSetting> requested) {
   RenderSettings settings;
-  settings.transport = asked;
+  settings.transport = requested;
   return PrepareJob(SceneOf(world), settings);
 }
 
@@ -49,7 +49,7 @@ bool Notes(const Job& job, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spectral]") {
+TEST_CASE("transport: spectral where a scene has spectra", "[render][spectral]") {
   CHECK(ChoiceFor(kLamp + kRed).transport == Transport::kRgb);
   for (const std::string& with :
        {kLamp + kCopper, kLamp + kGlass, kWarmLamp + kRed,
@@ -79,7 +79,7 @@ TEST_CASE("transport: wavelengths where something has a spectrum", "[render][spe
   CHECK(ChoiceFor(unused).transport == Transport::kRgb);
 }
 
-TEST_CASE("transport: RGB, and why, where wavelengths are refused",
+TEST_CASE("transport: RGB with a reason where spectral is not supported",
           "[render][spectral]") {
   const auto refused = [](const std::string& world, const std::string& strategy) {
     const TransportChoice choice = ChoiceFor(world, strategy);
@@ -96,36 +96,36 @@ TEST_CASE("transport: RGB, and why, where wavelengths are refused",
       Catch::Contains("a light emits nothing"));
 }
 
-TEST_CASE("transport: a job carries what is asked for", "[render][spectral]") {
+TEST_CASE("transport: a job uses the requested transport", "[render][spectral]") {
   const std::string scene = kLamp + kCopper;
-  const Job rgb = JobOf(scene, AskedTransport::kRgb);
+  const Job rgb = JobOf(scene, TransportSetting::kRgb);
   CHECK(rgb.scene.compiled->integrator.transport == Transport::kRgb);
   CHECK(rgb.loaded->transport_why.empty());
   CHECK_FALSE(rgb.plan.features.Has(Feature::kSpectral));
   // The scene decides by default.
-  for (const auto asked :
-       {std::optional<AskedTransport>(), std::optional(AskedTransport::kByScene)}) {
-    const Job chosen = JobOf(scene, asked);
+  for (const auto requested :
+       {std::optional<TransportSetting>(), std::optional(TransportSetting::kByScene)}) {
+    const Job chosen = JobOf(scene, requested);
     CHECK(chosen.plan.features.Has(Feature::kSpectral));
     CHECK(chosen.loaded->transport_why.find("the metal has a spectrum") !=
           std::string::npos);
-    CHECK_FALSE(JobOf(kLamp + kRed, asked).plan.features.Has(Feature::kSpectral));
+    CHECK_FALSE(JobOf(kLamp + kRed, requested).plan.features.Has(Feature::kSpectral));
   }
   // A scene that says so itself is asked no more.
   SceneDescription says = SceneOf(scene);
   says.integrator.transport = Transport::kRgb;
   CHECK_FALSE(PrepareJob(says, {}).plan.features.Has(Feature::kSpectral));
-  CHECK(JobOf(scene, AskedTransport::kSpectral).plan.features.Has(Feature::kSpectral));
+  CHECK(JobOf(scene, TransportSetting::kSpectral).plan.features.Has(Feature::kSpectral));
   const Job dark =
       JobOf("LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n" + kCopper,
-            AskedTransport::kByScene);
+            TransportSetting::kByScene);
   CHECK_FALSE(dark.plan.features.Has(Feature::kSpectral));
   CHECK(Notes(dark, "rendered in red, green and blue, since"));
 }
 
-TEST_CASE("transport: what is compared is rendered alike", "[render][spectral]") {
+TEST_CASE("transport: compared renders use the same transport", "[render][spectral]") {
   RenderSettings settings;
-  settings.transport = AskedTransport::kByScene;
+  settings.transport = TransportSetting::kByScene;
   Strategy& block = settings.compared.emplace_back();
   ApplyStrategy("reuse=block", {}, block);
   const Job job = PrepareJob(SceneOf(kLamp + kGlass), settings);

@@ -59,7 +59,7 @@ class Checker {
     MakePathValues();
     if (plan_.features.Has(Feature::kContributionShadowRoulette)) {
       const auto pixels = std::size_t{run_.width} * run_.height;
-      tables_.shadow_worth.inverse.assign(3 * pixels, 0.5f);
+      tables_.shadow_threshold.inverse.assign(3 * pixels, 0.5f);
     }
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     if (plan_.features.Has(Feature::kReuse)) reuse_.emplace(plan_, scene_.strategy);
@@ -102,7 +102,7 @@ class Checker {
   std::uint32_t Rows() const {
     const bool splits = plan_.features.Has(Feature::kSplitting);
     return static_cast<std::uint32_t>(side_ * side_) * kSamples *
-           (splits ? kMostCopies : 1);
+           (splits ? kMaxSplitPaths : 1);
   }
 
   // What training passes and the roulettes that split go by: any values do.
@@ -169,7 +169,7 @@ class Checker {
 
   void Compare(const Stage& stage, const WaveState& before, const WaveState& after,
                const WaveState& scrambled) {
-    PathCopies copies(before, after);
+    SplitPaths copies(before, after);
     if (after.queues != scrambled.queues) findings_.insert(stage.name + kQueues);
     if (!SameBits(after.samples, scrambled.samples)) {
       findings_.insert(stage.name + kOutput);

@@ -50,7 +50,7 @@ void CheckAll(const FilmAccumulator& film, const Rgb& radiance) {
 
 }  // namespace
 
-TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]") {
+TEST_CASE("a scene without surfaces shows its environment or black", "[plan]") {
   for (const std::string& body : ScenesWithoutSurfaces()) {
     for (const char* strategy :
          {"", "points=sobol,light-selection=tree", "roulette=efficiency",
@@ -70,7 +70,7 @@ TEST_CASE("a scene without surfaces shows its environment, or nothing", "[plan]"
   }
 }
 
-TEST_CASE("a scene without surfaces pays for none", "[plan]") {
+TEST_CASE("a scene without surfaces has no surface stages", "[plan]") {
   const Rendered r = RenderText(std::string(kEmpty) + kSky + kDegenerate);
   std::string stages;
   for (const PlannedStage& s : r.plan.paths().stages)
@@ -81,7 +81,7 @@ TEST_CASE("a scene without surfaces pays for none", "[plan]") {
   CHECK(r.result.rays_shadow == 0);
 }
 
-TEST_CASE("any kind of surface by itself scatters", "[plan]") {
+TEST_CASE("each kind of surface alone is rendered", "[plan]") {
   for (const char* shape :
        {"Shape \"sphere\"", "Shape \"disk\"", "Shape \"plane\"",
         "Shape \"trianglemesh\" \"point3 P\" [ 0 0 0  1 0 0  0 1 0 ]",

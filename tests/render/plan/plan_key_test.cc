@@ -52,27 +52,27 @@ Job Prepare(const TemporaryFolder& folder, const std::string& more,
 TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") {
   const TemporaryFolder folder;
   const Job job = Prepare(folder, "", 1);
-  const Keyed usual = Render(job, "default");
+  const Keyed baseline = Render(job, "default");
   for (const char* same :
        {"light-selection=uniform", "light-selection=tree", "roulette=none",
         "roulette=luminance", "c=0.5", "environment=compensated"}) {
     INFO(same);
     const Keyed other = Render(job, same);
-    CHECK(other.key == usual.key);
-    CHECK(other.pixels == usual.pixels);
+    CHECK(other.key == baseline.key);
+    CHECK(other.pixels == baseline.pixels);
   }
 }
 
-TEST_CASE("choices with an effect have another key", "[plan]") {
+TEST_CASE("choices with an effect change the plan key", "[plan]") {
   const TemporaryFolder folder;
   const Job job =
       Prepare(folder,
               "LightSource \"point\" \"rgb I\" [1 1 1] \"point3 from\" [4 0 -4]\n"
               "LightSource \"infinite\" \"rgb L\" [1 1 1]\n",
               4);
-  const std::string usual = Render(job, "default").key;
-  CHECK(Render(job, "default").key == usual);
-  std::vector<std::string> keys = {usual};
+  const std::string baseline = Render(job, "default").key;
+  CHECK(Render(job, "default").key == baseline);
+  std::vector<std::string> keys = {baseline};
   for (const char* other :
        {"light-selection=uniform", "light-selection=tree", "roulette=none",
         "roulette=throughput:0.2", "roulette=throughput:0:3", "roulette=adjoint",

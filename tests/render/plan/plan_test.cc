@@ -91,7 +91,7 @@ TEST_CASE("plan: an absent column has no memory", "[plan]") {
   CHECK(wavefront.bytes() <= (allocated + kNumQueues) * (plan.wavefront * 4 + 192));
 }
 
-TEST_CASE("plan: each thing a scene adds brings its stages and columns", "[plan]") {
+TEST_CASE("plan: each scene feature adds its stages and columns", "[plan]") {
   const std::string base = kPointLight + kTriangle;
   CHECK(StageNames(PlanOf(base + "Shape \"sphere\"")).count("intersect_spheres"));
   CHECK(StageNames(PlanOf(base + kPointLight)).count("light_select_table"));
@@ -102,7 +102,7 @@ TEST_CASE("plan: each thing a scene adds brings its stages and columns", "[plan]
   CHECK(IsLive(PlanOf("Material \"dielectric\"\n" + base), Field::eta_scale));
 }
 
-TEST_CASE("plan: hits need a normal of projected light samples alone", "[plan]") {
+TEST_CASE("plan: hits need a light normal only for projected light samples", "[plan]") {
   const auto has = [](const std::string& world, const char* strategy) {
     return IsLive(PlanOf(world + kTriangle, 5, strategy), Field::start_n_x);
   };

@@ -96,7 +96,7 @@ TEST_CASE("every shape of light has the stages that its traits ask for", "[regis
   }
 }
 
-TEST_CASE("stages that follow rays have the role of it", "[registry]") {
+TEST_CASE("stages that trace rays have the ray role", "[registry]") {
   const Stage stages[] = {
 #define X(name) name##Stage({}),
       LANELIGHT_STAGES(X)
@@ -161,7 +161,7 @@ TEST_CASE("headers of kernels are guarded by their paths", "[registry]") {
       "a/b_c-inl.h", "\n#ifndef LANELIGHT_A_B_INL_H_\n#define LANELIGHT_A_B_INL_H_\n"));
 }
 
-TEST_CASE("a kernel is always the same, or chosen by a feature", "[registry]") {
+TEST_CASE("a stage has one kernel, or one chosen by a feature", "[registry]") {
   CHECK(Always<KernelWith>({}) == KernelWith);
   constexpr auto by_lens = ByFeature<Feature::kLens, KernelWith, KernelWithout>;
   CHECK(by_lens({Feature::kLens}) == KernelWith);

@@ -48,7 +48,7 @@ std::string Refusal(const std::function<void()>& act) {
 
 }  // namespace
 
-TEST_CASE("spectral plan: nothing of it where paths carry RGB", "[plan][spectral]") {
+TEST_CASE("spectral plan: RGB paths have no spectral stages", "[plan][spectral]") {
   SceneDescription scene =
       SpectralScene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n");
   scene.integrator.transport = Transport::kRgb;
@@ -67,7 +67,7 @@ TEST_CASE("spectral plan: nothing of it where paths carry RGB", "[plan][spectral
   CHECK_FALSE(HasField(plan, Field::color0_r));
 }
 
-TEST_CASE("spectral plan: each part where it is needed", "[plan][spectral]") {
+TEST_CASE("spectral plan: each stage exists where it is needed", "[plan][spectral]") {
   const Plan diffuse = SpectralPlan(SpectralScene("Material \"diffuse\"\n"));
   CHECK(HasStage(diffuse, "spectra"));
   CHECK(HasStage(diffuse, "light_spectra"));
@@ -95,7 +95,7 @@ TEST_CASE("spectral plan: each part where it is needed", "[plan][spectral]") {
   CHECK_FALSE(HasStage(textured, "spectra"));
 }
 
-TEST_CASE("spectral plan: what cannot carry wavelengths is refused", "[plan][spectral]") {
+TEST_CASE("spectral plan: unsupported features are refused", "[plan][spectral]") {
   const auto compiles = [](const std::string& world) {
     return Refusal([&] { PrepareScene(SpectralScene(world)); });
   };
@@ -117,7 +117,7 @@ TEST_CASE("spectral plan: what cannot carry wavelengths is refused", "[plan][spe
   CHECK(SpectralPlan(diffuse, "reuse=block").features.Has(Feature::kReuse));
 }
 
-TEST_CASE("spectral plan: glass that disperses is noted in RGB", "[plan][spectral]") {
+TEST_CASE("spectral plan: dispersive glass gets a note in RGB", "[plan][spectral]") {
   SceneDescription scene =
       SpectralScene("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\n");
   const auto notes = [](const SceneDescription& s) {

@@ -23,20 +23,20 @@ struct WaveState {
 
 /// Where a path splits, its copies take over all that it has, whatever the columns: what
 /// a stage writes into a slot that was free is no access of its own if it is a copy.
-class PathCopies {
+class SplitPaths {
  public:
-  PathCopies(const WaveState& before, const WaveState& after)
+  SplitPaths(const WaveState& before, const WaveState& after)
       : before_(before), after_(after) {
-    for (std::uint32_t slot : Free(before)) taken_.insert(slot);
-    for (std::uint32_t slot : Free(after)) taken_.erase(slot);
+    for (std::uint32_t slot : Free(before)) used_.insert(slot);
+    for (std::uint32_t slot : Free(after)) used_.erase(slot);
   }
   /// Returns whether the slot has just been taken and holds in the column what a path of
   /// the same sample had there.
   bool Explain(std::size_t column, std::size_t slot) {
-    if (taken_.count(static_cast<std::uint32_t>(slot)) == 0) return false;
+    if (used_.count(static_cast<std::uint32_t>(slot)) == 0) return false;
     if (paths_.empty()) {
       for (std::uint32_t i = 0; i < after_.wave.capacity; ++i) {
-        if (taken_.count(i) == 0) paths_.emplace(SampleOf(i), i);
+        if (used_.count(i) == 0) paths_.emplace(SampleOf(i), i);
       }
     }
     const auto [first, last] = paths_.equal_range(SampleOf(slot));
@@ -57,7 +57,7 @@ class PathCopies {
   }
 
   const WaveState &before_, &after_;
-  std::set<std::uint32_t> taken_;
+  std::set<std::uint32_t> used_;
   std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> paths_;
 };
 

@@ -7,59 +7,59 @@
 
 namespace lanelight {
 
-TEST_CASE("partners name each other, and meet all neighbours", "[ranks]") {
+TEST_CASE("balancing partners are symmetric and include all neighbours", "[ranks]") {
   for (int ranks : {1, 2, 3, 5, 8, 13, 1000}) {
     for (int rank = 0; rank < ranks; ++rank) {
       int met = 0;
-      for (std::uint64_t turn = 0; turn < 10; ++turn) {
-        const int partner = BalancePartner(rank, ranks, turn);
+      for (std::uint64_t round = 0; round < 10; ++round) {
+        const int partner = BalancePartner(rank, ranks, round);
         met += partner >= 0;
         if (partner < 0) continue;
         CHECK(partner < ranks);
         CHECK(partner != rank);
-        CHECK(BalancePartner(partner, ranks, turn) == rank);
+        CHECK(BalancePartner(partner, ranks, round) == rank);
       }
       CHECK((met > 0) == (ranks > 1));
     }
   }
 }
 
-TEST_CASE("what is given lets both end at the same time", "[ranks]") {
+TEST_CASE("transferred samples let both ranks end at the same time", "[ranks]") {
   const RankLoad slow = {3000000, 1e6}, fast = {3000000, 2e6};
-  const auto samples = SamplesToGive(slow, fast);
+  const auto samples = SamplesToTransfer(slow, fast);
   CHECK(double(slow.left - samples) / slow.speed ==
         Approx(double(fast.left + samples) / fast.speed));
-  CHECK(SamplesToGive(fast, slow) == 0);
-  CHECK(SamplesToGive(slow, slow) == 0);
+  CHECK(SamplesToTransfer(fast, slow) == 0);
+  CHECK(SamplesToTransfer(slow, slow) == 0);
   // The speed of this rank and the time of the other are unknown.
-  CHECK(SamplesToGive({3000000, 0}, fast) == 0);
-  CHECK(SamplesToGive(slow, {0, 0}) == slow.left / 2);
+  CHECK(SamplesToTransfer({3000000, 0}, fast) == 0);
+  CHECK(SamplesToTransfer(slow, {0, 0}) == slow.left / 2);
   // A message for a millisecond.
-  CHECK(SamplesToGive({2000, 1e6}, {0, 1e6}) == 0);
+  CHECK(SamplesToTransfer({2000, 1e6}, {0, 1e6}) == 0);
 }
 
-TEST_CASE("a few turns even out any number of ranks", "[ranks]") {
+TEST_CASE("a few balancing rounds even out any number of ranks", "[ranks]") {
   for (int ranks : {2, 3, 6, 16, 37}) {
     std::vector<RankLoad> loads;
     for (int r = 0; r < ranks; ++r) loads.push_back({100000000, 1e6 * (1 + r % 7)});
-    for (std::uint64_t turn = 0; turn < 40; ++turn) {
+    for (std::uint64_t round = 0; round < 40; ++round) {
       for (int r = 0; r < ranks; ++r) {
-        const int partner = BalancePartner(r, ranks, turn);
+        const int partner = BalancePartner(r, ranks, round);
         if (partner < 0) continue;
         RankLoad& from = loads[static_cast<std::size_t>(r)];
         RankLoad& to = loads[static_cast<std::size_t>(partner)];
-        const auto samples = SamplesToGive(from, to);
+        const auto samples = SamplesToTransfer(from, to);
         from.left -= samples;
         to.left += samples;
       }
     }
-    double least = 1e30, most = 0;
+    double minimum = 1e30, maximum = 0;
     for (const RankLoad& load : loads) {
-      least = std::min(least, double(load.left) / load.speed);
-      most = std::max(most, double(load.left) / load.speed);
+      minimum = std::min(minimum, double(load.left) / load.speed);
+      maximum = std::max(maximum, double(load.left) / load.speed);
     }
     INFO(ranks << " ranks");
-    CHECK(most < 1.02 * least);
+    CHECK(maximum < 1.02 * minimum);
   }
 }
 

@@ -64,7 +64,7 @@ void Expect(bool holds) {
 
 // Stops after so many tasks.
 struct CountingWatch : TaskWatcher {
-  explicit CountingWatch(int most) : left(most) {}
+  explicit CountingWatch(int maximum) : left(maximum) {}
   bool Stopped() const override { return left <= 0; }
   void TaskDone() override { --left; }
   std::atomic<int> left;
@@ -72,7 +72,7 @@ struct CountingWatch : TaskWatcher {
 
 }  // namespace
 
-TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
+TEST_CASE("tiles of all ranks count when a run resumes", "[ranks]") {
   const ThreadLimit limit(1);
   RankFixture fixture;
   RunOptions corner = fixture.options;
@@ -88,7 +88,7 @@ TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
     }
     own.threads.Resume({});
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     const auto rank = static_cast<std::size_t>(group.rank());
     const Scheduler& scheduler = own.threads.scheduler();
     Expect(scheduler.Snapshot().size() == (scheduler.tiles().size() + 2 - rank) / 3);
@@ -97,20 +97,20 @@ TEST_CASE("tiles of all ranks count when a run goes on", "[ranks]") {
     Expect(pixels == kPixels);
     Expect(work.Done() == 0);
     // One of them has the corner, and the others know.
-    Expect(own.threads.Levels().most == (rank == 0 ? 2 : 0));
-    Expect(work.Levels().most == 2);
+    Expect(own.threads.Levels().maximum == (rank == 0 ? 2 : 0));
+    Expect(work.Levels().maximum == 2);
     Expect(!work.IsAt(0));
   });
 }
 
-TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
+TEST_CASE("the leader counts the remaining samples of other ranks", "[ranks]") {
   const ThreadLimit limit(1);
   workers_are_slow = true;
   OnRanks(3, [](RankGroup& group) {
     RankFixture own;
     if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     if (!group.leads()) {
       std::vector<std::uint64_t> firsts;
       work.Serve([&](const Round& round) { firsts.push_back(round.begin); }, nullptr);
@@ -120,14 +120,14 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
     }
     CountingWatch hasty(static_cast<int>(own.threads.scheduler().Snapshot().size()));
     work.RunRound({0, 4, 4}, hasty);
-    CHECK(own.threads.Levels().least == 4);
+    CHECK(own.threads.Levels().minimum == 4);
     CHECK(work.Done() == 0);
     workers_are_slow = false;
     CountingWatch patient(1 << 30);
     work.RunRound({0, 12, 4}, patient);
     CHECK(work.Done() == 12);
     CHECK(work.IsAt(12));
-    CHECK(work.Taken() == 12 * kPixels);
+    CHECK(work.RenderedSamples() == 12 * kPixels);
     CHECK(work.Counts().samples < 12 * kPixels);
     work.RunRound({12, 16, 4}, patient);
     work.Gather();
@@ -137,7 +137,7 @@ TEST_CASE("the leader knows what other ranks have not done", "[ranks]") {
   });
 }
 
-TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]") {
+TEST_CASE("moving tiles to a faster rank keeps the image bit-identical", "[ranks]") {
   const ThreadLimit limit(1);
   constexpr std::uint64_t kSpp = 32;
   RankFixture alone;
@@ -148,13 +148,13 @@ TEST_CASE("a fast rank takes tiles from a slow one, and the bits stay", "[ranks]
     RankFixture own;
     if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
-    work.Deal(false, 1);
+    work.AssignTiles(false, 1);
     if (!group.leads()) return work.Serve([](const Round&) {}, nullptr);
     const std::uint64_t dealt = Missing(own.threads, kSpp);
     CHECK(dealt < kSpp * kPixels / 2);
     CountingWatch patient(1 << 30);
     work.RunRound({0, kSpp, 4}, patient);
-    CHECK(own.threads.Taken() > 3 * dealt / 2);
+    CHECK(own.threads.RenderedSamples() > 3 * dealt / 2);
     work.Gather();
     CHECK(work.Counts().samples == kSpp * kPixels);
     CHECK(work.IsAt(kSpp));

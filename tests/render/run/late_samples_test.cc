@@ -8,7 +8,7 @@ namespace lanelight::resume {
 namespace {
 
 // Begins a film with samples that all are 0.
-class LateStart : public RunKeeper {
+class LateStart : public Checkpointer {
  public:
   explicit LateStart(std::uint64_t first) : first_(first) {}
   bool Restore(RunState& state) override {
@@ -32,30 +32,31 @@ class LateStart : public RunKeeper {
 // Sums of samples [first, last), by replicate, of all pixels.
 std::vector<double> SumsOf(const std::string& strategy, std::uint64_t first,
                            std::uint64_t last, int threads = 2) {
-  LateStart keeper(first);
+  LateStart checkpointer(first);
   Request request;
   request.strategy = strategy;
   request.spp = last;
   request.threads = threads;
-  request.keeper = &keeper;
+  request.checkpointer = &checkpointer;
   const Rendered out = Render(request);
   CHECK(out.result.samples == last * kWidth * kHeight);
   CHECK(out.result.stop_reason == StopReason::kSamples);
-  const KeptColumn& sums = keeper.columns[1];
+  const KeptColumn& sums = checkpointer.columns[1];
   std::vector<double> values(sums.bytes.size() / sizeof(double));
   std::memcpy(values.data(), sums.bytes.data(), sums.bytes.size());
   return values;
 }
 
 double Difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  return most;
+  double maximum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    maximum = std::max(maximum, std::abs(a[i] - b[i]));
+  return maximum;
 }
 
 }  // namespace
 
-TEST_CASE("samples beyond the indices of kernels go on under another seed", "[resume]") {
+TEST_CASE("samples beyond 32-bit indices continue under another seed", "[resume]") {
   const std::uint64_t end = kSamplesPerSeed;
   for (const char* strategy : {"points=sobol", "points=pmj02", "points=independent",
                                "points=lattice,pairs=antithetic"}) {
@@ -71,7 +72,7 @@ TEST_CASE("samples beyond the indices of kernels go on under another seed", "[re
     const std::vector<double> first = SumsOf(strategy, 0, 8);
     const std::vector<double> next = SumsOf(strategy, 2 * end, 2 * end + 8);
     const std::vector<double> last =
-        SumsOf(strategy, kMostSamplesPerPixel - 8, kMostSamplesPerPixel);
+        SumsOf(strategy, kMaxSamplesPerPixel - 8, kMaxSamplesPerPixel);
     const std::vector<double>* const all[] = {&before, &after, &first, &next, &last};
     for (const auto* a : all) {
       for (const auto* b : all) CHECK((Difference(*a, *b) > 0.1) == (a != b));

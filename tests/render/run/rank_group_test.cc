@@ -13,7 +13,7 @@
 namespace lanelight {
 namespace {
 
-using resume::Pauser;
+using resume::InterruptingCheckpointer;
 using resume::Request;
 using resume::Rest;
 using resume::Same;
@@ -24,14 +24,14 @@ Rendered RenderOnRanks(int ranks, const Request& request) {
   OnRanks(ranks, [&](RankGroup& group) {
     Request own = request;
     own.group = &group;
-    if (!group.leads()) own.keeper = nullptr;
+    if (!group.leads()) own.checkpointer = nullptr;
     Rendered rendered = resume::Render(own);
     if (group.leads()) out.emplace(std::move(rendered));
   });
   return std::move(*out);
 }
 
-TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
+TEST_CASE("ranks render an image bit-identical to a single process", "[ranks]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic",
         "points=sobol,control=regression", "points=halton,roulette=adjoint",
@@ -51,7 +51,8 @@ TEST_CASE("ranks render the bits of a process alone", "[ranks]") {
   }
 }
 
-TEST_CASE("ranks reach a target where a process alone does", "[ranks]") {
+TEST_CASE("ranks reach a target at the same sample count as a single process",
+          "[ranks]") {
   Request request;
   request.strategy = "points=sobol";
   request.target = 0.002;
@@ -62,7 +63,7 @@ TEST_CASE("ranks reach a target where a process alone does", "[ranks]") {
   CHECK(Same(together.result, alone.result));
 }
 
-TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
+TEST_CASE("checkpoints can be resumed by any number of ranks", "[ranks]") {
   for (const char* strategy :
        {"points=independent,pairs=antithetic", "points=sobol,roulette=efficiency"}) {
     Request request;
@@ -72,13 +73,13 @@ TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
     Rest rest;
     int pauses = 0;
     for (int ranks : {3, 1, 2, 4}) {
-      Pauser pauser(rest, 5 * ranks, /*stops=*/ranks != 4);
-      request.keeper = &pauser;
-      request.stop = &pauser.stop();
+      InterruptingCheckpointer interrupter(rest, 5 * ranks, /*stops=*/ranks != 4);
+      request.checkpointer = &interrupter;
+      request.stop = &interrupter.stop();
       const Rendered part = RenderOnRanks(ranks, request);
       pauses += part.result.stop_reason == StopReason::kInterrupted;
       if (ranks < 4) continue;
-      CHECK(pauser.kept() > 1);
+      CHECK(interrupter.kept() > 1);
       CHECK(Identical(part.film, alone.film));
       CHECK(Same(part.result, alone.result));
       CHECK(rest.counts.samples == 400 * resume::kWidth * resume::kHeight);
@@ -91,25 +92,25 @@ TEST_CASE("runs of any number of ranks go on from each other", "[ranks]") {
 // The traffic to the leader does not grow with the number of ranks. A tile that is
 // transferred on the way brings its part of the film once more. Whether any is
 // transferred depends on time: one render of a few has none.
-TEST_CASE("the film is gathered once where nothing asks for it before", "[ranks]") {
+TEST_CASE("the film is gathered only once if nothing needs it earlier", "[ranks]") {
   Request request;
   request.strategy = "points=sobol";
   request.spp = 64;
   for (int ranks : {2, 4, 7}) {
-    double least = 1e9;
-    for (int i = 0; i < 8 && least >= 1.05; ++i) {
+    double minimum = 1e9;
+    for (int i = 0; i < 8 && minimum >= 1.05; ++i) {
       Rendered rendered = RenderOnRanks(ranks, request);
       std::size_t whole = 0;
       for (const auto& column : rendered.film.Columns()) whole += column.Bytes();
-      least =
-          std::min(least, double(rendered.result.bytes_between_ranks) / double(whole));
+      minimum =
+          std::min(minimum, double(rendered.result.bytes_between_ranks) / double(whole));
     }
     INFO(ranks << " ranks");
-    CHECK(least < 1.05);
+    CHECK(minimum < 1.05);
   }
 }
 
-TEST_CASE("what workers are told arrives bit by bit", "[ranks]") {
+TEST_CASE("messages to worker ranks arrive bit-identical", "[ranks]") {
   RunStart start;
   start.tiles = {{0, 0, 16, 16}, {16, 0, 20, 7}};
   start.have_samples = true;
@@ -122,7 +123,7 @@ TEST_CASE("what workers are told arrives bit by bit", "[ranks]") {
   CHECK(there.planned_training == start.planned_training);
 }
 
-TEST_CASE("what ranks have learned arrives bit by bit", "[ranks]") {
+TEST_CASE("trained tables of ranks arrive bit-identical", "[ranks]") {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const RunTraining training = {
       true,

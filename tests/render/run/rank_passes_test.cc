@@ -38,7 +38,7 @@ bool SameSamples(const TrainingSamples& a, const TrainingSamples& b) {
 
 }  // namespace
 
-TEST_CASE("a pass of several ranks has the samples of one process", "[ranks]") {
+TEST_CASE("a training pass on several ranks has the samples of one process", "[ranks]") {
   const PassFixture fixture;
   const TrainingSamples alone = fixture.Run(nullptr);
   CHECK_FALSE(alone.recorded.empty());
@@ -58,8 +58,8 @@ TEST_CASE("a pass of several ranks has the samples of one process", "[ranks]") {
 TEST_CASE("each task of a pass is rendered by one rank", "[ranks]") {
   std::vector<int> rendered(7);
   for (int rank = 0; rank < 3; ++rank) {
-    Meeting meeting(3);
-    ThreadRank group(meeting, rank);
+    RankExchange exchange(3);
+    ThreadRank group(exchange, rank);
     const RankPasses passes(group, nullptr);
     for (std::size_t task = 0; task < rendered.size(); ++task) {
       rendered[task] += passes.Renders(task);
@@ -68,7 +68,7 @@ TEST_CASE("each task of a pass is rendered by one rank", "[ranks]") {
   CHECK(rendered == std::vector<int>(7, 1));
 }
 
-TEST_CASE("ranks that train together stop together", "[ranks]") {
+TEST_CASE("all ranks stop a training pass together", "[ranks]") {
   const PassFixture fixture;
   const std::atomic<bool> signal{true};
   std::mutex mutex;

@@ -25,7 +25,7 @@ Rendered Render(const Request& request) {
   options.spp = request.spp;
   options.seed = request.seed;
   options.keep_roulette = request.keep_roulette;
-  options.keeper = request.keeper;
+  options.checkpointer = request.checkpointer;
   options.stop = request.stop;
   if (request.target > 0) {
     options.samples_needed = [&](const FilmAccumulator& film, std::uint64_t done) {
@@ -56,11 +56,11 @@ Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,
     const bool last = run >= 12;
     Request part = last || ends.empty() ? request : ends[random() % ends.size()];
     // The last one is looked at while it goes on, the others end there.
-    Pauser pauser(rest, 1 + static_cast<int>(random() % 8), !last);
+    InterruptingCheckpointer interrupter(rest, 1 + static_cast<int>(random() % 8), !last);
     part.threads = 1 + static_cast<int>(random() % 3);
     part.wavefront = random() % 2 == 0 ? 0 : 300;
-    part.keeper = &pauser;
-    part.stop = &pauser.stop();
+    part.checkpointer = &interrupter;
+    part.stop = &interrupter.stop();
     Rendered out = Render(part);
     pauses += out.result.stop_reason == StopReason::kInterrupted;
     if (last) return out;

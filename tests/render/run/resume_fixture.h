@@ -21,10 +21,10 @@ struct Rest : RunRecord {
 };
 
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
-class Pauser : public RunKeeper {
+class InterruptingCheckpointer : public Checkpointer {
  public:
-  Pauser(Rest& rest, int patience, bool stops)
-      : rest_(rest), limit_(patience), stops_(stops) {}
+  InterruptingCheckpointer(Rest& rest, int max_calls, bool stops)
+      : rest_(rest), limit_(max_calls), stops_(stops) {}
 
   bool Restore(RunState& state) override {
     if (!rest_.taken) return false;
@@ -32,11 +32,11 @@ class Pauser : public RunKeeper {
     static_cast<RunRecord&>(state) = rest_;
     return true;
   }
-  bool Due() const override { return asked_.fetch_add(1) >= limit_; }
+  bool Due() const override { return polls_.fetch_add(1) >= limit_; }
   void Keep(RunState& state) override {
     rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
-    asked_ = 0;
+    polls_ = 0;
     if (stops_) stop_ = true;
   }
 
@@ -47,7 +47,7 @@ class Pauser : public RunKeeper {
   Rest& rest_;
   int limit_;
   bool stops_;
-  mutable std::atomic<int> asked_{0};
+  mutable std::atomic<int> polls_{0};
   int kept_ = 0;
   std::atomic<bool> stop_{false};
 };
@@ -58,7 +58,7 @@ struct Request {
   double target = 0;
   int threads = 2;
   std::uint32_t wavefront = 0;
-  RunKeeper* keeper = nullptr;
+  Checkpointer* checkpointer = nullptr;
   const std::atomic<bool>* stop = nullptr;
   RankGroup* group = nullptr;  // of which this is a rank
   bool keep_roulette = true;

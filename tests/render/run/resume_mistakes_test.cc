@@ -13,19 +13,19 @@ using Catch::Contains;
 constexpr std::size_t kPerPixel = 3 * kWidth * kHeight;  // 7770
 
 // Half a run, and what is left of it.
-Rest HalfOf(const Request& request, int patience = 7) {
+Rest HalfOf(const Request& request, int max_calls = 7) {
   Rest rest;
-  Pauser pauser(rest, patience, true);
+  InterruptingCheckpointer interrupter(rest, max_calls, true);
   Request half = request;
-  half.keeper = &pauser;
-  half.stop = &pauser.stop();
+  half.checkpointer = &interrupter;
+  half.stop = &interrupter.stop();
   CHECK(Render(half).result.stop_reason == StopReason::kInterrupted);
   return rest;
 }
 
 FilmAccumulator RestOf(Request request, Rest rest) {
-  Pauser pauser(rest, 1 << 30, true);
-  request.keeper = &pauser;
+  InterruptingCheckpointer interrupter(rest, 1 << 30, true);
+  request.checkpointer = &interrupter;
   return Render(request).film;
 }
 
@@ -41,7 +41,7 @@ std::string ErrorOf(const Request& request, const Rest& rest) {
 
 }  // namespace
 
-TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]") {
+TEST_CASE("planted: losing the decision changes the image", "[resume]") {
   Request request;
   request.strategy = "points=sobol,decide=pilot";
   request.spp = 21;
@@ -54,7 +54,7 @@ TEST_CASE("planted: a run that forgets its decision ends elsewhere", "[resume]")
   CHECK_THROWS_AS(RestOf(request, rest), InputError);
 }
 
-TEST_CASE("planted: a run that forgets anything ends elsewhere", "[resume]") {
+TEST_CASE("planted: losing any part of the checkpoint changes the image", "[resume]") {
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic", "roulette=adjoint"}) {
     Request request;

@@ -27,7 +27,7 @@ const char* const kStrategies[] = {
 
 }  // namespace
 
-TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
+TEST_CASE("a resumed render is bit-identical, also with a higher sample count",
           "[resume]") {
   for (const char* strategy : kStrategies) {
     INFO(strategy);
@@ -55,7 +55,7 @@ TEST_CASE("a run in parts ends at the bits of one run, toward more samples too",
   }
 }
 
-TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
+TEST_CASE("a resumed render may lower its error target", "[resume]") {
   for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
                                "points=cmj,control=regression"}) {
     for (double finest : {0.0004, 0.002}) {
@@ -78,14 +78,14 @@ TEST_CASE("a run in parts may want a finer error each time", "[resume]") {
       CHECK(Identical(parts.film, whole.film));
       CHECK(Same(parts.result, whole.result));
       // Finished samples are not rendered again.
-      Pauser pauser(rest, 1 << 30, true);
-      request.keeper = &pauser;
+      InterruptingCheckpointer interrupter(rest, 1 << 30, true);
+      request.checkpointer = &interrupter;
       CHECK(Same(Render(request).result, whole.result));
     }
   }
 }
 
-TEST_CASE("a roulette that the training passes prefer is kept", "[resume]") {
+TEST_CASE("the roulette chosen by training passes is kept on resume", "[resume]") {
   Request request;
   request.strategy = "points=sobol,roulette=efficiency";
   request.keep_roulette = false;
@@ -100,7 +100,7 @@ TEST_CASE("a roulette that the training passes prefer is kept", "[resume]") {
   CHECK(whole.result.training.samples > 0);
 }
 
-TEST_CASE("a decision is kept, and nothing is decided anew", "[resume]") {
+TEST_CASE("a resumed render keeps its decision", "[resume]") {
   Request request;
   request.strategy = "points=sobol,decide=pilot";
   request.spp = 12;

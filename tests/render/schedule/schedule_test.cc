@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-TEST_CASE("looks are the same whatever is needed, whole units, and few", "[schedule]") {
+TEST_CASE("error checks are at fixed, few, whole sample counts", "[schedule]") {
   const std::uint64_t expected[] = {16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128};
   for (std::uint32_t unit : {1u, 2u}) {
     CHECK(FirstCheck(unit) == 16 * unit);
@@ -58,7 +58,7 @@ Played Play(double budget, double per_sample, double overhead, const Pace::Tasks
     CHECK(round.per_task % tasks.unit == 0);
     now += seconds;
     ++played.rounds;
-    pace.Took(round.samples(), seconds);
+    pace.AddMeasurement(round.samples(), seconds);
   }
   played.end = now;
   return played;
@@ -85,7 +85,7 @@ TEST_CASE("rounds fill a time budget", "[schedule]") {
 TEST_CASE("a first round that takes too long is the only one", "[schedule]") {
   Pace pace(1, {100, 2, 32, 1});
   CHECK(pace.Next(0, 0).samples() == 1);
-  pace.Took(1, 5);
+  pace.AddMeasurement(1, 5);
   CHECK(pace.Reach(5) == 0);
   CHECK(pace.Next(0, 5).samples() == 1);  // the caller sees that the time is over
 }

@@ -40,7 +40,7 @@ std::vector<std::uint64_t> Levels(const Scheduler& scheduler) {
 
 }  // namespace
 
-TEST_CASE("tiles take turns, and none is begun twice at once", "[scheduler]") {
+TEST_CASE("tiles are scheduled in order, each by one thread at a time", "[scheduler]") {
   Scheduler scheduler(Tiles(3));
   scheduler.Resume({{0, 0}, {1, 10}, {2, 4}});
   scheduler.Begin({0, 10, 4}, {});
@@ -67,7 +67,7 @@ TEST_CASE("tiles take turns, and none is begun twice at once", "[scheduler]") {
   CHECK(Levels(scheduler) == std::vector<std::uint64_t>{10, 10, 10});
 }
 
-TEST_CASE("samples that come early wait for their turn", "[scheduler]") {
+TEST_CASE("samples that finish early are merged in order", "[scheduler]") {
   Scheduler scheduler(Tiles(1));
   scheduler.Begin({0, 20, 4}, {4, false});
   const Watch watch;
@@ -92,7 +92,7 @@ TEST_CASE("samples that come early wait for their turn", "[scheduler]") {
   CHECK(Levels(scheduler)[0] == 20);
 }
 
-TEST_CASE("a thread that has to wait goes on, or is let go", "[scheduler]") {
+TEST_CASE("a waiting thread is resumed or released", "[scheduler]") {
   for (const bool stops : {false, true}) {
     Scheduler scheduler(Tiles(1));
     scheduler.Begin({0, 8, 4}, {});
@@ -151,7 +151,7 @@ TEST_CASE("a scheduler releases idle tiles and adopts tiles of others", "[schedu
   CHECK(scheduler.Snapshot().size() == 3);
 }
 
-TEST_CASE("nothing begins once the watcher has stopped it", "[scheduler]") {
+TEST_CASE("no task starts after the watcher's stop", "[scheduler]") {
   Scheduler scheduler(Tiles(2));
   scheduler.Begin({0, 8, 4}, {});
   Watch watch;

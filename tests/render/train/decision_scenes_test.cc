@@ -39,8 +39,7 @@ Choices ChoicesFor(const std::string& scene) {
 
 }  // namespace
 
-TEST_CASE("a pilot sees what rare bright samples cost, and is not ruled by luck",
-          "[decision]") {
+TEST_CASE("a trial run accounts for rare bright samples", "[decision]") {
   if (!HaveSharedScenes()) return;
   const std::string folder = SharedScenes().string();
   // Few bright samples carry the error behind the door; adjoint is 2.7 times as

@@ -67,7 +67,8 @@ double Efficiency(const Rendered& r) {
 
 }  // namespace
 
-TEST_CASE("the pilot plays a milder roulette where late light is most", "[decision]") {
+TEST_CASE("the trial run chooses a milder roulette where late light dominates",
+          "[decision]") {
   // Path reuse is not available with a control variate.
   const Rendered r = Decide(Room(0.9, 100), "control=regression,decide=pilot");
   INFO(r.result.training.note);
@@ -83,7 +84,8 @@ TEST_CASE("the pilot plays a milder roulette where late light is most", "[decisi
 
 // The training of these may end with another roulette, which is not the one that was
 // asked for: path reuse does not go together with that.
-TEST_CASE("a trial beside a roulette that splits renders with it", "[decision]") {
+TEST_CASE("a trial next to a splitting roulette renders with that roulette",
+          "[decision]") {
   SceneDescription corridor =
       ParseScene(std::string(LANELIGHT_SOURCE_DIR) + "/scenes/corridor.pbrt");
   corridor.film.width = corridor.film.height = 64;
@@ -96,7 +98,7 @@ TEST_CASE("a trial beside a roulette that splits renders with it", "[decision]")
   }
 }
 
-TEST_CASE("the pilot has paths serve their block where light comes by bounces",
+TEST_CASE("the trial run chooses path reuse where indirect light dominates",
           "[decision]") {
   const Rendered r = Decide(Room(0.9, 100), "decide=pilot");
   INFO(r.result.training.note);
@@ -111,7 +113,7 @@ TEST_CASE("the pilot has paths serve their block where light comes by bounces",
   CHECK(none.film.groups().dependents == 1);
 }
 
-TEST_CASE("the pilot knows what paths that carry wavelengths can serve",
+TEST_CASE("the trial run considers path reuse only where spectral paths support it",
           "[decision][spectral]") {
   SceneDescription room = Room(0.9, 100);
   room.integrator.transport = Transport::kSpectral;
@@ -134,14 +136,15 @@ TEST_CASE("the pilot knows what paths that carry wavelengths can serve",
   CHECK(r.result.training.note.find("reuse") == std::string::npos);
 }
 
-TEST_CASE("the pilot shortens paths that cost more than they bring", "[decision]") {
+TEST_CASE("the trial run shortens paths that cost more than they gain", "[decision]") {
   // Nothing ends a path but the depth: that has the least variance by far the most rays.
   const Rendered r = Decide(SplitRoom(40), "roulette=throughput:1,decide=pilot");
   INFO(r.result.training.note);
   CHECK(r.result.training.changes != "decide=none");
 }
 
-TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decision]") {
+TEST_CASE("the trial run keeps the strategy where no change is more efficient",
+          "[decision]") {
   // After one event on the plane paths leave.
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
@@ -154,7 +157,7 @@ TEST_CASE("the pilot leaves the strategy as it is where nothing pays", "[decisio
   }
 }
 
-TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
+TEST_CASE("a decision does not depend on threads or wavefronts", "[decision]") {
   for (const SceneDescription& scene : {Room(0.9, 100), SmallRoom(24, 5)}) {
     TestRender t;
     t.spp = 3;
@@ -172,7 +175,7 @@ TEST_CASE("a decision does not hang on threads or wavefronts", "[decision]") {
   }
 }
 
-TEST_CASE("what the pilot chooses is not far below the best candidate", "[decision]") {
+TEST_CASE("the trial run's choice is close to the best candidate", "[decision]") {
   const std::pair<const char*, SceneDescription> scenes[] = {
       {"dark closed room", Room(0.5, 20)},
       {"bright closed room", Room(0.9, 100)},
@@ -195,8 +198,7 @@ TEST_CASE("what the pilot chooses is not far below the best candidate", "[decisi
   }
 }
 
-TEST_CASE("the pilot of a decision takes a few percent of what it is planned for",
-          "[decision]") {
+TEST_CASE("the trial run takes a few percent of the planned samples", "[decision]") {
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
   for (const std::uint64_t planned :
@@ -204,7 +206,7 @@ TEST_CASE("the pilot of a decision takes a few percent of what it is planned for
     const Rendered r = Decide(plane, "decide=pilot", planned);
     const auto samples = double(r.result.training.samples);
     CHECK((samples > 0) == (planned > (1u << 14)));
-    CHECK(samples < 0.05 * double(std::min(planned, kMostDecidedBy)));
+    CHECK(samples < 0.05 * double(std::min(planned, kMaxTrialSamples)));
   }
   // Nothing to choose from: paths end after one event.
   SceneDescription direct = SmallRoom(8, 1);

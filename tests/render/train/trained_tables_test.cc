@@ -26,14 +26,14 @@ StrategyTables SmallTables() {
   fill(p.survive, p.grid.cells());
   fill(p.split, p.grid.cells());
   fill(p.inverse_pixel, 3 * kPixels);
-  fill(tables.shadow_worth.inverse, 3 * kPixels);
+  fill(tables.shadow_threshold.inverse, 3 * kPixels);
   return tables;
 }
 
 std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixels) {
   StrategyTables tables;
   try {
-    PutTraining(trained, pixels, tables);
+    ImportTraining(trained, pixels, tables);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -42,22 +42,22 @@ std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixe
 
 }  // namespace
 
-TEST_CASE("trained tables come back with the same bits", "[state]") {
+TEST_CASE("trained tables round-trip bit-identically", "[state]") {
   const StrategyTables tables = SmallTables();
   StrategyTables back;
-  PutTraining(TakeTraining(tables), kPixels, back);
+  ImportTraining(ExportTraining(tables), kPixels, back);
   CHECK(back.path_values.grid.size[1] == 2);
   CHECK(back.path_values.scale == 0.75f);
   CHECK(back.path_values.survive == tables.path_values.survive);
   CHECK(back.path_values.split == tables.path_values.split);
   CHECK(back.path_values.inverse_pixel == tables.path_values.inverse_pixel);
-  CHECK(back.shadow_worth.inverse == tables.shadow_worth.inverse);
+  CHECK(back.shadow_threshold.inverse == tables.shadow_threshold.inverse);
   // Nothing has been learned.
-  CHECK(ErrorOf(TakeTraining(StrategyTables()), kPixels) == "");
+  CHECK(ErrorOf(ExportTraining(StrategyTables()), kPixels) == "");
 }
 
-TEST_CASE("a trained table of the wrong size is named, with the right one", "[state]") {
-  const std::vector<TrainedTable> good = TakeTraining(SmallTables());
+TEST_CASE("a trained table of the wrong size is refused with both sizes", "[state]") {
+  const std::vector<TrainedTable> good = ExportTraining(SmallTables());
   REQUIRE(good.size() == 5);
   using Values = std::vector<double>;
   const std::function<void(Values&)> faults[] = {
@@ -79,8 +79,8 @@ TEST_CASE("a trained table of the wrong size is named, with the right one", "[st
   CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
 }
 
-TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[state]") {
-  std::vector<TrainedTable> bad = TakeTraining(SmallTables());
+TEST_CASE("an empty per-pixel table next to cells is refused", "[state]") {
+  std::vector<TrainedTable> bad = ExportTraining(SmallTables());
   bad[3].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),
              Contains("'path_values_inverse' has 0 values: 18 are right, 3 for each of "

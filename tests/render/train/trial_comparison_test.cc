@@ -23,49 +23,49 @@ TrialMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
 }  // namespace
 
 TEST_CASE("one strategy is clearly better only by variance times cost", "[decision]") {
-  const TrialMeasure usual = MeasureOf(3, 1);
+  const TrialMeasure baseline = MeasureOf(3, 1);
   // Planted: the cost, or the variance, left out would turn these around.
-  CHECK_FALSE(IsClearlyBetter(MeasureOf(6, 0.7), usual, 0.95));
-  CHECK_FALSE(IsClearlyBetter(MeasureOf(2, 1.6), usual, 0.95));
-  CHECK(IsClearlyBetter(MeasureOf(6, 0.4), usual, 0.95));
-  CHECK(IsClearlyBetter(MeasureOf(2, 1.2), usual, 0.95));
-  CHECK_FALSE(IsClearlyBetter(usual, MeasureOf(6, 0.4), 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(6, 0.7), baseline, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(2, 1.6), baseline, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(6, 0.4), baseline, 0.95));
+  CHECK(IsClearlyBetter(MeasureOf(2, 1.2), baseline, 0.95));
+  CHECK_FALSE(IsClearlyBetter(baseline, MeasureOf(6, 0.4), 0.95));
   // Better by less than the margin.
-  CHECK(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.95));
-  CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), usual, 0.87));
+  CHECK(IsClearlyBetter(MeasureOf(3, 0.9), baseline, 0.95));
+  CHECK_FALSE(IsClearlyBetter(MeasureOf(3, 0.9), baseline, 0.87));
 }
 
-TEST_CASE("single pixels do not decide", "[decision]") {
-  const TrialMeasure usual = MeasureOf(1, 1);
-  TrialMeasure lucky = usual, unlucky = MeasureOf(1, 0.8);
-  TrialMeasure bright = usual;
+TEST_CASE("single pixels do not determine a gain", "[decision]") {
+  const TrialMeasure baseline = MeasureOf(1, 1);
+  TrialMeasure lucky = baseline, unlucky = MeasureOf(1, 0.8);
+  TrialMeasure bright = baseline;
   bright.variances[700] = 1e6;
   CHECK_FALSE(IsClearlyBetter(lucky, bright, 0.95));
   unlucky.variances[31] = 1e6;
-  CHECK(IsClearlyBetter(unlucky, usual, 0.95));
+  CHECK(IsClearlyBetter(unlucky, baseline, 0.95));
   // One in twenty is the strategy's own.
   for (std::size_t i = 0; i < unlucky.variances.size(); i += 20) {
     unlucky.variances[i] = 100;
   }
-  CHECK_FALSE(IsClearlyBetter(unlucky, usual, 0.95));
+  CHECK_FALSE(IsClearlyBetter(unlucky, baseline, 0.95));
   // Equal ones from other samples: a difference of chance, by two standard errors about
   // one time in fifty, and by 5 percent as well.
   int better = 0;
   for (unsigned seed = 2; seed < 102; ++seed) {
-    better += IsClearlyBetter(MeasureOf(1, 1, seed), usual, 0.95);
+    better += IsClearlyBetter(MeasureOf(1, 1, seed), baseline, 0.95);
   }
   CHECK(better < 5);
 }
 
-TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
-  const TrialMeasure usual = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
+TEST_CASE("gains include all pixels and their standard error", "[decision]") {
+  const TrialMeasure baseline = MeasureOf(3, 1), other = MeasureOf(6, 0.7, 2);
   // Means of 2000 exponential variables each: a standard error of 0.032 together.
-  const TrialGain gain = GainOf(other, usual);
+  const TrialGain gain = GainOf(other, baseline);
   CHECK(gain.standard_error == Approx(0.0316).epsilon(0.1));
   CHECK(std::abs(gain.log - std::log(3 / 4.2)) < 5 * gain.standard_error);
-  CHECK(GainOf(usual, other).log == Approx(-gain.log));
-  CHECK(GainOf(usual, usual).log == 0);
-  CHECK(GainOf(usual, usual).standard_error == 0);
+  CHECK(GainOf(baseline, other).log == Approx(-gain.log));
+  CHECK(GainOf(baseline, baseline).log == 0);
+  CHECK(GainOf(baseline, baseline).standard_error == 0);
   // Two pixels of 2000 carry most of the error. Planted: left out, as the worst
   // thousandth.
   TrialMeasure rare = MeasureOf(1, 1, 3);
@@ -76,20 +76,20 @@ TEST_CASE("gains are of all pixels, and know how sure they are", "[decision]") {
   // Nothing was seen of one, or of both.
   const TrialMeasure none = {1, std::vector<double>(2000)};
   CHECK(GainOf(none, none).log == 0);
-  CHECK(GainOf(none, usual).log > 10);
-  CHECK(GainOf(usual, none).log < -10);
+  CHECK(GainOf(none, baseline).log > 10);
+  CHECK(GainOf(baseline, none).log < -10);
 }
 
-TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
+TEST_CASE("a gain carried by few bright samples is not chosen", "[decision]") {
   TriedStrategy entry;
   entry.paired = true;
   entry.measure = MeasureOf(1, 1, 2);
-  entry.usual = MeasureOf(3, 1, 2);
+  entry.baseline = MeasureOf(3, 1, 2);
   CHECK(entry.Beyond(1.05, 2) == Approx(std::log(3 / 1.05)));
   // Both have met the same bright samples: the gain is as large, and looks as sure.
   const auto bright = [&](std::size_t pixels) {
     for (std::size_t i = 0; i < pixels; ++i) {
-      entry.measure.variances[90 * i] = entry.usual.variances[90 * i] = 1e5;
+      entry.measure.variances[90 * i] = entry.baseline.variances[90 * i] = 1e5;
     }
   };
   bright(3);
@@ -99,7 +99,7 @@ TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
   CHECK(entry.Beyond(1.05, 2) == 0);
   bright(20);
   CHECK_FALSE(entry.IsCarriedByFew());
-  CHECK_FALSE(entry.IsToldByTheRest());
+  CHECK_FALSE(entry.IgnoresWorstPixels());
   CHECK(entry.Beyond(1.05, 2) > 1);
   // No error at all is not carried by anything.
   entry.measure = {1, std::vector<double>(2000)};
@@ -109,17 +109,18 @@ TEST_CASE("what few bright samples carry is not chosen", "[decision]") {
 
 // Where few pixels carry the error, a roulette that is milder than the default is judged
 // by all others. Planted: by the few as well; any other change as if it were one.
-TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]") {
+TEST_CASE("strategies that cannot vary more are compared without the worst pixels",
+          "[decision]") {
   TriedStrategy entry;
   entry.measure = MeasureOf(1.2, 0.5, 2);
-  entry.usual = MeasureOf(1, 1, 2);
-  // A bright sample that the usual strategy has not met, though it may.
+  entry.baseline = MeasureOf(1, 1, 2);
+  // A bright sample that the baseline strategy has not met, though it may.
   entry.measure.variances[700] = 1e5;
   CHECK(entry.IsCarriedByFew());
   CHECK(entry.Beyond(1.05, 0.5) == 0);
   CHECK(entry.Gain().log < -2);
-  entry.lives_longer = true;
-  CHECK(entry.IsToldByTheRest());
+  entry.milder_roulette = true;
+  CHECK(entry.IgnoresWorstPixels());
   CHECK(entry.Beyond(1.05, 0.5) ==
         Approx(std::log(1 / (1.2 * 0.5) / 1.05)).epsilon(0.02));
   // Not better, by all others either.
@@ -127,29 +128,29 @@ TEST_CASE("what cannot vary more is told by the rest of the pixels", "[decision]
   CHECK(entry.Beyond(1.05, 0.5) == 0);
 }
 
-TEST_CASE("paths live longer by a milder roulette alone", "[decision]") {
+TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   const PreparedScene scene = PrepareScene(SplitRoom());
   const TrainingOptions training;
-  const auto lives_longer = [&](const std::string& given, const std::string& changes) {
+  const auto milder_roulette = [&](const std::string& given, const std::string& changes) {
     PlanOptions options = WithChanges(scene, {}, given);
     StrategyTrial trial(scene, training, 1, 1 << 16);
-    TriedStrategy usual = ToTry(scene, options, "", 1);
-    TriedStrategy tried = ToTry(scene, options, changes, 1);
+    TriedStrategy baseline = PrepareTrial(scene, options, "", 1);
+    TriedStrategy tried = PrepareTrial(scene, options, changes, 1);
     trial.Begin(1024);
-    REQUIRE(trial.Try(usual, usual));
-    REQUIRE(trial.Try(tried, usual));
-    CHECK_FALSE(usual.lives_longer);
-    return tried.lives_longer;
+    REQUIRE(trial.Try(baseline, baseline));
+    REQUIRE(trial.Try(tried, baseline));
+    CHECK_FALSE(baseline.milder_roulette);
+    return tried.milder_roulette;
   };
-  CHECK(lives_longer("", "roulette=throughput:0:2:4"));
-  CHECK(lives_longer("", "roulette=throughput:0.2"));
-  CHECK(lives_longer("", "roulette=none"));
-  CHECK_FALSE(lives_longer("", "roulette=throughput:0:1"));
-  CHECK_FALSE(lives_longer("", "roulette=throughput:0:2:0.5"));
-  CHECK_FALSE(lives_longer("", "roulette=constant"));
-  CHECK_FALSE(lives_longer("", "roulette=adjoint"));
-  CHECK_FALSE(lives_longer("", "roulette=none,directions=bsdf"));
-  CHECK_FALSE(lives_longer("roulette=none", "roulette=throughput:0:2:4"));
+  CHECK(milder_roulette("", "roulette=throughput:0:2:4"));
+  CHECK(milder_roulette("", "roulette=throughput:0.2"));
+  CHECK(milder_roulette("", "roulette=none"));
+  CHECK_FALSE(milder_roulette("", "roulette=throughput:0:1"));
+  CHECK_FALSE(milder_roulette("", "roulette=throughput:0:2:0.5"));
+  CHECK_FALSE(milder_roulette("", "roulette=constant"));
+  CHECK_FALSE(milder_roulette("", "roulette=adjoint"));
+  CHECK_FALSE(milder_roulette("", "roulette=none,directions=bsdf"));
+  CHECK_FALSE(milder_roulette("roulette=none", "roulette=throughput:0:2:4"));
 }
 
 TEST_CASE("variances of samples that depend on each other are of their observations",

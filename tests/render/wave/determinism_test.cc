@@ -115,7 +115,7 @@ TEST_CASE("images are bit-identical for any threads and wavefront size",
   }
 }
 
-TEST_CASE("paths serve the same pixels for any threads and wavefront size",
+TEST_CASE("path reuse is bit-identical for any threads and wavefront size",
           "[determinism]") {
   for (const char* strategy : {"reuse=block:16", "reuse=block:64:compact",
                                "reuse=block:4:apart,directions=uniform"}) {

@@ -65,7 +65,7 @@ TEST_CASE("film response: means of a render", "[film]") {
 
 // Variances are of what the film holds: by the scatter of the converted replicates, which
 // those of the channels alone do not tell.
-TEST_CASE("film response: variances are of what is written", "[film]") {
+TEST_CASE("film response: variances are of the written values", "[film]") {
   FilmResponse sum;  // all channels hold R + G + B
   sum.matrix = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
   const Responses added = RenderWith(sum, "");
@@ -90,17 +90,17 @@ TEST_CASE("film response: no sample is above the limit", "[film]") {
   limited.max_component = 1.5;
   const Responses render = RenderWith(limited, "seen-lights=paths");
   const Responses plain = RenderWith({}, "seen-lights=paths");
-  double most = 0, before = 0;
+  double maximum = 0, before = 0;
   for (int y = 0; y < 12; ++y) {
     for (int x = 0; x < 12; ++x) {
       const Vec3d xyz = XyzFromSrgb() * render.film.Mean(x, y);
-      most = std::max({most, xyz.x, xyz.y, xyz.z});
+      maximum = std::max({maximum, xyz.x, xyz.y, xyz.z});
       before = std::max(before, (XyzFromSrgb() * plain.film.Mean(x, y)).y);
     }
   }
   CHECK(before > 3);  // the lamp
-  CHECK(most <= 1.5 * (1 + 1e-6));
-  CHECK(most > 1.4);
+  CHECK(maximum <= 1.5 * (1 + 1e-6));
+  CHECK(maximum > 1.4);
 }
 
 // pbrt-v4's RGBFilm::AddSample limits what each camera ray brings: of a lamp of 4, whose

@@ -80,7 +80,7 @@ std::vector<KeptColumn> Continued(const FilmCase& c,
 
 }  // namespace
 
-TEST_CASE("films: put down and picked up are as if nothing had happened", "[films]") {
+TEST_CASE("films: a resumed film is bit-identical", "[films]") {
   for (const FilmCase& c : kCases) {
     INFO(c.name);
     Gathering whole(c), first(c), second(c);
@@ -100,7 +100,7 @@ TEST_CASE("films: put down and picked up are as if nothing had happened", "[film
   }
 }
 
-TEST_CASE("films: each column is needed, and named for itself", "[films]") {
+TEST_CASE("films: each column is required, and errors name it", "[films]") {
   for (const FilmCase& c : kCases) {
     Gathering whole(c), first(c);
     for (int round = 0; round < 6; ++round) whole.Add(round);

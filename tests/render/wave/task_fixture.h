@@ -57,7 +57,7 @@ class TaskFixture {
     tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan);
     run_.tables = &tables_;
-    copies_ = plan.features.Has(Feature::kSplitting) ? kMostCopies : 1;
+    max_split_ = plan.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1;
     if (NeedsTraining(plan)) MakeTrainedTables();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan, run_);
     TilePixels({0, 0, 32, 32}, 32, &pixels_);
@@ -83,7 +83,7 @@ class TaskFixture {
   static constexpr std::uint32_t kSamples = 4;
   static constexpr int kPlanes = 48;  // more than any strategy has
 
-  std::uint32_t Rows() const { return 32 * 32 * kSamples * copies_; }
+  std::uint32_t Rows() const { return 32 * 32 * kSamples * max_split_; }
 
   // Makes the tables that roulettes with training use.
   void MakeTrainedTables() {
@@ -96,7 +96,7 @@ class TaskFixture {
   PreparedScene scene_;
   StrategyTables tables_;
   RunParameters run_;
-  std::uint32_t copies_ = 1;
+  std::uint32_t max_split_ = 1;
   std::unique_ptr<Wavefront> wavefront_;
   std::vector<std::uint32_t> pixels_;
   std::vector<float> buffer_;

@@ -28,7 +28,7 @@ TEST_CASE("tiles cover the window once", "[tiles]") {
   }
 }
 
-TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
+TEST_CASE("tiles contain whole blocks counted from the image's origin", "[tiles]") {
   for (const PixelRect window : {PixelRect{0, 0, 256, 144}, PixelRect{3, 5, 4, 6},
                                  PixelRect{10, 20, 75, 101}, PixelRect{33, 70, 97, 99}}) {
     for (std::uint64_t spp : {1, 4, 32, 100}) {
@@ -44,7 +44,7 @@ TEST_CASE("tiles hold whole blocks from the image's origin on", "[tiles]") {
   }
 }
 
-TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
+TEST_CASE("parts cover all tiles once, in proportion to threads", "[tiles]") {
   const std::vector<PixelRect> tiles = TilesOf({3, 5, 203, 105}, 16);
   for (const std::vector<int>& threads : {std::vector<int>{4},
                                           {1, 1},
@@ -52,8 +52,8 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
                                           {1, 3},
                                           {8, 0, 8},
                                           std::vector<int>(40, 2)}) {
-    for (const int least : {1, 16}) {
-      const auto parts = DealTiles(tiles, threads, least);
+    for (const int minimum : {1, 16}) {
+      const auto parts = DistributeTiles(tiles, threads, minimum);
       REQUIRE(parts.size() == threads.size());
       std::vector<std::uint32_t> all, pixels;
       int seats = 0;
@@ -66,9 +66,9 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
           of_part += pixels.size();
         }
         // Whole tiles, some of which the window cuts off.
-        if (least == 1)
+        if (minimum == 1)
           CHECK(of_part == Approx(20000.0 * threads[r] / seats).margin(900));
-        if (least == 16) CHECK(parts[r].size() >= tiles.size() * threads[r] / seats);
+        if (minimum == 16) CHECK(parts[r].size() >= tiles.size() * threads[r] / seats);
       }
       std::sort(all.begin(), all.end());
       CHECK(all.size() == 20000);
@@ -77,15 +77,15 @@ TEST_CASE("parts cover all tiles once, as threads are many", "[tiles]") {
   }
 }
 
-TEST_CASE("parts have neighbours in turn, and tiles enough", "[tiles]") {
+TEST_CASE("parts alternate between neighbouring tiles and have enough tiles", "[tiles]") {
   const std::vector<PixelRect> tiles = TilesOf({0, 0, 64, 64}, 16);
-  const auto parts = DealTiles(tiles, {1, 1, 1, 1}, 1);
+  const auto parts = DistributeTiles(tiles, {1, 1, 1, 1}, 1);
   for (const auto& part : parts) CHECK(part.size() == 64);
   // Tiles of 4 x 4 pixels: of each block of 8 x 8 every part has one.
   CHECK(parts[0][5].x0 / 8 == parts[3][5].x0 / 8);
   CHECK(parts[0][5].y0 / 8 == parts[3][5].y0 / 8);
   // The tiles of reuse=block stay whole, whoever has none then.
-  const auto whole = DealTiles(tiles, std::vector<int>(20, 1), 16);
+  const auto whole = DistributeTiles(tiles, std::vector<int>(20, 1), 16);
   CHECK(whole[15].size() == 1);
   CHECK(whole[16].empty());
 }

@@ -5,7 +5,7 @@
 
 namespace lanelight {
 
-TEST_CASE("every training's changes, notes and counts count", "[training]") {
+TEST_CASE("outcomes of all trainings are added up", "[training]") {
   TrainingOutcome all;
   TrainingOutcome values, roulette, nothing;
   values.note = "7 cells";

@@ -51,7 +51,7 @@ TEST_CASE("shadow rays visit a likely blocker first", "[accel]") {
   }
 }
 
-TEST_CASE("shadow rays go along their way where children are alike", "[accel]") {
+TEST_CASE("shadow rays use ray order where children are alike", "[accel]") {
   ChildOdds odds[8];
   for (ChildOdds& child : odds) child = {0.4f, 0.3f, 100};
   odds[3] = {};
@@ -74,7 +74,7 @@ TEST_CASE("shadow rays go along their way where children are alike", "[accel]") 
   }
 }
 
-TEST_CASE("no slot to begin with costs less than the chosen order", "[accel]") {
+TEST_CASE("no other first slot costs less than the chosen order", "[accel]") {
   Random random(5);
   int fixed = 0;
   for (int i = 0; i < 500; ++i) {
@@ -100,7 +100,7 @@ TEST_CASE("no slot to begin with costs less than the chosen order", "[accel]") {
   CHECK(fixed > 400);
 }
 
-TEST_CASE("lines through a box are blocked as often as its surface says", "[accel]") {
+TEST_CASE("lines through a box are blocked in proportion to its surface", "[accel]") {
   Random random(6);
   const Geometry soup = brute::Soup(random, 100, 1, 0.9f);
   AccelBox box;

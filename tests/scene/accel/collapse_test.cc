@@ -41,12 +41,12 @@ class RandomTree {
     return cost;
   }
 
-  double LeastCost() const {
-    double least = INFINITY;
+  double MinCost() const {
+    double minimum = INFINITY;
     for (std::uint32_t chosen = 0; chosen < 1u << inner_.size(); ++chosen) {
-      least = std::min(least, Cost(chosen));
+      minimum = std::min(minimum, Cost(chosen));
     }
-    return least;
+    return minimum;
   }
 
   /// Cost of the nodes that Collapse writes.
@@ -109,7 +109,7 @@ TEST_CASE("no choice of wide nodes costs less than the planned one", "[accel]") 
     for (int k = 0; k < 4; ++k) {
       RandomTree tree(leaves, engine);
       INFO(leaves << " leaves, tree " << k);
-      CHECK(tree.CollapsedCost() == Approx(tree.LeastCost()).epsilon(1e-5));
+      CHECK(tree.CollapsedCost() == Approx(tree.MinCost()).epsilon(1e-5));
     }
   }
 }

@@ -128,7 +128,7 @@ TEST_CASE("reinsertion undoes the one mistake of a tree", "[accel]") {
   }
 }
 
-TEST_CASE("reinsertion leaves boxes alone whose areas overflow", "[accel]") {
+TEST_CASE("reinsertion skips boxes whose areas overflow", "[accel]") {
   std::vector<AccelBox> boxes;
   for (int i = 0; i < 40; ++i) {
     boxes.push_back(BoxAt({1e25f * static_cast<float>(i * 7 % 40), 0, 0}, 1e24f));

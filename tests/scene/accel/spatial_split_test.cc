@@ -111,7 +111,7 @@ std::vector<TestRay> RaysAt(const Geometry& g, Random& random, int n) {
 
 }  // namespace
 
-TEST_CASE("boxes of cut triangles leave nothing out", "[accel]") {
+TEST_CASE("boxes of split triangles cover them", "[accel]") {
   Random random(72);
   for (const float length : {0.8f, 2.0f}) {
     const Geometry g = brute::Sticks(random, 4000, length);
@@ -124,7 +124,7 @@ TEST_CASE("boxes of cut triangles leave nothing out", "[accel]") {
   }
 }
 
-TEST_CASE("boxes of cut triangles leave nothing out at any scale", "[accel]") {
+TEST_CASE("boxes of split triangles cover them at any scale", "[accel]") {
   // Segments, points, and triangles in the planes of axes among sticks; areas that
   // overflow or underflow.
   for (const float scale : {1.0f, 1e18f, 1e30f, 1e-18f, 1e-30f}) {
@@ -150,7 +150,7 @@ TEST_CASE("boxes of cut triangles leave nothing out at any scale", "[accel]") {
   }
 }
 
-TEST_CASE("sticks are cut among many small triangles", "[accel]") {
+TEST_CASE("long triangles among many small ones are split", "[accel]") {
   Random random(76);
   const Geometry g = MeshAmongSticks(random);
   for (const int leaf_triangles : {SmallLeaf::kLanes, TriangleLeaf::kLanes}) {
@@ -163,12 +163,12 @@ TEST_CASE("sticks are cut among many small triangles", "[accel]") {
   }
 }
 
-TEST_CASE("meshes of small triangles are not cut", "[accel]") {
+TEST_CASE("meshes of small triangles are not split", "[accel]") {
   const Geometry g = brute::SphereMesh(60, 120, {0, 0, 0}, 1);
   CHECK(References(Collect(MakeScene(g).accel)) == g.triangles.size());
 }
 
-TEST_CASE("cut trees do not depend on the number of threads", "[accel]") {
+TEST_CASE("BVHs with spatial splits do not depend on the number of threads", "[accel]") {
   Random random(73);
   const Geometry g = brute::Sticks(random, 20000, 0.4f);
   const auto build = [&](int threads) {
@@ -181,7 +181,7 @@ TEST_CASE("cut trees do not depend on the number of threads", "[accel]") {
   CHECK(SameBytes(one.triangle_blocks, two.triangle_blocks));
 }
 
-TEST_CASE("rays hit cut triangles as they hit whole ones, bit by bit", "[accel]") {
+TEST_CASE("hits on split triangles are bit-identical to unsplit ones", "[accel]") {
   Random random(74);
   const Geometry g =
       GENERATE_REF(brute::Sticks(random, 4000, 1.0f), MeshAmongSticks(random));

@@ -77,9 +77,9 @@ TEST_CASE("every point of a triangle is in the box of some part of it", "[accel]
     }
     for (int k = 0; k < 50; ++k) {
       const Vec3d p = brute::PointOn(t, random);
-      bool held = false;
-      for (const AccelBox& box : parts) held = held || brute::Holds(box, p);
-      REQUIRE(held);
+      bool covered = false;
+      for (const AccelBox& box : parts) covered = covered || brute::Holds(box, p);
+      REQUIRE(covered);
     }
   }
 }

@@ -115,7 +115,7 @@ TEST_CASE("faces of a mesh file have the power of its area light", "[lights][com
 }
 
 // pbrt-v4 makes triangles of all faces before it displaces them.
-TEST_CASE("displaced faces are triangles with the power each", "[lights][compile]") {
+TEST_CASE("each triangle of a displaced face has the full power", "[lights][compile]") {
   const TemporaryFolder folder;
   folder.Write(
       "quad.ply",

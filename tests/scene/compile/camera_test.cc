@@ -85,7 +85,7 @@ TEST_CASE("compile: orthographic camera", "[scene][compile]") {
   CHECK(Near(VecCast<double>(c.forward), {0, 0, 1}));
 }
 
-TEST_CASE("compile: impossible cameras", "[scene][compile]") {
+TEST_CASE("compile: impossible cameras are refused", "[scene][compile]") {
   SceneDescription d = SquareScene();
   d.camera.where = At(2);
   d.camera.fov = 180;

@@ -18,7 +18,7 @@ TEST_CASE("coat color: the response is the truncated geometric series", "[coat]"
   CHECK(CoatedResponse(1, 1, 5000) == 5000);
 }
 
-TEST_CASE("coat color: a spectrum has the colour it was made for", "[coat]") {
+TEST_CASE("coat color: a spectrum has its specified colour", "[coat]") {
   for (const Rgb rgb : {Rgb{0.8, 0.4, 0.2}, Rgb{0.1, 0.5, 0.3}, Rgb{0.2, 0.2, 0.7},
                         Rgb{0.5, 0.5, 0.5}, Rgb{0.63, 0.065, 0.05}}) {
     const Rgb color = ColorUnderD65(ReflectanceOfRgb(rgb));
@@ -26,7 +26,7 @@ TEST_CASE("coat color: a spectrum has the colour it was made for", "[coat]") {
   }
 }
 
-TEST_CASE("coat color: greys and single bounces are left alone", "[coat]") {
+TEST_CASE("coat color: greys and single bounces are unchanged", "[coat]") {
   CHECK(EffectiveCoatBase({0.7, 0.7, 0.7}, 0.6, 5) == Rgb{0.7, 0.7, 0.7});
   const Rgb color = {0.8, 0.4, 0.2};
   CHECK(Length(EffectiveCoatBase(color, 0.6, 1) - color) < 1e-6);

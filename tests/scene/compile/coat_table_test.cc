@@ -33,7 +33,7 @@ TEST_CASE("a smooth coat transmits what it does not reflect", "[scene][coat]") {
   CHECK(t.transmittance[0] < 1e-4);
 }
 
-TEST_CASE("what enters a coat and what leaves it are in balance", "[scene][coat]") {
+TEST_CASE("transmission into and out of a coat is reciprocal", "[scene][coat]") {
   // Reciprocity: eta^2 (1 - Fi) = mean transmittance from outside (no absorption). Rough
   // interfaces lose light on each side, by single scattering.
   for (double eta : {1.2, 1.5, 2.0}) {

@@ -34,7 +34,7 @@ bool SameTables(const EnvironmentTable& a, const EnvironmentTable& b) {
 
 }  // namespace
 
-TEST_CASE("environment table: compensated texels have what lies above the mean",
+TEST_CASE("environment table: compensated texels keep the part above the mean",
           "[scene][compile]") {
   for (float sun : {0.5f, 5.0f, 500.0f}) {
     const Environment e = TableOf(16, [&](int i, int c) {

@@ -103,7 +103,7 @@ TEST_CASE("compile: environment rotation", "[scene][compile]") {
   }
 }
 
-TEST_CASE("compile: stretched environments keep the volume", "[scene][compile]") {
+TEST_CASE("compile: stretched environments keep their total power", "[scene][compile]") {
   Light light = Infinite();
   light.world_from_light =
       Transform::Rotate(37, {1, 2, 3}) * Transform::Scale({-10, 20, 5});
@@ -133,7 +133,7 @@ TEST_CASE("compile: illuminance of environments as in pbrt", "[scene][compile]")
   CHECK_THROWS_WITH(CompileEnvironment(light, below), Catch::Contains("illuminance"));
 }
 
-TEST_CASE("compile: negative values of an environment are told", "[scene][compile]") {
+TEST_CASE("compile: negative values of an environment are reported", "[scene][compile]") {
   Image image = Grey(2, 1);
   std::vector<Note> notes;
   CompileEnvironment(Infinite(), image, &notes);
@@ -163,7 +163,7 @@ TEST_CASE("compile: a value that is not a number darkens one texel", "[scene][co
   for (std::size_t i = 0; i < 12; ++i) CHECK(e.rgb[i] == (i == 5 ? 0 : 1));
 }
 
-TEST_CASE("compile: images that are no environments", "[scene][compile]") {
+TEST_CASE("compile: invalid environment images are refused", "[scene][compile]") {
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), MakeImage(4, 2, {"R", "G", "B"})),
                     Catch::Contains("scene.pbrt:40:1") && Catch::Contains("4 x 2") &&
                         Catch::Contains("makeequiarea"));

@@ -28,7 +28,7 @@ std::string Triangle(const std::string& size) {
 
 }  // namespace
 
-TEST_CASE("shapes beyond 1e100 are refused where they stand", "[compile]") {
+TEST_CASE("shapes beyond 1e100 are refused with their location", "[compile]") {
   for (const char* size : {"1e101", "1e150", "1e160", "1e200", "1e300"}) {
     INFO(size);
     CHECK_THROWS_WITH(Compile(Triangle(size)),

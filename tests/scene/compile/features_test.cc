@@ -100,7 +100,7 @@ TEST_CASE("compile: features of textures", "[scene][compile]") {
         Split("Triangles Uv Tangents Textures TexturedRoughness ConductorRough"));
 }
 
-TEST_CASE("compile: what is not used contributes nothing", "[scene][compile]") {
+TEST_CASE("compile: unused objects add no features", "[scene][compile]") {
   SceneDescription d = SquareScene();
   AddTexture(d, Checker());
   Texture missing;
@@ -220,7 +220,7 @@ TEST_CASE("compile: interface surfaces vanish", "[scene][compile]") {
   CHECK(scene.geometry.ranges.end == 2);
 }
 
-TEST_CASE("compile: transforms that cannot be", "[scene][compile]") {
+TEST_CASE("compile: invalid transforms are refused", "[scene][compile]") {
   SceneDescription d = SquareScene();
   d.shapes[0].world_from_object = Transform::Scale({1, 0, 1});
   CHECK(CompileError(d).find("scene.pbrt:10:1: error: the transform of this shape cannot "

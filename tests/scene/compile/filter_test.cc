@@ -130,7 +130,7 @@ TEST_CASE("compile: signs only where a filter is negative", "[scene][compile]") 
   CHECK_FALSE(CompileScene(d).features.Has(Feature::kSignedFilter));
 }
 
-TEST_CASE("compile: impossible filters", "[scene][compile]") {
+TEST_CASE("compile: impossible filters are refused", "[scene][compile]") {
   SceneDescription d = SquareScene();
   d.filter = Make(FilterKind::kTriangle, 0, 1);
   CHECK(CompileError(d).find("radius of the pixel filter is 0") != std::string::npos);

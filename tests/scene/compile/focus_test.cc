@@ -103,7 +103,7 @@ TEST_CASE("focus: emitting spheres, and those at a distance, are ordinary", "[co
   }
 }
 
-TEST_CASE("focus: the foot is the nearest point", "[compile]") {
+TEST_CASE("focus: the foot point is the nearest point", "[compile]") {
   const Foot above = FootOn({0, 0, -100}, 100, {0, 0, 2});
   CHECK(above.distance == Approx(2));
   CHECK(Length(above.point) < 1e-12);

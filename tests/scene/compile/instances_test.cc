@@ -85,9 +85,9 @@ SceneDescription TwoObjects() {
 
 TEST_CASE("compile: small instances are copied into the world", "[scene][compile]") {
   const SceneDescription d = TwoObjects();
-  const auto compile = [&](std::uint64_t most) {
+  const auto compile = [&](std::uint64_t max_copies) {
     CompileOptions options;
-    options.copied_triangles = most;
+    options.copied_triangles = max_copies;
     return CompileScene(d, options).geometry;
   };
   const Geometry kept = compile(0);

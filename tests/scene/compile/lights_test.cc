@@ -261,7 +261,7 @@ TEST_CASE("compile: emitters in instances are sampled in the world", "[scene][co
         Approx((3 - scene.center.z) * scene.scale));
 }
 
-TEST_CASE("compile: lights that cannot be", "[scene][compile]") {
+TEST_CASE("compile: invalid lights are refused", "[scene][compile]") {
   SceneDescription d = SquareScene();
   AddAreaLight(d, {});
   SceneDescription plane = d;

@@ -131,7 +131,7 @@ TEST_CASE("compile: hair absorbs by its spectrum", "[scene][compile]") {
   CHECK(green > 3);
 }
 
-TEST_CASE("compile: regular materials are rougher rows behind the others",
+TEST_CASE("compile: regularized materials are appended as rougher rows",
           "[scene][compile]") {
   SceneDescription d;
   d.integrator.regularize = true;
@@ -228,7 +228,7 @@ TEST_CASE("compile: coats", "[scene][compile]") {
   CHECK(t.coat_depth[0] == 10);
 }
 
-TEST_CASE("compile: coats whose medium scatters are kinds of their own", "[compile]") {
+TEST_CASE("compile: coats with a scattering medium have their own kinds", "[compile]") {
   Material m = OfKind(MaterialKind::kCoatedDiffuse);
   m.coat_albedo.constant = {0.1, 0, 2};
   m.coat_g.constant = 0.3;

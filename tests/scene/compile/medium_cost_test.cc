@@ -26,7 +26,7 @@ std::string NoteOf(const std::string& medium, int max_depth = 100000) {
 
 }  // namespace
 
-TEST_CASE("dense media are noted with what a path costs in them", "[compile][media]") {
+TEST_CASE("dense media get a note with the cost of a path", "[compile][media]") {
   const std::string fog = "\"string type\" \"homogeneous\" \"rgb sigma_a\" [ 0 0 0 ] ";
   const std::string thick = fog + "\"rgb sigma_s\" [ 1 5000 1 ]";
   CHECK_THAT(NoteOf(thick), Catch::Contains("7e+03 collisions") &&
@@ -39,7 +39,7 @@ TEST_CASE("dense media are noted with what a path costs in them", "[compile][med
             .empty());
 }
 
-TEST_CASE("media that vary are noted whatever the depth", "[compile][media]") {
+TEST_CASE("heterogeneous media get a note at any depth", "[compile][media]") {
   const std::string grid =
       "\"string type\" \"uniformgrid\" \"integer nx\" 1 \"integer ny\" 1 \"integer nz\" "
       "1 "

@@ -13,10 +13,10 @@ namespace lanelight::test {
 namespace {
 
 // The bound of the cell around a point of the box.
-double MajorantAt(const MediumGrid& grid, Vec3d share) {
+double MajorantAt(const MediumGrid& grid, Vec3d fraction) {
   std::size_t index = 0;
   for (int a = 2; a >= 0; --a) {
-    const int cell = std::min(static_cast<int>(share[a] * kMajorantCells), 15);
+    const int cell = std::min(static_cast<int>(fraction[a] * kMajorantCells), 15);
     index = index * kMajorantCells + static_cast<std::size_t>(cell);
   }
   return grid.majorants[index];
@@ -29,14 +29,14 @@ std::pair<double, double> CheckMajorants(const Medium& medium) {
   double bounds = 0, densities = 0;
   constexpr int kSide = 40;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const Vec3d share = {(i % kSide + 0.5) / kSide, (i / kSide % kSide + 0.5) / kSide,
-                         (i / kSide / kSide + 0.5) / kSide};
-    const Vec3d p =
-        medium.box_min + Vec3d{share.x * size.x, share.y * size.y, share.z * size.z};
+    const Vec3d fraction = {(i % kSide + 0.5) / kSide, (i / kSide % kSide + 0.5) / kSide,
+                            (i / kSide / kSide + 0.5) / kSide};
+    const Vec3d p = medium.box_min +
+                    Vec3d{fraction.x * size.x, fraction.y * size.y, fraction.z * size.z};
     const auto at = reference::MediumAt(medium, medium.world_from_medium.Point(p));
     const double density = at.sigma_s.x / medium.sigma_s.x;
-    bounds += MajorantAt(grid, share), densities += density;
-    if (density > MajorantAt(grid, share))
+    bounds += MajorantAt(grid, fraction), densities += density;
+    if (density > MajorantAt(grid, fraction))
       FAIL("the density " << density << " is above its bound");
   }
   return {bounds / (kSide * kSide * kSide), densities / (kSide * kSide * kSide)};
@@ -61,7 +61,7 @@ int CountAbove(const MediumGrid& spectra, const MediumGrid& bounds) {
   int above = 0;
   reference::Random random(3);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3d share = {random.Uniform(), random.Uniform(), random.Uniform()};
+    const Vec3d fraction = {random.Uniform(), random.Uniform(), random.Uniform()};
     const auto bin = static_cast<std::size_t>(random.Uniform() * kWavelengthBins);
     const double t = SigmoidPlace(CarriedWavelengths().centre[bin]);
     for (std::size_t v = 0; v < 120; ++v) {
@@ -71,15 +71,16 @@ int CountAbove(const MediumGrid& spectra, const MediumGrid& bounds) {
       // Both parts of the extinction, in the place of scattering's red.
       shape.grid[v / 2 * 6 + (v % 2 == 0 ? 0 : 3)] = static_cast<float>(value);
     }
-    const auto at = reference::MediumAt(shape, share);
-    above += at.sigma_a.x + at.sigma_s.x > MajorantAt(bounds, share);
+    const auto at = reference::MediumAt(shape, fraction);
+    above += at.sigma_a.x + at.sigma_s.x > MajorantAt(bounds, fraction);
   }
   return above;
 }
 
 }  // namespace
 
-TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectral]") {
+TEST_CASE("bounds of colours are valid at each wavelength",
+          "[compile][media][spectral]") {
   const Medium medium = RandomColors();
   const MediumGrid spectral =
       CompileMediumGrid(medium, WorldFrame(), Transport::kSpectral);
@@ -89,19 +90,20 @@ TEST_CASE("bounds of colours hold at each wavelength", "[compile][media][spectra
   CHECK(CountAbove(spectral, CompileMediumGrid(medium, WorldFrame())) > 10);
 }
 
-TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spectral]") {
+TEST_CASE("spectra of voxels have their specified colours",
+          "[compile][media][spectral]") {
   reference::Random random(5);
   double mean = 0;
   for (int i = 0; i < 500; ++i) {
     const Rgb color = {random.Uniform() * 3, random.Uniform() * 3, random.Uniform() * 3};
     const VoxelSpectrum s = SpectrumOfVoxel(color);
     const SigmoidSpectrum shape = {{s.c[0], s.c[1], s.c[2]}};
-    double most = 0;
+    double maximum = 0;
     const std::vector<float> values =
         BinValues([&](double nm) { return s.scale * shape(nm); });
-    for (const float v : values) most = std::max(most, double{v});
-    CHECK(most <= LargestOf(s));
-    CHECK(LargestOf(s) <= most * 1.01 + 1e-6);
+    for (const float v : values) maximum = std::max(maximum, double{v});
+    CHECK(maximum <= LargestOf(s));
+    CHECK(LargestOf(s) <= maximum * 1.01 + 1e-6);
     mean += Length(ColorOfBins(values) - color) / Length(color) / 500;
   }
   CHECK(mean < 3e-3);
@@ -110,7 +112,7 @@ TEST_CASE("spectra of voxels have the colours asked for", "[compile][media][spec
   CHECK(LargestOf(SpectrumOfVoxel({})) == 0);
 }
 
-TEST_CASE("bounds of clouds and NanoVDB grids hold", "[compile][media]") {
+TEST_CASE("bounds of clouds and NanoVDB grids are valid", "[compile][media]") {
   const TemporaryFolder folder;
   CheckMajorants(SparseLump(folder));
   CheckMajorants(CloudLump());
@@ -155,14 +157,14 @@ TEST_CASE("the table of black bodies", "[compile][media]") {
   medium.emission = {1, 1, 1};
   const BlackbodyTable table = CompileMediumEmission(medium, Transport::kRgb).blackbody;
   for (double kelvin = 1000; kelvin < 20000; kelvin *= 1.0117) {
-    const double at = std::log(kelvin / kLeastKelvin) * table.entries_per_log;
+    const double at = std::log(kelvin / kMinKelvin) * table.entries_per_log;
     const auto i = static_cast<std::size_t>(at);
     const Rgb expected = RgbOfBlackbody(kelvin);
-    const double most = std::max({expected.x, expected.y, expected.z});
+    const double maximum = std::max({expected.x, expected.y, expected.z});
     for (int c = 0; c < 3; ++c) {
       const double low = table.colors[3 * i + c], high = table.colors[3 * i + 3 + c];
       const double found = low + (at - static_cast<double>(i)) * (high - low);
-      CHECK(std::abs(found - expected[c]) < 1e-3 * most);
+      CHECK(std::abs(found - expected[c]) < 1e-3 * maximum);
     }
   }
 }

@@ -56,7 +56,7 @@ TEST_CASE("a long chain of scaled constants is a constant", "[compile]") {
   CHECK(scene.materials.color0_b[0] == 0.75f);
 }
 
-TEST_CASE("a long chain of what is no constant is refused", "[compile]") {
+TEST_CASE("a long chain of non-constant textures is refused", "[compile]") {
   CHECK_THROWS_WITH(Compile(kChecker + ChainOfScales()),
                     Contains("nested.pbrt:") && Contains("combines more than 31 others"));
 }
@@ -92,7 +92,7 @@ TEST_CASE("constants are found through every operand", "[compile]") {
   CHECK(kept[4].kind == TextureKind::kConstant);
 }
 
-TEST_CASE("mixes of materials may be nested as deep as a file likes", "[compile]") {
+TEST_CASE("mixes of materials may be nested to any depth", "[compile]") {
   std::string text = "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\"\n";
   for (int i = 1; i <= 100000; ++i) {
     text += fmt::format(

@@ -35,7 +35,7 @@ constexpr const char* kFar = "Translate 1.2 3.5e38 -1\n";
 
 }  // namespace
 
-TEST_CASE("a light beyond float32 is refused where it stands", "[compile]") {
+TEST_CASE("a light position beyond float32 is refused with its location", "[compile]") {
   for (const char* light : {"\"point\"", "\"spot\"", "\"point\" \"float power\" 10"}) {
     INFO(light);
     const std::string text = std::string("LightSource ") + light + "\n";
@@ -110,7 +110,7 @@ TEST_CASE("shapes too small beside the scene are left out with a note", "[compil
   CHECK_THAT(NotesOf(instances), Contains("far.pbrt:10:") && Contains("far.pbrt:12:"));
 }
 
-TEST_CASE("media are compiled into numbers", "[compile]") {
+TEST_CASE("compiled media have finite values", "[compile]") {
   const std::string far =
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2] "
       "\"point3 P\" [0 0 0 1 0 0 0 1e60 1]\n";

@@ -64,7 +64,8 @@ TEST_CASE("rectangles: two halves are found, whichever corner comes first", "[co
   CHECK(FindRectangles(none).empty());
 }
 
-TEST_CASE("rectangles: rounding of turned and distant ones is allowed for", "[compile]") {
+TEST_CASE("rectangles: rotated and distant ones are found despite rounding",
+          "[compile]") {
   std::mt19937 random(3);
   const auto u = [&] { return double(random() % 100000) / 100000 - 0.5; };
   for (int i = 0; i < 200; ++i) {
@@ -79,7 +80,7 @@ TEST_CASE("rectangles: rounding of turned and distant ones is allowed for", "[co
   }
 }
 
-TEST_CASE("rectangles: what is none stays two triangles", "[compile]") {
+TEST_CASE("rectangles: other quads stay two triangles", "[compile]") {
   const auto count = [](std::vector<TriangleRecord> mesh) {
     return FindRectangles(mesh).size();
   };
@@ -101,7 +102,7 @@ TEST_CASE("rectangles: what is none stays two triangles", "[compile]") {
   CHECK(count(mesh) == 1);
 }
 
-TEST_CASE("rectangles: every cell of a grid is one", "[compile]") {
+TEST_CASE("rectangles: every cell of a grid is found", "[compile]") {
   std::vector<TriangleRecord> mesh;
   for (int i = 0; i < 30; ++i) {
     const auto cell = Quad({0.1 * (i % 6), 0.3 * (i / 6), 1}, {0.1, 0, 0}, {0, 0.3, 0});

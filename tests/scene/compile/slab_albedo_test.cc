@@ -34,7 +34,7 @@ double Walk(double albedo, double g, double eta, reference::Random& random) {
 
 }  // namespace
 
-TEST_CASE("slabs reflect what walks bring out of them", "[compile][subsurface]") {
+TEST_CASE("slab reflectances agree with random walks", "[compile][subsurface]") {
   struct Slab {
     double albedo, g, eta;
   };
@@ -56,7 +56,8 @@ TEST_CASE("slabs reflect what walks bring out of them", "[compile][subsurface]")
   }
 }
 
-TEST_CASE("albedos of slabs are found from what they reflect", "[compile][subsurface]") {
+TEST_CASE("albedos of slabs are inverted from their reflectance",
+          "[compile][subsurface]") {
   for (const double g : {0.0, 0.8}) {
     for (const double eta : {1.0, 1.33, 1.8}) {
       const SlabAlbedos albedos(g, eta);

@@ -101,25 +101,25 @@ TEST_CASE("tessellation: within the stated tolerance, inside", "[compile]") {
   for (const auto& [shape, tolerance] : RoundCases()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
     const TriangleMesh mesh = Tessellate(shape, tolerance);
-    double least = 0, most = -1;
+    double minimum = 0, maximum = -1;
     for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
       for (const auto& w :
            {std::array<double, 3>{1. / 3, 1. / 3, 1. / 3},
             std::array<double, 3>{0.5, 0.5, 0}, std::array<double, 3>{0, 0.5, 0.5},
             std::array<double, 3>{0.5, 0, 0.5}}) {
         const double outside = Outside(shape, At(mesh, t, w).p);
-        least = std::min(least, outside);
-        most = std::max(most, outside);
+        minimum = std::min(minimum, outside);
+        maximum = std::max(maximum, outside);
       }
     }
-    CHECK(most <= 1e-15);
-    CHECK(least >= -tolerance);
+    CHECK(maximum <= 1e-15);
+    CHECK(minimum >= -tolerance);
     // And no finer than need be.
-    if (shape.kind != ShapeKind::kDisk) CHECK(least <= -0.4 * tolerance);
+    if (shape.kind != ShapeKind::kDisk) CHECK(minimum <= -0.4 * tolerance);
   }
 }
 
-TEST_CASE("tessellation: normals and coordinates are pbrt's", "[compile]") {
+TEST_CASE("tessellation: normals and coordinates agree with pbrt", "[compile]") {
   for (const auto& [shape, tolerance] : RoundCases()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max, tolerance);
     const TriangleMesh mesh = Tessellate(shape, tolerance);
@@ -157,7 +157,7 @@ double AreaOf(const TriangleMesh& mesh) {
   return area;
 }
 
-TEST_CASE("tessellation: areas, so that nothing is missing or double", "[compile]") {
+TEST_CASE("tessellation: areas add up, without gaps or overlaps", "[compile]") {
   const auto part = [](const Shape& s) { return s.phi_max / 360 * 2 * kPi; };
   for (const Shape& shape : RoundShapes()) {
     CAPTURE(static_cast<int>(shape.kind), shape.radius, shape.phi_max);
@@ -198,7 +198,8 @@ TEST_CASE("tessellation: a mirror turns the normal, as in pbrt", "[compile]") {
   }
 }
 
-TEST_CASE("tessellation: only what has no exact form", "[compile]") {
+TEST_CASE("tessellation: only shapes without an exact form are tessellated",
+          "[compile]") {
   const Transform plain = Transform::Scale({2, 2, 2}), bent = Transform::Scale({1, 2, 1});
   CHECK_FALSE(IsTessellated(SphereShape(5, 0), plain));
   CHECK_FALSE(IsTessellated(PartOfSphere(5, -5, 5, 360), plain));
@@ -221,7 +222,7 @@ TEST_CASE("tessellation: only what has no exact form", "[compile]") {
   CHECK(scene.geometry.triangles.size() > 1000);
 }
 
-TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
+TEST_CASE("tessellation: the tolerance follows the camera's resolution", "[compile]") {
   for (const double unit : {1e-6, 1.0, 1e6}) {
     CAPTURE(unit);
     SceneDescription d;
@@ -234,7 +235,7 @@ TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
       placed.shape = &shape;
       placed.transform = Transform::Translate({0, 0, (5 + distance + 3) * unit}) *
                          Transform::Scale({unit, 2 * unit, unit});
-      return SeenTolerance(placed, d.camera, d.film);
+      return CameraTolerance(placed, d.camera, d.film);
     };
     const Shape tube = Cylinder(1.5, 0, 0, 360), ball = PartOfSphere(1.5, 0, 1, 360);
     // Largest radius 3; a pixel is 1/50 of the distance.
@@ -252,7 +253,7 @@ TEST_CASE("tessellation: as fine as the camera sees it", "[compile]") {
   }
 }
 
-TEST_CASE("tessellation: nothing is left of some shapes", "[compile]") {
+TEST_CASE("tessellation: degenerate shapes give no triangles", "[compile]") {
   for (Shape shape : {Cylinder(1, 1, 1, 360), Cylinder(1, 0, 1, 0),
                       PartOfSphere(1, 0.5, 0.5, 360), PartOfDisk(1, 0, 0, 0)}) {
     SceneDescription d = SquareScene();

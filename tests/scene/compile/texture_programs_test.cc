@@ -19,7 +19,7 @@ Texture At(Texture t, int line) {
 
 }  // namespace
 
-TEST_CASE("a file and encoding is packed once", "[texture]") {
+TEST_CASE("an image file is stored once per encoding", "[texture]") {
   const TemporaryFolder folder;
   Texture t = ImageTexture(folder.Write("a.tga", RandomTga(4, 4, 24, 1)));
   std::vector<Texture> textures = {t, t, t, t};
@@ -65,7 +65,7 @@ TEST_CASE("bytes are decoded by their encoding", "[texture]") {
   CHECK(DecodeByte(128, Encoding::kGamma, 2.2) == Approx(std::pow(128 / 255.0, 2.2)));
 }
 
-TEST_CASE("textures that cannot be loaded name their place and file", "[texture]") {
+TEST_CASE("unreadable textures are errors with location and file", "[texture]") {
   const TemporaryFolder folder;
   Texture t = At(ImageTexture(folder.File("absent.png")), 42);
   CHECK_THROWS_WITH(CompileTextures({t}), Catch::StartsWith("scene.pbrt:42:3: error: ") &&
@@ -78,7 +78,7 @@ TEST_CASE("textures that cannot be loaded name their place and file", "[texture]
                     Catch::Contains("depth.exr: its channels (X, Z) are no colour"));
 }
 
-TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") {
+TEST_CASE("non-finite texels are replaced, with a note", "[texture]") {
   const TemporaryFolder folder;
   Image image = MakeImage(2, 2, {"R", "G", "B"});
   image.pixels.assign(12, 0.5f);
@@ -102,7 +102,7 @@ TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") 
   CHECK(notes.size() == 1);
 }
 
-TEST_CASE("a texture may combine only so many others", "[texture]") {
+TEST_CASE("the number of combined textures is limited", "[texture]") {
   std::vector<Texture> textures;
   Texture t;
   t.name = "deep";

@@ -56,7 +56,8 @@ std::vector<float> Coordinates(const CompiledScene& scene) {
   return out;
 }
 
-TEST_CASE("compile: powers of two and offsets change nothing", "[scene][compile]") {
+TEST_CASE("compile: scaling by powers of two and offsets do not change the image",
+          "[scene][compile]") {
   const std::vector<float> expected = Coordinates(CompileScene(Varied(Transform())));
   for (int exponent : {-100, -30, 30, 100}) {
     const double s = std::ldexp(1.0, exponent);

@@ -5,7 +5,7 @@
 
 namespace lanelight {
 
-TEST_CASE("scene names: files, or folders where files say nothing", "[scene]") {
+TEST_CASE("scene names: file names, or folder names for generic files", "[scene]") {
   CHECK(SceneNames({"a/box.pbrt", "kitchen/reference.pbrt", "attic/scene-v4.pbrt",
                     "b/box.pbrt", "b/kitchen.pbrt"}) ==
         std::vector<std::string>{"box", "kitchen", "attic", "box-2", "kitchen-2"});

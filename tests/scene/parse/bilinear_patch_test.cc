@@ -29,7 +29,7 @@ double Size(const BilinearPatch& patch) {
 // The farthest that the middles of faces and sides are from the patch.
 double FarthestOff(const BilinearPatch& patch) {
   const TriangleMesh mesh = MeshOf(patch);
-  double most = 0;
+  double maximum = 0;
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     for (const auto& w : {Vec3d{0.5, 0.5, 0}, Vec3d{0, 0.5, 0.5}, Vec3d{0.5, 0, 0.5},
                           Vec3d{1, 1, 1} / 3.0}) {
@@ -41,13 +41,13 @@ double FarthestOff(const BilinearPatch& patch) {
         u += mesh.uvs[i][0] * w[k];
         v += mesh.uvs[i][1] * w[k];
       }
-      most = std::max(most, Length(p - patch.Point(u, v)));
+      maximum = std::max(maximum, Length(p - patch.Point(u, v)));
     }
   }
-  return most;
+  return maximum;
 }
 
-TEST_CASE("curved patches: within the tolerance, and no finer", "[parse]") {
+TEST_CASE("curved patches: tessellated to the tolerance and no finer", "[parse]") {
   int last = 0;
   for (const double lift : {0.31, 0.4, 1.0, 3.0, -20.0}) {
     CAPTURE(lift);
@@ -93,13 +93,12 @@ TEST_CASE("curved patches: given normals and coordinates are bilinear", "[parse]
   }
 }
 
-TEST_CASE("flat patches: normals are bilinear between four that are not even",
-          "[parse]") {
+TEST_CASE("flat patches: four different normals are interpolated bilinearly", "[parse]") {
   BilinearPatch patch;
   patch.p = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
   patch.n = {{{-0.2, 0, 1}, {0.2, 0, 1}, {0, 0.3, 1}, {0, -0.3, 1}}};
   const TriangleMesh mesh = MeshOf(patch);
-  CHECK(mesh.turns_tangents);
+  CHECK(mesh.rotates_tangents);
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     Vec3d p, n;  // in the middle of each triangle, as kernels interpolate
     for (std::size_t k = 0; k < 3; ++k) {
@@ -114,9 +113,9 @@ TEST_CASE("flat patches: normals are bilinear between four that are not even",
   // Two triangles have the normals of those that change evenly.
   patch.n = {{{-0.2, 0, 1}, {0.2, 0, 1}, {-0.2, 0, 1}, {0.2, 0, 1}}};
   CHECK(MeshOf(patch).indices.size() == 6);
-  CHECK(MeshOf(patch).turns_tangents);
+  CHECK(MeshOf(patch).rotates_tangents);
   patch.n.reset();
-  CHECK_FALSE(MeshOf(patch).turns_tangents);
+  CHECK_FALSE(MeshOf(patch).rotates_tangents);
 }
 
 TEST_CASE("patches of a scene: curved, crossing and flat ones", "[parse]") {

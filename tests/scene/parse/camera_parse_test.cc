@@ -214,7 +214,7 @@ TEST_CASE("disablepixeljitter looks through the centres of pixels", "[parse]") {
         FilterKind::kGaussian);
 }
 
-TEST_CASE("a film has a color space, a white balance and a limit", "[parse]") {
+TEST_CASE("a film has a color space, a white balance and a sample limit", "[parse]") {
   const Film plain = ParseOptionsBlock("Film \"rgb\" \"string sensor\" \"cie1931\"").film;
   CHECK(plain.response.IsIdentity());
   const auto scene = ParseOptionsBlock(R"(

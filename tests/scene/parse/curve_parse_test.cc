@@ -94,7 +94,7 @@ TEST_CASE("strands one after the other become one shape", "[parse][curves]") {
   CHECK(CurvesOf(scene, 3).size() == 2);
 }
 
-TEST_CASE("what cannot be seen of curves is left out, and noted", "[parse][curves]") {
+TEST_CASE("invisible curves are left out with a note", "[parse][curves]") {
   const auto none = ParseWorld("Shape \"curve\" \"float width\" 0 " + kSeven);
   CHECK(none.shapes.empty());
   CHECK(none.notes.size() == 1);
@@ -104,7 +104,7 @@ TEST_CASE("what cannot be seen of curves is left out, and noted", "[parse][curve
   CHECK(half.notes.size() == 1);
 }
 
-TEST_CASE("curves emit nothing and have no inside", "[parse][curves]") {
+TEST_CASE("curves cannot emit or bound media", "[parse][curves]") {
   const auto scene = ParseWorld(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
       "MediumInterface \"fog\" \"\"\nAreaLightSource \"diffuse\"\n"

@@ -137,7 +137,7 @@ TEST_CASE("attributes are defaults that may stay unused", "[parse]") {
   CHECK(scene.shapes[3].radius == 1);
 }
 
-TEST_CASE("mistakes that pbrt-v4 lets pass are warnings", "[parse]") {
+TEST_CASE("mistakes that pbrt-v4 accepts are warnings", "[parse]") {
   const SceneDescription scene = ParseText(R"(
     ColorSpace "REC2020"  ColorSpace "srbg"
     WorldBegin
@@ -165,7 +165,7 @@ TEST_CASE("a coordinate system replaces both transforms", "[parse]") {
   CHECK(Near(Origin(scene.shapes[0]), {0, 0, 0}));
 }
 
-TEST_CASE("options are known in any spelling that pbrt-v4 takes", "[parse]") {
+TEST_CASE("options accept every spelling that pbrt-v4 accepts", "[parse]") {
   CHECK(ParseText("Option \"Force-Diffuse\" true WorldBegin").integrator.force_diffuse);
 }
 
@@ -300,7 +300,7 @@ TEST_CASE("windows of the film are sorted, clamped or ignored as in pbrt-v4", "[
   }
 }
 
-TEST_CASE("values that pbrt-v4 replaces are warned of", "[parse]") {
+TEST_CASE("values that pbrt-v4 replaces give warnings", "[parse]") {
   const auto warned = [](const std::string& text, const std::string& counts) {
     const SceneDescription scene = ParseWorld(text);
     CAPTURE(text);

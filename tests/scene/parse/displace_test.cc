@@ -90,7 +90,7 @@ TEST_CASE("displaced: along given normals, by the texture, with new normals", "[
   CHECK(turned < 1e-6);
 }
 
-TEST_CASE("displaced: too fine is refused before it fills the memory", "[parse]") {
+TEST_CASE("displaced: too many triangles are refused before allocation", "[parse]") {
   const std::vector<Texture> textures = {Constant(0.25)};
   CHECK_THROWS_WITH(Displace(Square(), Transform(), 1e-6, HeightTexture(textures, 0)),
                     Catch::Contains("displacement makes more than 50000000 triangles"));

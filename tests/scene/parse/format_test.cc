@@ -42,7 +42,8 @@ FormatTable Only(const std::string& directive, const std::string& type) {
 
 }  // namespace
 
-TEST_CASE("every line of docs/pbrt-format.md is true", "[parse][format]") {
+TEST_CASE("every statement of docs/pbrt-format.md agrees with the parser",
+          "[parse][format]") {
   const TemporaryFolder folder;
   WriteFormatFiles(folder.File(""));
   CHECK(Count(Document(), true) > 60);
@@ -52,8 +53,7 @@ TEST_CASE("every line of docs/pbrt-format.md is true", "[parse][format]") {
   for (const std::string& fault : faults.all()) FAIL_CHECK(fault);
 }
 
-TEST_CASE("docs/pbrt-format.md has every parameter that the parser takes",
-          "[parse][format]") {
+TEST_CASE("docs/pbrt-format.md has every parameter of the parser", "[parse][format]") {
   const TemporaryFolder folder;
   WriteFormatFiles(folder.File(""));
   FormatFaults faults(folder.File(""));
@@ -61,7 +61,7 @@ TEST_CASE("docs/pbrt-format.md has every parameter that the parser takes",
   for (const std::string& fault : faults.all()) FAIL_CHECK(fault);
 }
 
-TEST_CASE("docs/pbrt-format.md has every type and directive that the parser takes",
+TEST_CASE("docs/pbrt-format.md has every type and directive of the parser",
           "[parse][format]") {
   const TemporaryFolder folder;
   CHECK(Supported(RunFormatScene(kUnknown, folder.File("")).error).size() >= 40);
@@ -70,7 +70,7 @@ TEST_CASE("docs/pbrt-format.md has every type and directive that the parser take
   for (const std::string& fault : faults.all()) FAIL_CHECK(fault);
 }
 
-TEST_CASE("what is wrong with a document of pbrt's format is found", "[parse][format]") {
+TEST_CASE("faults of a format document are detected", "[parse][format]") {
   const TemporaryFolder folder;
   WriteFormatFiles(folder.File(""));
   const auto count = [&](auto find, const FormatTable& table) {
@@ -95,7 +95,7 @@ TEST_CASE("what is wrong with a document of pbrt's format is found", "[parse][fo
   CHECK(count(&FormatFaults::FindMissingTypes, all) == 2);
 }
 
-TEST_CASE("docs/pbrt-format.md is what the program prints, and sums itself up",
+TEST_CASE("docs/pbrt-format.md equals the program's output and has correct totals",
           "[parse][format]") {
   INFO("the build has another docs/pbrt-format.md than there is now");
   CHECK((ReadText("docs/pbrt-format.md") == FormatDocument()));

@@ -59,7 +59,7 @@ TEST_CASE("textures may be used before they are defined", "[parse]") {
   CHECK(texture(MaterialOf(scene, 1 - sphere).uroughness.texture).value.x == 0.25);
 }
 
-TEST_CASE("a float texture of a name does not stand for a colour of it", "[parse]") {
+TEST_CASE("float and spectrum textures have separate names", "[parse]") {
   const SceneDescription scene = ParseWorld(
       kNumber + "Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"\n" +
       kColor);
@@ -67,7 +67,7 @@ TEST_CASE("a float texture of a name does not stand for a colour of it", "[parse
   CHECK_FALSE(scene.textures.at(static_cast<std::size_t>(texture)).is_float);
 }
 
-TEST_CASE("parts of a mix may be defined after it", "[parse]") {
+TEST_CASE("materials of a mix may be defined after it", "[parse]") {
   const SceneDescription scene = ParseWorld(R"(
     Material "mix" "string materials" [ "glass" "b" ] "texture amount" "t"
     Shape "sphere"
@@ -119,7 +119,7 @@ TEST_CASE("names without definition are errors only where they are used", "[pars
                        "defined"));
 }
 
-TEST_CASE("notes of statements that wait are there once", "[parse]") {
+TEST_CASE("notes of deferred statements are printed once", "[parse]") {
   const SceneDescription scene = ParseWorld(
       "Material \"none\" \"texture displacement\" \"t\" Shape \"sphere\"\n"
       "Material \"mix\" \"string materials\" [ \"glass\" \"glass\" ] \"texture amount\" "
@@ -130,7 +130,7 @@ TEST_CASE("notes of statements that wait are there once", "[parse]") {
   CHECK(different.size() == scene.notes.size());
 }
 
-TEST_CASE("definitions that need themselves are errors", "[parse]") {
+TEST_CASE("circular definitions are errors", "[parse]") {
   const std::string loop =
       "Texture \"a\" \"float\" \"scale\" \"texture tex\" \"b\"\n"
       "Texture \"b\" \"float\" \"scale\" \"texture tex\" \"a\"\n";

@@ -12,7 +12,7 @@
 namespace lanelight {
 namespace {
 
-TEST_CASE("heights are what the reference makes of the same textures", "[parse]") {
+TEST_CASE("displacement heights agree with the reference", "[parse]") {
   const TemporaryFolder folder;
   WritePfm(folder.File("grey.pfm"), RandomFloats(5, 3, 1, 1));
   WritePfm(folder.File("color.pfm"), RandomFloats(4, 6, 3, 2));
@@ -43,17 +43,17 @@ TEST_CASE("heights are what the reference makes of the same textures", "[parse]"
   for (Index i = 0; i < static_cast<Index>(textures.size()); ++i) {
     REQUIRE(HeightTexture::Problem(textures, i) == "");
     const HeightTexture height(textures, i);
-    double most = 0;
+    double maximum = 0;
     for (int k = 0; k < 200; ++k) {
       const double u = 4 * random.Uniform() - 2, v = 4 * random.Uniform() - 2;
-      most = std::max(most, std::abs(height.At(u, v) - truth.Eval(i, u, v).x));
+      maximum = std::max(maximum, std::abs(height.At(u, v) - truth.Eval(i, u, v).x));
     }
     CAPTURE(i);
-    CHECK(most < 1e-6);
+    CHECK(maximum < 1e-6);
   }
 }
 
-TEST_CASE("textures that heights cannot come from", "[parse]") {
+TEST_CASE("unsupported displacement textures are refused", "[parse]") {
   Texture scale = FloatTexture(TextureKind::kScale);
   scale.tex1.texture = 0;
   Texture placed = FloatTexture(TextureKind::kCheckerboard);

@@ -41,7 +41,7 @@ TEST_CASE("tokens have kinds and places", "[parse]") {
   CHECK(lexer.Where(t[7]).ToString() == "a.pbrt:3:1");
 }
 
-TEST_CASE("lines end with LF, CR LF or CR alone, comments too", "[parse]") {
+TEST_CASE("lines, including comments, end with LF, CR LF or CR", "[parse]") {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     const std::string text = "Shape # comment" + end + end + " 1 # another" + end +
                              "End" + end + "\"open" + end;
@@ -73,7 +73,7 @@ TEST_CASE("numbers keep every digit", "[parse]") {
   CHECK(lexer.Next().number == 7);
 }
 
-TEST_CASE("a byte order mark is no content", "[parse]") {
+TEST_CASE("a byte order mark is ignored", "[parse]") {
   Lexer lexer("\xef\xbb\xbfWorldBegin", Name());
   const Token token = lexer.Next();
   CHECK(token.text == "WorldBegin");

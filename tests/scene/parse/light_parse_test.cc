@@ -104,7 +104,7 @@ TEST_CASE("colour, scale and target of a light multiply", "[parse]") {
 // luminance 1, and so has D65, which pbrt stores in that scale. The maximum of a black
 // body is 1; at 6500 K it lies at 446 nm. If the map is scaled to an illuminance, the
 // pixel stands for all of it: 2 pi times it falls on a surface, by pbrt's sum.
-TEST_CASE("a constant sky behind a portal is pbrt's", "[parse]") {
+TEST_CASE("a constant sky behind a portal agrees with pbrt", "[parse]") {
   const auto sky = [](const std::string& text) {
     return ParseLight("\"infinite\" \"point3 portal\" [ 0 0 0  0 1 0  2 1 0  2 0 0 ] " +
                       text);

@@ -62,7 +62,7 @@ TriangleMesh Shaken(TriangleMesh mesh, double by) {
   return mesh;
 }
 
-TEST_CASE("loop subdivision: a plane stays one, whatever its mesh", "[parse]") {
+TEST_CASE("loop subdivision: a plane stays planar for any mesh", "[parse]") {
   TriangleMesh mesh = Shaken(Lattice(3), 0.3);
   for (Vec3d& p : mesh.positions) p.z = 0.5 * p.x - 2 * p.y + 1;
   const Vec3d normal = Normalize(Vec3d{0.5, -2, -1});  // from there it runs clockwise
@@ -115,7 +115,7 @@ TEST_CASE("loop subdivision: weights by the number of neighbours", "[parse]") {
   }
 }
 
-TEST_CASE("loop subdivision: limits do not depend on the level", "[parse]") {
+TEST_CASE("loop subdivision: limit positions do not depend on the level", "[parse]") {
   for (const std::uint32_t n : {3u, 4u, 5u, 6u, 7u, 20u}) {
     CAPTURE(n);
     const TriangleMesh mesh = Shaken(Bipyramid(n), 0.2);
@@ -156,7 +156,7 @@ TEST_CASE("loop subdivision: a closed surface is closed and faces inward", "[par
   }
 }
 
-TEST_CASE("loop subdivision: meshes that are no surface are refused", "[parse]") {
+TEST_CASE("loop subdivision: non-manifold meshes are refused", "[parse]") {
   TriangleMesh mesh = Lattice(1);
   CHECK(SubdivisionProblem(mesh) == "");
   TriangleMesh third = mesh;

@@ -258,7 +258,7 @@ TEST_CASE("subsurface materials", "[parse]") {
   CHECK(seen.sigma_a == Rgb{});
 }
 
-TEST_CASE("subsurface materials that cannot be", "[parse]") {
+TEST_CASE("invalid subsurface materials are refused", "[parse]") {
   const auto error = [](const std::string& text) {
     return WorldError("Material \"subsurface\" " + text);
   };
@@ -276,7 +276,7 @@ TEST_CASE("subsurface materials that cannot be", "[parse]") {
              Contains("mixing a \"subsurface\" material is not supported"));
 }
 
-TEST_CASE("what is in a subsurface material replaces what is inside", "[parse]") {
+TEST_CASE("a subsurface material's medium replaces the interior medium", "[parse]") {
   const SceneDescription scene = ParseWorld(R"(
     MakeNamedMedium "fog" "string type" "homogeneous"
     MakeNamedMedium "ink" "string type" "homogeneous"
@@ -294,7 +294,7 @@ TEST_CASE("what is in a subsurface material replaces what is inside", "[parse]")
              Catch::Contains("the material's own medium replaces \"ink\" inside"));
 }
 
-TEST_CASE("measured materials that cannot be", "[parse]") {
+TEST_CASE("invalid measured materials are refused", "[parse]") {
   using Catch::Contains;
   const std::string material = "Material \"measured\" ";
   const std::string named = material + "\"string filename\" \"no.bsdf\"";

@@ -37,7 +37,7 @@ TEST_CASE("each coefficient of a homogeneous medium that is missing is 1", "[par
   CHECK(absorbing.sigma_s == Rgb{1, 1, 1});
 }
 
-TEST_CASE("a preset that no medium has is a warning, as in pbrt", "[parse]") {
+TEST_CASE("an unknown medium preset is a warning, as in pbrt", "[parse]") {
   const SceneDescription scene = ParseWorld(
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" "
       "\"Aple\" \"rgb sigma_a\" [ 1 2 3 ]");

@@ -23,7 +23,7 @@ constexpr const char* kMovingSphere =
 
 }  // namespace
 
-TEST_CASE("a shape that moves is an object of its own, placed once", "[parse]") {
+TEST_CASE("a moving shape becomes an object with one instance", "[parse]") {
   const SceneDescription scene = ParseWorld(kMovingSphere);
   CHECK(scene.shapes.empty());
   REQUIRE(scene.objects.size() == 1);
@@ -33,7 +33,7 @@ TEST_CASE("a shape that moves is an object of its own, placed once", "[parse]") 
   CHECK(IsAt(EndOfInstance(scene.instances[0]), {1, 2, 0}));
 }
 
-TEST_CASE("the same transform at both times moves nothing", "[parse]") {
+TEST_CASE("equal transforms at both times give no motion", "[parse]") {
   const SceneDescription scene = ParseWorld(
       "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime "
       "Translate 1 0 0 ActiveTransform All Shape \"sphere\"");
@@ -77,7 +77,7 @@ TEST_CASE("motions are fitted to the shutter", "[parse]") {
   CHECK_THROWS_WITH(scene("TransformTimes 1 1 ", ""), Contains("must come after"));
 }
 
-TEST_CASE("a camera moves by both transforms", "[parse]") {
+TEST_CASE("a camera moves between both transforms", "[parse]") {
   const SceneDescription scene = ParseText(
       "ActiveTransform EndTime Translate 0 -2 0 ActiveTransform All Translate -1 0 0 "
       "Camera \"perspective\" WorldBegin");
@@ -106,7 +106,7 @@ TEST_CASE("shapes that move in an object go with its instances", "[parse]") {
                     Contains("take the shape out of the object"));
 }
 
-TEST_CASE("what cannot move is refused, or stays at the start", "[parse]") {
+TEST_CASE("unsupported motion is refused or ignored", "[parse]") {
   const std::string move = "ActiveTransform EndTime Translate 0 2 0 ActiveTransform All ";
   const std::string curve =
       "Shape \"curve\" \"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ] ";

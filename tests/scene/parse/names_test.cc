@@ -24,7 +24,7 @@ std::string WithNames(std::string text) {
   return text;
 }
 
-TEST_CASE("names are composed; what is not UTF-8 stays as it is", "[parse]") {
+TEST_CASE("names are composed (NFC); other bytes are kept", "[parse]") {
   CHECK(NormalizedName(kTwo) == kOne);
   CHECK(NormalizedName(kOne) == kOne);
   CHECK(NormalizedName("") == "");
@@ -37,7 +37,7 @@ TEST_CASE("names are composed; what is not UTF-8 stays as it is", "[parse]") {
   CHECK(NormalizedName("\xef\xac\x81") == "\xef\xac\x81");
 }
 
-TEST_CASE("every kind of name is found in another composition", "[parse]") {
+TEST_CASE("every kind of name is found in another Unicode composition", "[parse]") {
   const std::string world = GENERATE(
       R"(MakeNamedMaterial "ONE" "string type" "diffuse" NamedMaterial "TWO")",
       R"(NamedMaterial "ONE" Shape "sphere"
@@ -57,13 +57,13 @@ TEST_CASE("every kind of name is found in another composition", "[parse]") {
   CHECK_FALSE(HasWarning(scene, "unknown"));
 }
 
-TEST_CASE("a name in two compositions is one name defined twice", "[parse]") {
+TEST_CASE("a name in two Unicode compositions is one name", "[parse]") {
   CHECK(WorldError(WithNames(R"(MakeNamedMaterial "ONE" "string type" "diffuse"
                                 MakeNamedMaterial "TWO" "string type" "diffuse")"))
             .find("is defined twice") != std::string::npos);
 }
 
-TEST_CASE("names of files are used as they stand", "[parse]") {
+TEST_CASE("file names are used unchanged", "[parse]") {
   const TemporaryFolder folder;
   std::ofstream(folder.File(kTwo + ".pbrt")) << "Shape \"sphere\"";
   std::ofstream(folder.File("main.pbrt"))

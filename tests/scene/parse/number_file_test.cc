@@ -19,7 +19,7 @@ std::string NumbersError(const std::string& text) {
   return InputErrorOf([&] { NumbersOf(text); });
 }
 
-TEST_CASE("numbers are parted by blanks, or one character right after them", "[parse]") {
+TEST_CASE("numbers are separated by blanks or by one character", "[parse]") {
   using Values = std::vector<double>;
   CHECK(NumbersOf("400 0.5\n500\t.25\r\n") == Values{400, 0.5, 500, 0.25});
   CHECK(NumbersOf("400, 0.5\n500,.25") == Values{400, 0.5, 500, 0.25});
@@ -31,8 +31,7 @@ TEST_CASE("numbers are parted by blanks, or one character right after them", "[p
   CHECK(NumbersOf("") == Values{});
 }
 
-TEST_CASE("what pbrt-v4 refuses in a file of numbers is an error with its place",
-          "[parse]") {
+TEST_CASE("number files that pbrt-v4 refuses are errors with a location", "[parse]") {
   using Catch::Contains;
   CHECK_THAT(NumbersError("wavelength,value\n400,0.5"),
              Contains("a.spd:1:1") && Contains("#"));

@@ -27,7 +27,7 @@ std::string Square(const std::string& bad_normal, const std::string& bad_uv = "1
 
 PlyMesh Parse(const std::string& text) { return ParsePly(text, "m.ply"); }
 
-TEST_CASE("normals that are not finite give way to those of the faces", "[parse][ply]") {
+TEST_CASE("non-finite normals are replaced by face normals", "[parse][ply]") {
   for (const char* bad : {"nan", "inf", "-inf"}) {
     CAPTURE(bad);
     const PlyMesh ply = Parse(Square(bad));
@@ -50,7 +50,7 @@ TEST_CASE("normals that are not finite give way to those of the faces", "[parse]
   CHECK(Parse(Square("1")).bad_normals == 0);
 }
 
-TEST_CASE("uvs and places that are not finite", "[parse][ply]") {
+TEST_CASE("non-finite uvs and positions are repaired", "[parse][ply]") {
   const PlyMesh uv = Parse(Square("1", "nan"));
   CHECK(uv.bad_uvs == 1);
   CHECK(uv.mesh.uvs[2] == std::array<double, 2>{0, 0});

@@ -166,7 +166,7 @@ TEST_CASE("quads without uvs get the corners of the unit square", "[parse][ply]"
   CHECK(mesh.positions[mesh.indices[1]] == Vec3d{2, 0, 0});
 }
 
-TEST_CASE("bent quads are counted", "[parse][ply]") {
+TEST_CASE("non-planar quads are counted", "[parse][ply]") {
   PlyWriter w(PlyWriter::kLittle,
               "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
               "property float u\nproperty float v\n"
@@ -207,7 +207,7 @@ TEST_CASE("every truncation is an error", "[parse][ply]") {
   }
 }
 
-TEST_CASE("binary files with impossible content", "[parse][ply]") {
+TEST_CASE("binary files with impossible content are refused", "[parse][ply]") {
   struct Case {
     const char* declarations;
     const char* message;
@@ -235,7 +235,7 @@ TEST_CASE("binary files with impossible content", "[parse][ply]") {
   }
 }
 
-TEST_CASE("binary values that are not indices", "[parse][ply]") {
+TEST_CASE("binary values that are not indices are refused", "[parse][ply]") {
   PlyWriter index(PlyWriter::kLittle, kPlain);
   for (int i = 0; i < 9; ++i) index.Add(1.f);
   index.Add<std::uint8_t>(3).Add(0).Add(-1).Add(2);

@@ -34,10 +34,10 @@ void CheckCounts(const SampleGroups& groups) {
 
 }  // namespace
 
-TEST_CASE("sequences are as long as the samplers are good for", "[points]") {
+TEST_CASE("sequence lengths match the samplers' limits", "[points]") {
   for (Points points : kAllPoints) {
     INFO(Name(points));
-    CHECK(MakePointsParameters(points).group_shift == LogSequence(points));
+    CHECK(MakeSamplerParameters(points).group_shift == LogSequence(points));
     // Sample counts begin anew after whole turns.
     CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(points)) == 0);
     CHECK(LogSequence(points) < 24);  // PermuteOctaves, CmjPoints
@@ -68,7 +68,7 @@ TEST_CASE("independent samples or pairs are observations, others by replicate",
   CHECK(SampleGroups{1, true}.Observations(std::uint64_t{1} << 40) == 4);
 }
 
-TEST_CASE("what a number of samples is worth is said", "[points]") {
+TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(Points::kIndependent, 7) == "independent");
   CHECK(TextOf(Points::kIndependent, 7, true) == "independent, antithetic pairs (all)");
   CHECK(TextOf(Points::kStratified, 64) == "stratified, 4 randomisations of 16 points");

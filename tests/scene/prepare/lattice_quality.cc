@@ -47,11 +47,11 @@ std::uint32_t LatticeGenerator(std::uint32_t n) {
   const std::uint32_t golden = GoldenGenerator(n);
   const std::uint32_t last = std::min(n - 1, golden + kReach);
   std::uint32_t best = golden;
-  double least = LatticeError(n, golden);
+  double minimum = LatticeError(n, golden);
   for (std::uint32_t z = golden > kReach ? golden - kReach : 1; z <= last; ++z) {
     const double error = LatticeError(n, z);
-    if (error < least && std::gcd(z, n) == 1) {
-      least = error;
+    if (error < minimum && std::gcd(z, n) == 1) {
+      minimum = error;
       best = z;
     }
   }

@@ -65,27 +65,27 @@ namespace {
 
 // The least error of all odd numbers below 2^m, or what the search around the golden
 // ratio finds where these are too many.
-double LeastError(std::uint32_t m) {
+double MinError(std::uint32_t m) {
   const std::uint32_t n = 1u << m;
-  double least = LatticeError(n, LatticeGenerator(n));
+  double minimum = LatticeError(n, LatticeGenerator(n));
   for (std::uint32_t z = 1; m <= 16 && z < n; z += 2) {
-    least = std::min(least, LatticeError(n, z));
+    minimum = std::min(minimum, LatticeError(n, z));
   }
-  return least;
+  return minimum;
 }
 
 double WorstRatio(std::uint32_t generator) {
   double worst = 0;
   for (std::uint32_t m = 3; m <= 24; ++m) {
     const std::uint32_t n = 1u << m;
-    worst = std::max(worst, LatticeError(n, generator % n) / LeastError(m));
+    worst = std::max(worst, LatticeError(n, generator % n) / MinError(m));
   }
   return worst;
 }
 
 }  // namespace
 
-TEST_CASE("one generator serves all powers of two", "[points]") {
+TEST_CASE("one generator works for all powers of two", "[points]") {
   CHECK(kLatticeGenerator % 2 == 1);
   CHECK(WorstRatio(kLatticeGenerator) < 3);
   CHECK(WorstRatio(kLatticeGenerator + 2) > 3);

@@ -84,8 +84,7 @@ TEST_CASE("compensated environments are for directions=mis", "[strategy]") {
   CHECK(SkyOf(scene).probability == plain);
 }
 
-TEST_CASE("a scene that compensates its environment itself can be made plain",
-          "[strategy]") {
+TEST_CASE("MIS compensation of a scene can be switched off", "[strategy]") {
   const TemporaryFolder folder;
   SceneDescription description = UnderSky(WriteSky(folder));
   const PreparedScene plain = PrepareScene(description);

@@ -86,8 +86,7 @@ TEST_CASE("light tree: nodes bound their children", "[strategy]") {
   for (const auto& [light, count] : leaves) CHECK(count == 1);
 }
 
-TEST_CASE("light tree: descending and climbing give the same probabilities",
-          "[strategy]") {
+TEST_CASE("light tree: top-down and bottom-up probabilities agree", "[strategy]") {
   const PreparedScene scene = ManyLights(40);
   const std::uint32_t n = 1 << 15;
   const EachTarget target;
@@ -154,7 +153,7 @@ TEST_CASE("light tree: near and facing lights are preferred", "[strategy]") {
   CHECK(nearest > 4 * 2048 / (3 * 42));
 }
 
-TEST_CASE("light tree: both halves of a rectangle are its light", "[strategy]") {
+TEST_CASE("light tree: both halves of a rectangle select its light", "[strategy]") {
   SceneBuilder b(4, 4);
   const Index dark = b.AddDiffuse(Grey(0));
   for (int i = 0; i < 9; ++i) {
@@ -185,7 +184,7 @@ TEST_CASE("light tree: both halves of a rectangle are its light", "[strategy]") 
   }
 }
 
-TEST_CASE("light tree: lights without a place need no tree", "[strategy]") {
+TEST_CASE("light tree: lights without a position are not in the tree", "[strategy]") {
   SceneBuilder b(4, 4);
   b.Depth(2).Perspective({0, -4, 3}, {0, 0, 0.3}, {0, 0, 1}, 36);
   b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse(Grey(0.5)));

@@ -89,8 +89,8 @@ TEST_CASE("antithetic: the second sample has the first one's numbers, reflected"
   f.wave.path.branch = nullptr;
   Strategy strategy;
   ApplyStrategy("points=independent,pairs=antithetic:all", {}, strategy);
-  f.run.pairs = MakePairParameters(strategy);
-  f.run.points = MakePointsParameters(strategy.points);
+  f.run.pairs = MakeAntitheticParameters(strategy);
+  f.run.points = MakeSamplerParameters(strategy.points);
   const std::uint32_t pixels[3] = {7, 8, 9};
   f.wave.work.pixels = pixels;
   f.wave.work.num_pixels = 3;

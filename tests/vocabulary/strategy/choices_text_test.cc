@@ -8,13 +8,13 @@
 
 namespace lanelight {
 
-TEST_CASE("choices that differ are told, and no others", "[strategy]") {
+TEST_CASE("exactly the choices that differ are printed", "[strategy]") {
   Strategy other;
   ApplyStrategy("roulette=adjoint,reuse=block:32", {}, other);
-  const std::string usual = ToText({}), changed = ToText(other);
-  CHECK(ChoicesNotIn(usual, changed) == "roulette=adjoint,reuse=block:32:random");
-  CHECK(ChoicesNotIn(changed, usual) == "roulette=throughput,reuse=none");
-  CHECK(ChoicesNotIn(usual, usual).empty());
+  const std::string defaults = ToText({}), changed = ToText(other);
+  CHECK(ChoicesNotIn(defaults, changed) == "roulette=adjoint,reuse=block:32:random");
+  CHECK(ChoicesNotIn(changed, defaults) == "roulette=throughput,reuse=none");
+  CHECK(ChoicesNotIn(defaults, defaults).empty());
   // One choice may begin as another does.
   CHECK(ChoicesNotIn("a=bc", "a=b") == "a=b");
 }

@@ -37,13 +37,14 @@ Combination RandomCombination(const std::vector<Axis>& axes, std::mt19937& rando
 
 }  // namespace
 
-std::vector<Combination> CoverPairs(const std::vector<Axis>& axes, std::size_t least) {
+std::vector<Combination> CoverPairs(const std::vector<Axis>& axes,
+                                    std::size_t min_covered) {
   constexpr int kCandidates = 60;
   std::mt19937 random(1);
   std::set<Pair> open = AllPairs(axes);
   std::set<Combination> used;
   std::vector<Combination> result;
-  while (!open.empty() || result.size() < least) {
+  while (!open.empty() || result.size() < min_covered) {
     Combination best;
     std::size_t best_new = 0;
     for (int k = 0; k < kCandidates; ++k) {

@@ -15,8 +15,10 @@ struct Axis {
 /// One choice (index into Axis::values) per axis.
 using Combination = std::vector<std::size_t>;
 
-/// At least `least` different combinations that cover all pairs; greedy, deterministic.
-std::vector<Combination> CoverPairs(const std::vector<Axis>& axes, std::size_t least);
+/// At least `min_covered` different combinations that cover all pairs; greedy,
+/// deterministic.
+std::vector<Combination> CoverPairs(const std::vector<Axis>& axes,
+                                    std::size_t min_covered);
 
 /// Pairs of choices that occur in no combination.
 std::size_t CountUncoveredPairs(const std::vector<Axis>& axes,

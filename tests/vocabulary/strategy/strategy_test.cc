@@ -31,7 +31,7 @@ std::string ErrorOf(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("every listed choice can be chosen, and reads back", "[strategy]") {
+TEST_CASE("every listed choice can be set and round-trips", "[strategy]") {
   std::set<std::string> seen;
   for (const ChoiceInfo& c : AllChoices()) {
     const std::string text = std::string(c.axis) + "=" + c.name;
@@ -46,7 +46,7 @@ TEST_CASE("every listed choice can be chosen, and reads back", "[strategy]") {
   CHECK(seen.size() == 41);
 }
 
-TEST_CASE("arguments are read, and kept by the text form", "[strategy]") {
+TEST_CASE("arguments are parsed and kept in the text form", "[strategy]") {
   for (const char* text :
        {"directions=mis:balance", "pairs=antithetic:first-bounce", "c=0.5",
         "control=regression,c=-1", "roulette=constant:0.4:3", "roulette=throughput:0.1",
@@ -84,7 +84,7 @@ TEST_CASE("each preset changes one thing of paper-plain, and can be refined",
   }
 }
 
-TEST_CASE("what is not understood is named, with what would be", "[strategy]") {
+TEST_CASE("unknown words are reported with valid ones", "[strategy]") {
   const std::pair<const char*, const char*> cases[] = {
       {"points=sobl", "did you mean \"sobol\"?"},
       {"point=sobol", "unknown key \"point\"; did you mean \"points\"?"},

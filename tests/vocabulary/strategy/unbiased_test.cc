@@ -46,25 +46,25 @@ class Power {
  public:
   void Add(const Combination& combination, double detectable) {
     for (std::size_t axis = 0; axis < Axes().size(); ++axis) {
-      const auto at = least_.try_emplace({axis, combination[axis]}, detectable).first;
+      const auto at = minimum_.try_emplace({axis, combination[axis]}, detectable).first;
       at->second = std::min(at->second, detectable);
     }
   }
   void Check(double wanted) const {
-    for (const auto& [choice, least] : least_) {
+    for (const auto& [choice, minimum] : minimum_) {
       const Axis& axis = Axes()[choice.first];
       INFO(axis.key << "=" << axis.values[choice.second]);
-      CHECK(least < wanted);
+      CHECK(minimum < wanted);
     }
   }
   bool SawEveryChoice() const {
     std::size_t choices = 0;
     for (const Axis& axis : Axes()) choices += axis.values.size();
-    return least_.size() == choices;
+    return minimum_.size() == choices;
   }
 
  private:
-  std::map<std::pair<std::size_t, std::size_t>, double> least_;
+  std::map<std::pair<std::size_t, std::size_t>, double> minimum_;
 };
 
 // Renders every combination and compares it with `truth`.
@@ -89,8 +89,8 @@ void CheckAll(const HardScene& hard, const stat::ImageEstimate& truth, std::uint
     power.Add(fitted, result.detectable_bias);
   }
   REQUIRE(!uniformity.empty());
-  const double least = *std::min_element(uniformity.begin(), uniformity.end());
-  CHECK(least > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
+  const double minimum = *std::min_element(uniformity.begin(), uniformity.end());
+  CHECK(minimum > stat::SidakLevel(kFalseAlarm, int(uniformity.size())));
 }
 
 stat::ImageEstimate Reference(const HardScene& hard, int samples) {
@@ -146,7 +146,7 @@ TEST_CASE("every combination fills the closed room as the closed form says",
   power.Check(0.08);
 }
 
-TEST_CASE("a bias of 1 % is found", "[strategy]") {
+TEST_CASE("a bias of 1 % is detected", "[strategy]") {
   // A reference whose emission is 1 % too strong stands for any error of that size: a
   // density, a cosine or a 1 / (1 - q) that is off by 1 %.
   const SceneDescription scene = LargeLight();
@@ -162,7 +162,7 @@ TEST_CASE("a bias of 1 % is found", "[strategy]") {
   CHECK_FALSE(stat::CompareMeans(image, planted, options).same);
 }
 
-TEST_CASE("a probability of selecting a light that is 1 % wrong is found", "[strategy]") {
+TEST_CASE("a light selection probability that is 1 % wrong is detected", "[strategy]") {
   const SceneDescription scene = PolygonLight(8);
   PreparedScene compiled = PrepareScene(scene);
   Strategy strategy;

@@ -16,11 +16,11 @@ std::vector<double> Decades(double first, double last, double step) {
   return values;
 }
 
-Axis LogAxis(std::string name, std::string unit, Promise promise,
+Axis LogAxis(std::string name, std::string unit, PromisedRange promised_range,
              std::vector<double> quick, std::vector<double> full) {
   if (full.empty()) full = quick;
-  return {std::move(name), std::move(unit),  true,           promise.low,
-          promise.high,    std::move(quick), std::move(full)};
+  return {std::move(name),     std::move(unit),  true,           promised_range.low,
+          promised_range.high, std::move(quick), std::move(full)};
 }
 
 SceneText Setup(const std::string& text, const Quality& quality, const Effort& effort) {
@@ -67,7 +67,7 @@ Point NotMeasured(const std::string& series, const std::string& why) {
   return point;
 }
 
-Point WithRare(Point point, double rare, double difference) {
+Point AllowForRareSamples(Point point, double rare, double difference) {
   const double samples = double(point.samples);
   const double deviation = difference * std::sqrt(rare * (1 - rare) / samples);
   point.standard_error = std::max(point.standard_error, deviation);

@@ -15,7 +15,7 @@ namespace lanelight::stress {
 inline constexpr double kFloatError = 1e-5;
 
 /// The part of an axis that is promised.
-struct Promise {
+struct PromisedRange {
   double low, high;
 };
 
@@ -23,7 +23,7 @@ struct Promise {
 std::vector<double> Decades(double first, double last, double step = 1);
 
 /// A logarithmic axis; without `full` its values are the quick ones.
-Axis LogAxis(std::string name, std::string unit, Promise promise,
+Axis LogAxis(std::string name, std::string unit, PromisedRange promised_range,
              std::vector<double> quick, std::vector<double> full = {});
 
 /// Adds cases of one group and truth.
@@ -67,6 +67,6 @@ Point NotMeasured(const std::string& series, const std::string& why);
 /// The point of a mean of two outcomes `difference` apart, the rarer with probability
 /// `rare`: the scatter of the samples alone says nothing where the rare one did not come.
 /// A few of them by chance are tolerated.
-Point WithRare(Point point, double rare, double difference);
+Point AllowForRareSamples(Point point, double rare, double difference);
 
 }  // namespace lanelight::stress

@@ -107,7 +107,7 @@ class TexelSky {
 };
 
 // Share of a plane's irradiance pi that a texel of radiance 1 gives.
-double TexelShare(int column, int row) {
+double TexelFraction(int column, int row) {
   constexpr int kSub = 64, kSize = TexelSky::kSize;
   double sum = 0;
   for (int i = 0; i < kSub * kSub; ++i) {
@@ -126,13 +126,14 @@ std::vector<Point> BrightTexel(double bright, const Effort& effort) {
   } texels[] = {{"high", 8, 9}, {"at the horizon", 12, 12}, {"below", 15, 15}};
   for (const auto& [name, column, row] : texels) {
     const TexelSky sky(column, row, bright);
-    const double share = TexelShare(column, row);
+    const double fraction = TexelFraction(column, row);
     Point point =
-        Expect(0.5 * (1 + (bright - 1) * share),
+        Expect(0.5 * (1 + (bright - 1) * fraction),
                ViewOfPlane() + Plane(Diffuse(0.5)) + sky.Text(), kLitOnce, effort);
     // A light sample that picks another texel misses nearly all of the light.
     const double others = TexelSky::kSize * TexelSky::kSize - 1;
-    if (share > 0) point = WithRare(point, others / (others + bright), point.expected);
+    if (fraction > 0)
+      point = AllowForRareSamples(point, others / (others + bright), point.expected);
     points.push_back(Named(name, point));
   }
   return points;

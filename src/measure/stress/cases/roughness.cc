@@ -16,7 +16,9 @@ constexpr double kMetalK = 6;          // extinction of a metal of reflectance 0
 constexpr double kQuadrature = 1e-4;   // error of IntegrateGgx
 constexpr double kSmoothAlpha = 1e-3;  // below it surfaces are smooth (docs/numbers.md)
 
-std::string Shiny(double alpha_x, double alpha_y) { return Metal(0.9, alpha_x, alpha_y); }
+std::string GlossyMetal(double alpha_x, double alpha_y) {
+  return Metal(0.9, alpha_x, alpha_y);
+}
 
 double MetalFresnel(double c) { return FresnelConductor(c, 1, kMetalK); }
 
@@ -46,7 +48,8 @@ Point Integrated(const std::string& series, const std::string& material, double 
 std::vector<Point> MetalByAlpha(double alpha, const Effort& effort) {
   std::vector<Point> points;
   for (double cosine : {1.0, 0.5, 0.05}) {
-    points.push_back(Integrated(fmt::format("cosine {}", cosine), Shiny(alpha, alpha),
+    points.push_back(Integrated(fmt::format("cosine {}", cosine),
+                                GlossyMetal(alpha, alpha),
                                 MetalFurnace(alpha, alpha, cosine), cosine, effort));
   }
   return points;
@@ -67,10 +70,10 @@ std::vector<Point> GlassByAlpha(double alpha, const Effort& effort) {
 std::vector<Point> ByAnisotropy(double ratio, const Effort& effort) {
   // The narrow side is at least the least alpha that there is.
   const double narrow = std::max(1 / ratio, 1e-4);
-  return {Integrated("rough along x", Shiny(1, 1 / ratio), MetalFurnace(1, narrow, 0.5),
-                     0.5, effort),
-          Integrated("rough along y", Shiny(1 / ratio, 1), MetalFurnace(narrow, 1, 0.5),
-                     0.5, effort)};
+  return {Integrated("rough along x", GlossyMetal(1, 1 / ratio),
+                     MetalFurnace(1, narrow, 0.5), 0.5, effort),
+          Integrated("rough along y", GlossyMetal(1 / ratio, 1),
+                     MetalFurnace(narrow, 1, 0.5), 0.5, effort)};
 }
 
 // A metal plane shows a lamp that fills a cone of 20 degrees around the mirrored view.
@@ -79,7 +82,7 @@ std::vector<Point> AgainstMirror(double alpha, const Effort& effort) {
   const std::string text = ViewOfPlane(std::sqrt(0.5)) +
                            SphereLight({-10 * std::sqrt(0.5), 0, 10 * std::sqrt(0.5)},
                                        10 * std::sin(20 * kPi / 180), 1) +
-                           Plane(Shiny(alpha, alpha));
+                           Plane(GlossyMetal(alpha, alpha));
   const double mirror = MetalFresnel(std::sqrt(0.5));
   Point point = Expect(mirror, text, {.depth = 1}, effort);
   const double tail = std::pow(alpha / std::tan(10 * kPi / 180), 2);
@@ -91,9 +94,9 @@ std::vector<Point> Grazing(double cosine, const Effort& effort) {
   const double glass = GlassFurnace(0, 1.5, cosine);
   std::vector<Point> points = {
       Integrated("diffuse", Diffuse(0.5), 0.5, cosine, effort),
-      Integrated("mirror", Shiny(0, 0), MetalFurnace(0, 0, cosine), cosine, effort),
-      Integrated("metal, alpha 0.1", Shiny(0.1, 0.1), MetalFurnace(0.1, 0.1, cosine),
-                 cosine, effort),
+      Integrated("mirror", GlossyMetal(0, 0), MetalFurnace(0, 0, cosine), cosine, effort),
+      Integrated("metal, alpha 0.1", GlossyMetal(0.1, 0.1),
+                 MetalFurnace(0.1, 0.1, cosine), cosine, effort),
       Integrated("glass", Glass(1.5), glass, cosine, effort),
       Integrated("glass, alpha 0.1", Glass(1.5, 0.1), GlassFurnace(0.1, 1.5, cosine),
                  cosine, effort),
@@ -104,7 +107,7 @@ std::vector<Point> Grazing(double cosine, const Effort& effort) {
   // Light that a face transmits weakly is carried by as few samples.
   for (Point& point : points) {
     const bool glass = point.series == "glass" || point.series == "coat";
-    if (glass && cosine < 0.01) point = WithRare(point, 1 - point.expected, 1);
+    if (glass && cosine < 0.01) point = AllowForRareSamples(point, 1 - point.expected, 1);
   }
   return points;
 }

@@ -133,11 +133,11 @@ std::string Sheets(double transmitted) {
   std::string text = ViewOfPlane() + Sky(1);
   double left = transmitted;
   for (int i = 0; i == 0 || left < 1; ++i) {
-    const double share = std::max(left, 1e-3);
-    left /= share;
+    const double fraction = std::max(left, 1e-3);
+    left /= fraction;
     text += Block(fmt::format("Translate 0 0 {:.17g}\n", -0.1 * i) +
                   Plane("\"diffusetransmission\"" + Grey("reflectance", 0) +
-                        Grey("transmittance", share)));
+                        Grey("transmittance", fraction)));
     if (left > 1 - 1e-9) break;
   }
   return text;

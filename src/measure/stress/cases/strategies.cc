@@ -38,7 +38,7 @@ std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
   const double length = 1 / missing;
   scene.quality = {length > 500 ? std::uint64_t{16} : 64, length > 5000 ? 256u : 4096u,
                    depth, 4};
-  scene.spared = [&](const std::string& strategy) {
+  scene.omission_reason = [&](const std::string& strategy) {
     const bool long_training = HasTraining(strategy) && length > effort(50.0, 2000.0);
     if (long_training)
       return std::string("its pilot alone is 65536 paths of this length");
@@ -72,7 +72,8 @@ std::vector<Point> ByRoughness(double alpha, const Effort& effort) {
   for (Point& point : points) {
     if (!point.not_measured.empty()) continue;
     // Facets that send light below the surface: about alpha^2 of them.
-    if (!smooth && alpha < 0.5) point = WithRare(point, alpha * alpha, point.expected);
+    if (!smooth && alpha < 0.5)
+      point = AllowForRareSamples(point, alpha * alpha, point.expected);
     point.tolerance += 1e-4 * point.expected;  // of the integral
   }
   return points;

@@ -23,23 +23,23 @@ std::vector<std::string> Strategies() {
 
 // So many samples that carry all of the light must be expected for their scatter to mean
 // anything.
-constexpr double kLeastHits = 40;
+constexpr double kMinExpectedHits = 40;
 
 // Its pilot, which has the default roulette, saw too little for a rule of its own.
-bool FoundNothing(const std::string& strategy, const RunResult& result) {
+bool HitNoLight(const std::string& strategy, const RunResult& result) {
   return HasTraining(strategy) && result.roulette == Roulette::kThroughput;
 }
 
 Point Measure(const StrategyScene& scene, const std::string& strategy,
               const Effort& effort) {
-  const std::string spared = scene.spared(strategy);
-  if (!spared.empty()) return NotMeasured(strategy, spared);
+  const std::string omission_reason = scene.omission_reason(strategy);
+  if (!omission_reason.empty()) return NotMeasured(strategy, omission_reason);
   Quality quality = scene.quality;
   quality.strategy = strategy;
   SceneText setup = Setup(scene.text, quality, effort);
   const double samples = double(*setup.settings.spp) * quality.size * quality.size;
   const double chance = scene.chance(strategy), hits = samples * chance;
-  if (hits < kLeastHits) {
+  if (hits < kMinExpectedHits) {
     return NotMeasured(strategy,
                        fmt::format("only {:.2g} of {} samples find the light: nothing "
                                    "can be said of their mean",
@@ -47,7 +47,7 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
   }
   try {
     const JobRun rendered = RenderText(setup);
-    if (FoundNothing(strategy, rendered.result)) {
+    if (HitNoLight(strategy, rendered.result)) {
       return NotMeasured(strategy, rendered.result.training.note);
     }
     Point point = MeanOf(rendered);

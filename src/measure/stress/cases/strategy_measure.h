@@ -20,7 +20,7 @@ struct StrategyScene {
     return 1.0;
   };
   /// Why a strategy is left out here; empty: it is not.
-  std::function<std::string(const std::string& strategy)> spared =
+  std::function<std::string(const std::string& strategy)> omission_reason =
       [](const std::string&) { return std::string(); };
 };
 

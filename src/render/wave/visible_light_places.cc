@@ -1,4 +1,4 @@
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,8 +113,8 @@ std::vector<std::uint32_t> PlacesOfSmallLights(const PreparedScene& scene) {
     if (!at || !(at->radius < kSmallLight) || !std::isfinite(at->x + at->y)) continue;
     const double reach_x = at->radius + double(scene.compiled->filter.x_radius) - 0.5;
     const double reach_y = at->radius + double(scene.compiled->filter.y_radius) - 0.5;
-    const auto clamp = [](double v, int most) {
-      return int(std::clamp(std::floor(v), -1.0, double(most)));
+    const auto clamp = [](double v, int maximum) {
+      return int(std::clamp(std::floor(v), -1.0, double(maximum)));
     };
     const int x0 = std::max(0, clamp(at->x - reach_x, width));
     const int x1 = std::min(width - 1, clamp(at->x + reach_x, width));

@@ -5,7 +5,7 @@
 
 namespace lanelight {
 
-struct TreeReport {
+struct BvhReport {
   bool shared = false;    // the known tree's; else built
   double seconds = 0;     // finding or building, hashing the shapes included
   std::size_t bytes = 0;  // of the tree

@@ -7,7 +7,7 @@
 // its neighbours tell, and more around lights smaller than pixels; they have their own
 // seed, so nothing is biased. A path's pixel is corrected at the end of its task: minus
 // the emission that its own camera ray sees (traced again with the same numbers), plus
-// the mean emission that kSeenLightRays others see. These rays run
+// the mean emission that kVisibleLightRays others see. These rays run
 // PhaseId::kVisibleLights in the wavefront of the task's thread.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace lanelight {
 
 /// The samples of a task: values[plane * stride + pixel * count + i] is plane `plane` of
 /// sample begin + i of pixels[pixel].
-struct SeenLightTask {
+struct VisibleLightTask {
   std::size_t tile = 0;
   const std::vector<std::uint32_t>& pixels;  // y * image width + x
   std::uint64_t begin = 0;                   // of the run's seed
@@ -34,7 +34,7 @@ struct SeenLightTask {
 };
 
 /// Traces camera rays to the light that they see; one object per thread.
-class SeenLightRays {
+class VisibleLightRays {
  public:
   struct Work {
     const std::uint32_t* pixels = nullptr;
@@ -46,8 +46,8 @@ class SeenLightRays {
   };
 
   /// `plan` has PhaseId::kVisibleLights. Refers to all of these.
-  SeenLightRays(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
-                const Wavefront& wavefront);
+  VisibleLightRays(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
+                   const Wavefront& wavefront);
 
   /// Overwrites `out`: plane by plane, in each the samples of one pixel after the other.
   void Trace(const Work& work, StageClock* clock, std::vector<float>& out);
@@ -72,7 +72,7 @@ class SeenLightRays {
 /// what a path takes belongs to the replicate of the path, so that observations stay
 /// independent. Within an observation the stream's points are taken in their order: n
 /// paths have its first n * rays.
-struct SeenLightSamples {
+struct VisibleLightSamples {
   SampleGroups groups;
   std::uint32_t rays = 1;
 
@@ -102,18 +102,18 @@ struct SeenLightSamples {
   double Count() const { return double(rays) * groups.unit; }
 };
 
-class SeenLightEdges {
+class VisibleLightEdges {
  public:
   /// Makes room for this many tiles. Refers to the scene.
-  SeenLightEdges(const PreparedScene& scene, std::size_t tiles);
+  VisibleLightEdges(const PreparedScene& scene, std::size_t tiles);
 
   /// Finds the edges in a tile of the image, once; other threads that call it wait. Safe
   /// from several threads, each with its own rays. Before Correct() of this tile.
-  void Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
+  void Find(std::size_t tile, const PixelRect& rect, VisibleLightRays& rays,
             StageClock* clock);
   /// Corrects the samples of a task if its tile has edges, and counts the rays. Safe from
   /// several threads. Returns whether anything was done.
-  bool Correct(const SeenLightTask& task, SeenLightRays& rays, StageClock* clock,
+  bool Correct(const VisibleLightTask& task, VisibleLightRays& rays, StageClock* clock,
                RunCounts& counts) const;
 
   /// Returns the pixels of a tile with edges, as places in its TilePixels.
@@ -125,13 +125,13 @@ class SeenLightEdges {
     const std::uint32_t* at = nullptr;
     std::size_t count = 0;
   };
-  void FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
+  void FindIn(const PixelRect& rect, VisibleLightRays& rays, StageClock* clock,
               std::vector<std::uint32_t>& edges) const;
-  void CorrectPixels(const Places& places, const SeenLightTask& task, SeenLightRays& rays,
-                     StageClock* clock) const;
+  void CorrectPixels(const Places& places, const VisibleLightTask& task,
+                     VisibleLightRays& rays, StageClock* clock) const;
 
   const PreparedScene& scene_;
-  const SeenLightSamples samples_;
+  const VisibleLightSamples samples_;
   const std::vector<std::uint32_t> small_lights_;  // pixels, ascending
   const int reach_;                                // pixels
   std::vector<std::vector<std::uint32_t>> edges_;  // by tile: places in its TilePixels

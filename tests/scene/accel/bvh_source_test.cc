@@ -8,22 +8,22 @@
 
 namespace lanelight {
 
-TEST_CASE("a known tree is taken if it is of the same shapes", "[accel][tree-source]") {
+TEST_CASE("a cached BVH is reused only for the same shapes", "[accel][tree-source]") {
   brute::Random random(65);
   Geometry shapes = MakeScene(brute::Soup(random, 3000, 1, 0.1f)).geometry;
-  const FoundTree built = FindTree(shapes, {}, nullptr);
+  const ReusedBvh built = FindBvh(shapes, {}, nullptr);
   CHECK_FALSE(built.report.shared);
   CHECK(built.report.bytes >
         built.accel.nodes.size() * sizeof(WideNode) +
             built.accel.triangle_blocks.size() * sizeof(TriangleBlock));
-  const KnownTree known = {KeyOf(shapes, {}), built.accel};
-  const FoundTree shared = FindTree(shapes, {}, &known);
+  const CachedBvh known = {KeyOf(shapes, {}), built.accel};
+  const ReusedBvh shared = FindBvh(shapes, {}, &known);
   CHECK(shared.report.shared);
   CHECK(shared.report.bytes == built.report.bytes);
   CHECK(shared.accel.nodes.data() == built.accel.nodes.data());
-  CHECK_FALSE(FindTree(shapes, {.quality = BuildQuality::kFast}, &known).report.shared);
+  CHECK_FALSE(FindBvh(shapes, {.quality = BuildQuality::kFast}, &known).report.shared);
   shapes.triangles[1000].p[0][0] += 1;
-  const FoundTree moved = FindTree(shapes, {}, &known);
+  const ReusedBvh moved = FindBvh(shapes, {}, &known);
   CHECK_FALSE(moved.report.shared);
   CHECK(moved.accel.nodes.data() != built.accel.nodes.data());
 }

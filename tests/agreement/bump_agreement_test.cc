@@ -5,7 +5,7 @@
 
 #include "src/render/plan/plan.h"
 #include "tests/agreement/agreement.h"
-#include "tests/kernels/surface/relief_files.h"
+#include "tests/kernels/surface/bump_files.h"
 
 namespace lanelight::test {
 namespace {
@@ -31,7 +31,7 @@ Material Metal() {
 
 // Bumps on a quad, a smooth mesh, a ball, a disk, and a normal map on a metal plate, all
 // before the camera, under lights that glance off them.
-SceneDescription ReliefScene(const TemporaryFolder& folder, double height = 1) {
+SceneDescription BumpMapScene(const TemporaryFolder& folder, double height = 1) {
   WriteWaves(folder.File("waves.exr"), 1);
   WriteColorImage(folder.File("n.exr"), {0.65, 0.45, 0.9});
   SceneBuilder b(12, 12);
@@ -90,15 +90,15 @@ SceneDescription NoisyFloor(const TemporaryFolder& folder, ImageFilter filter) {
 
 TEST_CASE("bump and normal maps agree with the reference", "[relief][agreement]") {
   const TemporaryFolder folder;
-  const SceneDescription scene = ReliefScene(folder);
+  const SceneDescription scene = BumpMapScene(folder);
   const auto result = CompareWithReference(scene, 16384, 4000, 2e-3);
   INFO(result.ToString());
   CHECK(result.same);
 }
 
-TEST_CASE("bumps of twice the height are found out", "[relief][agreement]") {
+TEST_CASE("bumps of twice the height are detected", "[relief][agreement]") {
   const TemporaryFolder folder, other;
-  const SceneDescription scene = ReliefScene(folder), wrong = ReliefScene(other, 2);
+  const SceneDescription scene = BumpMapScene(folder), wrong = BumpMapScene(other, 2);
   const auto result = stat::CompareMeans(RenderWavefront(scene, 4096),
                                          RenderWavefront(wrong, 4096), {4, 1e-6, 2e-3});
   INFO(result.ToString());
@@ -128,7 +128,7 @@ TEST_CASE("a white bumped ball in a white world stays nearly white", "[relief]")
   CHECK(mean < 1.001);
 }
 
-TEST_CASE("filtered images have the mean and little of the noise", "[relief]") {
+TEST_CASE("filtered textures keep the mean and reduce the noise", "[relief]") {
   const TemporaryFolder folder;
   TestRender options;
   options.spp = 1024;
@@ -157,7 +157,8 @@ TEST_CASE("footprints exist where an image is filtered", "[relief][plan]") {
   CHECK(plan(ImageFilter::kEwa).features.Has(Feature::kTextureFootprints));
 }
 
-TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
+TEST_CASE("scenes without bump and normal maps have no stages for them",
+          "[relief][plan]") {
   SceneBuilder b(8, 8);
   b.AddSphere({0, 0, 5}, 1, b.AddDiffuse(Grey(0.5)));
   b.AddPoint({0, 0, 0}, Grey(1));
@@ -166,10 +167,10 @@ TEST_CASE("scenes without relief have nothing of it", "[relief][plan]") {
   CHECK(scene.compiled->materials.normal_map_texture.empty());
   const Plan plan = MakePlan(scene, {});
   for (const PlannedStage& s : plan.paths().stages) {
-    const std::set<std::string> relief = {"footprints", "bumps", "normal_maps"};
-    CHECK(relief.count(s.stage.name) == 0);
+    const std::set<std::string> bump_stages = {"footprints", "bumps", "normal_maps"};
+    CHECK(bump_stages.count(s.stage.name) == 0);
   }
-  for (const Field field : {Field::ns_x, Field::tg_x, Field::tv_x, Field::spread_0}) {
+  for (const Field field : {Field::ns_x, Field::tg_x, Field::tv_x, Field::footprint_0}) {
     CHECK(std::count(plan.absent_fields.begin(), plan.absent_fields.end(), field) == 1);
   }
 }

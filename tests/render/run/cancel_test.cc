@@ -32,9 +32,9 @@ Shape "trianglemesh"
 struct Watcher : TaskWatcher {
   bool Stopped() const override { return false; }
   void TaskDone() override { ++done; }
-  bool Cancelled() const override { return ++asked > after; }
+  bool Cancelled() const override { return ++polls > after; }
   std::atomic<int> done{0};
-  mutable std::atomic<int> asked{0};
+  mutable std::atomic<int> polls{0};
   int after = 0;
 };
 
@@ -70,8 +70,7 @@ TEST_CASE("a time limit ends half a second after a stop", "[put_down]") {
   CHECK(limit.IsOver(true, false, 7.6));
 }
 
-TEST_CASE("a time limit with a budget waits for the first samples while they come",
-          "[put_down]") {
+TEST_CASE("a time limit with a budget waits for the first samples", "[put_down]") {
   TimeLimit limit(2);
   CHECK(limit.Wait() == 2);
   CHECK_FALSE(limit.IsOver(false, true, 1.9));
@@ -88,7 +87,7 @@ TEST_CASE("a time limit with a budget waits for the first samples while they com
   CHECK_FALSE(TimeLimit(2, 50).IsOver(false, false, 51));
 }
 
-TEST_CASE("a stop puts down paths that do not end, and keeps the others", "[put_down]") {
+TEST_CASE("a stop cancels unfinished paths and keeps finished ones", "[put_down]") {
   std::atomic<bool> stop{false};
   RunOptions options;
   options.spp = 1'000'000;
@@ -115,7 +114,7 @@ TEST_CASE("a stop puts down paths that do not end, and keeps the others", "[put_
   CHECK(r.result.samples == samples);
 }
 
-TEST_CASE("a time budget ends where paths do not", "[put_down]") {
+TEST_CASE("a time budget ends although paths do not", "[put_down]") {
   RunOptions options;
   options.seconds = 0.05;
   const Rendered r = Run(options);
@@ -124,7 +123,7 @@ TEST_CASE("a time budget ends where paths do not", "[put_down]") {
   CHECK(PixelsWith(r.film, 0) <= 512);
 }
 
-TEST_CASE("a task that is put down is as if it had not begun", "[put_down]") {
+TEST_CASE("a cancelled task leaves no trace", "[put_down]") {
   const ThreadLimit limit(1);
   PreparedScene scene = PrepareScene(ParseSceneText(R"(
 Camera "perspective"
@@ -161,7 +160,7 @@ Shape "sphere" "float radius" 3
     }
     CHECK(work.Done() == 64);
     CHECK(work.Counts().samples == 40 * 24 * 64);
-    CHECK(work.Taken() == 40 * 24 * 64);
+    CHECK(work.RenderedSamples() == 40 * 24 * 64);
     return film;
   };
   const FilmAccumulator whole = render({});

@@ -1,4 +1,4 @@
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 
 #include <algorithm>
 #include <array>
@@ -19,11 +19,11 @@ namespace {
 /// Camera rays of each pixel that find edges; those of its neighbours count as well.
 constexpr std::uint32_t kFindRays = 8;
 /// Emission that differs by less makes no rare sample.
-constexpr float kLeastStep = 0.5f, kLeastRatio = 3;
+constexpr float kMinStep = 0.5f, kMinRatio = 3;
 /// Camera rays that are traced together at most, unless one pixel has more.
-constexpr std::uint64_t kMostRays = 1u << 15;
+constexpr std::uint64_t kMaxRays = 1u << 15;
 /// Samples of the image under one seed of the further rays: their indices have 31 bits.
-constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kSeenLightRays;
+constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kVisibleLightRays;
 
 /// Largest finite values: a light's edge is added to the largest light.
 constexpr double kLargest = std::numeric_limits<float>::max();
@@ -33,8 +33,8 @@ constexpr std::uint32_t kSmallLightRays = 256;
 constexpr std::uint32_t kFindSeed = 0x2545f491u;
 
 // Apart from the image's.
-std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t turn) {
-  return (seed ^ 0x6a09e667u) + std::uint32_t(turn) * 0x9e3779b9u;
+std::uint32_t RaySeed(std::uint32_t seed, std::uint64_t round) {
+  return (seed ^ 0x6a09e667u) + std::uint32_t(round) * 0x9e3779b9u;
 }
 
 struct Range {
@@ -48,7 +48,7 @@ struct Range {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
   }
-  bool IsEdge() const { return high - low > kLeastStep && high > kLeastRatio * low; }
+  bool IsEdge() const { return high - low > kMinStep && high > kMinRatio * low; }
 };
 
 PixelRect WithBorder(const PixelRect& tile, int border, int width, int height) {
@@ -64,9 +64,9 @@ int Reach(const CompiledFilter& filter) {
 }
 
 // Ranges of what pixels of a window see.
-class SeenRanges {
+class VisibleRanges {
  public:
-  SeenRanges(const PixelRect& window, std::uint32_t image_width)
+  VisibleRanges(const PixelRect& window, std::uint32_t image_width)
       : window_(window), image_width_(image_width), ranges_(window.pixels()) {}
 
   // Camera rays of a pixel: `count` of each plane.
@@ -104,8 +104,8 @@ class SeenRanges {
 
 }  // namespace
 
-SeenLightRays::SeenLightRays(const PreparedScene& scene, const Plan& plan,
-                             const RunParameters& run, const Wavefront& wavefront)
+VisibleLightRays::VisibleLightRays(const PreparedScene& scene, const Plan& plan,
+                                   const RunParameters& run, const Wavefront& wavefront)
     : scene_(scene),
       plan_(plan),
       image_run_(run),
@@ -116,7 +116,8 @@ SeenLightRays::SeenLightRays(const PreparedScene& scene, const Plan& plan,
   visible_wave_.run = edges_wave_.run = &run_;
 }
 
-void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float>& out) {
+void VisibleLightRays::Trace(const Work& rays, StageClock* clock,
+                             std::vector<float>& out) {
   TileWork work;
   work.pixels = rays.pixels;
   work.num_pixels = std::uint32_t(rays.num_pixels);
@@ -138,25 +139,26 @@ void SeenLightRays::Trace(const Work& rays, StageClock* clock, std::vector<float
   RunPhase(wave, phase, clock);
 }
 
-SeenLightEdges::SeenLightEdges(const PreparedScene& scene, std::size_t tiles)
+VisibleLightEdges::VisibleLightEdges(const PreparedScene& scene, std::size_t tiles)
     : scene_(scene),
-      samples_{GroupsOf(scene.strategy), kSeenLightRays},
+      samples_{GroupsOf(scene.strategy), kVisibleLightRays},
       small_lights_(PlacesOfSmallLights(scene)),
       reach_(Reach(scene.compiled->filter)),
       edges_(tiles),
       found_(tiles) {}
 
-void SeenLightEdges::Find(std::size_t tile, const PixelRect& rect, SeenLightRays& rays,
-                          StageClock* clock) {
+void VisibleLightEdges::Find(std::size_t tile, const PixelRect& rect,
+                             VisibleLightRays& rays, StageClock* clock) {
   std::call_once(found_[tile], [&] { FindIn(rect, rays, clock, edges_[tile]); });
 }
 
-void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClock* clock,
-                            std::vector<std::uint32_t>& edges) const {
+void VisibleLightEdges::FindIn(const PixelRect& rect, VisibleLightRays& rays,
+                               StageClock* clock,
+                               std::vector<std::uint32_t>& edges) const {
   const auto width = std::uint32_t(scene_.view->film.width);
   const PixelRect all =
       WithBorder(rect, reach_, scene_.view->film.width, scene_.view->film.height);
-  SeenRanges ranges(all, width);
+  VisibleRanges ranges(all, width);
   std::vector<std::uint32_t>& pixels = rays.pixels;
   TilePixels(all, scene_.view->film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
@@ -177,24 +179,24 @@ void SeenLightEdges::FindIn(const PixelRect& rect, SeenLightRays& rays, StageClo
   }
 }
 
-bool SeenLightEdges::Correct(const SeenLightTask& task, SeenLightRays& rays,
-                             StageClock* clock, RunCounts& counts) const {
+bool VisibleLightEdges::Correct(const VisibleLightTask& task, VisibleLightRays& rays,
+                                StageClock* clock, RunCounts& counts) const {
   const std::vector<std::uint32_t>& edges = edges_[task.tile];
   if (edges.empty()) return false;
   const std::uint64_t each =
       samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
-  const std::size_t most = std::max<std::size_t>(1, kMostRays / each);
-  for (std::size_t first = 0; first < edges.size(); first += most) {
-    CorrectPixels({edges.data() + first, std::min(most, edges.size() - first)}, task,
+  const std::size_t maximum = std::max<std::size_t>(1, kMaxRays / each);
+  for (std::size_t first = 0; first < edges.size(); first += maximum) {
+    CorrectPixels({edges.data() + first, std::min(maximum, edges.size() - first)}, task,
                   rays, clock);
   }
   // Counts the same rays for any split; rays that others of a turn need are traced again.
-  counts.rays_closest += edges.size() * task.count * (1 + kSeenLightRays);
+  counts.rays_closest += edges.size() * task.count * (1 + kVisibleLightRays);
   return true;
 }
 
-void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& task,
-                                   SeenLightRays& rays, StageClock* clock) const {
+void VisibleLightEdges::CorrectPixels(const Places& places, const VisibleLightTask& task,
+                                      VisibleLightRays& rays, StageClock* clock) const {
   const std::uint32_t seed = rays.image_run().seed;
   std::vector<std::uint32_t>& pixels = rays.pixels;
   pixels.clear();
@@ -205,12 +207,12 @@ void SeenLightEdges::CorrectPixels(const Places& places, const SeenLightTask& ta
              rays.own);
   const std::uint64_t end = task.begin + task.count;
   for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
-    const std::uint64_t turn = begin / kSamplesPerRaySeed;
-    next = std::min(end, (turn + 1) * kSamplesPerRaySeed);
-    const std::uint64_t base = turn * kSamplesPerRaySeed;
+    const std::uint64_t round = begin / kSamplesPerRaySeed;
+    next = std::min(end, (round + 1) * kSamplesPerRaySeed);
+    const std::uint64_t base = round * kSamplesPerRaySeed;
     const std::uint64_t first = samples_.Begin(begin - base);
     const auto count = std::uint32_t(samples_.End(next - base) - first);
-    rays.Trace({pixels.data(), places.count, RaySeed(seed, turn), first, count}, clock,
+    rays.Trace({pixels.data(), places.count, RaySeed(seed, round), first, count}, clock,
                rays.others);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t p = 0; p < places.count; ++p) {

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-TEST_CASE("sweep: what is done is not done again", "[sweep][cli]") {
+TEST_CASE("sweep: finished cells are not rendered again", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out).exit_code == kExitGood);
@@ -33,7 +33,7 @@ TEST_CASE("sweep: what is done is not done again", "[sweep][cli]") {
   CHECK(TableWithoutTimes(out + "/sweep.csv").find("missing") == std::string::npos);
 }
 
-TEST_CASE("sweep: clocks do not matter", "[sweep][cli]") {
+TEST_CASE("sweep: file times do not matter", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
   REQUIRE(Sweep(file, out).exit_code == kExitGood);

@@ -80,7 +80,7 @@ void CheckCuts(const KeptRender& whole, std::vector<int> counts) {
 
 }  // namespace
 
-TEST_CASE("cuts: the same bits for every kind of film and training", "[cuts]") {
+TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts]") {
   for (const char* strategy :
        {"points=independent", "points=sobol", "pairs=antithetic",
         "points=independent,pairs=antithetic", "roulette=adjoint", "roulette=efficiency",
@@ -91,25 +91,25 @@ TEST_CASE("cuts: the same bits for every kind of film and training", "[cuts]") {
   }
 }
 
-TEST_CASE("cuts: wavelengths that tiles share", "[cuts]") {
+TEST_CASE("any split: wavelengths that tiles share", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "reuse=block:16");
-  r.settings.transport = AskedTransport::kSpectral;
+  r.settings.transport = TransportSetting::kSpectral;
   CheckCuts(r, {3, 7});
 }
 
-TEST_CASE("cuts: fits within blocks of pixels", "[cuts]") {
+TEST_CASE("any split: fits within blocks of pixels", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "control=regression", 100, 70);
   r.settings.crop = {5, 3, 90, 70};  // blocks that the window cuts
   CheckCuts(r, {3, 7});
 }
 
-TEST_CASE("cuts: 64 parts, auxiliary planes", "[cuts]") {
+TEST_CASE("any split: 64 parts, auxiliary planes", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "");
   r.settings.gbuffer = Gbuffer::kCamera;
   CheckCuts(r, {64});
 }
 
-TEST_CASE("cuts: buckets of wavelengths", "[cuts][buckets]") {
+TEST_CASE("any split: buckets of wavelengths", "[cuts][buckets]") {
   TemporaryFolder folder;
   std::ifstream prism(Scene("prism"));
   std::string text{std::istreambuf_iterator<char>(prism), {}};
@@ -125,7 +125,7 @@ TEST_CASE("cuts: buckets of wavelengths", "[cuts][buckets]") {
   CheckCuts(r, {3, 7});
 }
 
-TEST_CASE("cuts: the matrix of scenes and strategies", "[cuts][slow]") {
+TEST_CASE("any split: the matrix of scenes and strategies", "[cuts][slow]") {
   for (const char* scene : {"cornell-box", "glass", "many-lights", "sun-sky"}) {
     for (const char* strategy : {"points=independent", "points=sobol", "pairs=antithetic",
                                  "control=regression", "roulette=adjoint"}) {
@@ -135,7 +135,7 @@ TEST_CASE("cuts: the matrix of scenes and strategies", "[cuts][slow]") {
   }
 }
 
-TEST_CASE("cuts: towards a finer target as if at once", "[cuts]") {
+TEST_CASE("any split: refining a target in steps equals one render", "[cuts]") {
   TemporaryFolder folder;
   KeptRender r = RenderOf("cornell-box", "");
   r.settings.spp = 4096;
@@ -151,7 +151,7 @@ TEST_CASE("cuts: towards a finer target as if at once", "[cuts]") {
   CHECK((RenderKept(r) == expected));
 }
 
-TEST_CASE("cuts: planted, a sample more or another seed is seen", "[cuts]") {
+TEST_CASE("any split: planted, an extra sample or another seed is detected", "[cuts]") {
   KeptRender r = RenderOf("cornell-box", "");
   const Outcome expected = RenderKept(r);
   r.settings.spp = 25;

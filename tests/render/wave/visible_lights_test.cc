@@ -5,7 +5,7 @@
 #include <set>
 
 #include "src/render/plan/plan_features.h"
-#include "src/render/wave/seen_lights.h"
+#include "src/render/wave/visible_lights.h"
 #include "tests/reference/scenes.h"
 #include "tests/render/run/render_fixture.h"
 
@@ -49,11 +49,11 @@ Rendered RenderLamp(const std::string& strategy, std::uint64_t spp, double slope
 
 }  // namespace
 
-TEST_CASE("rays of a light's edge are dealt out once each, to their own replicate",
+TEST_CASE("rays of a light's edge are assigned once, to their own replicate",
           "[seen-lights]") {
   for (const SampleGroups groups :
        {SampleGroups{1, false}, {2, false}, {1, true}, {2, true}}) {
-    const SeenLightSamples samples{groups, 4};
+    const VisibleLightSamples samples{groups, 4};
     const std::uint64_t n = 24;
     std::multiset<std::uint64_t> taken;
     for (std::uint64_t i = 0; i < n; ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("rays of a light's edge are dealt out once each, to their own replicat
   }
 }
 
-TEST_CASE("the edge of a lamp is its share of the pixels", "[seen-lights]") {
+TEST_CASE("pixels at a light's edge contain its covered fraction", "[seen-lights]") {
   // Area of the lamp within the film, in pixels: the edge leans about its middle.
   const double exact = kRadiance * kSize * kSize * (1 + kEdge) / 2;
   for (const char* points : {"independent", "sobol", "cmj", "halton"}) {
@@ -83,7 +83,7 @@ TEST_CASE("the edge of a lamp is its share of the pixels", "[seen-lights]") {
         // Six standard errors, of the independent samples that a pixel has at least: a
         // false alarm in 10^8. Half a pixel of a lamp's edge is 0.25 radiance^2 a sample.
         const double error =
-            kRadiance * std::sqrt(0.25 * 2 * kSize / (double(spp) * kSeenLightRays));
+            kRadiance * std::sqrt(0.25 * 2 * kSize / (double(spp) * kVisibleLightRays));
         CHECK(std::abs(SumOfMeans(apart.film) - exact) < 6 * error);
         CHECK(apart.result.rays_closest > 2 * paths.result.rays_closest);
         if (spp < 64) continue;
@@ -92,11 +92,11 @@ TEST_CASE("the edge of a lamp is its share of the pixels", "[seen-lights]") {
     }
   }
   // What a path's own camera ray sees, left in: all edge pixels twice as bright.
-  CHECK(6 * kRadiance * std::sqrt(0.25 * 2 * kSize / (7.0 * kSeenLightRays)) <
+  CHECK(6 * kRadiance * std::sqrt(0.25 * 2 * kSize / (7.0 * kVisibleLightRays)) <
         0.25 * kRadiance * kSize);
 }
 
-TEST_CASE("scenes without a light's edge in view have the paths' own bits",
+TEST_CASE("scenes without visible light edges are bit-identical to path tracing",
           "[seen-lights]") {
   SceneBuilder b(kSize, kSize);
   b.Depth(3).Perspective({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 20);
@@ -113,7 +113,7 @@ TEST_CASE("scenes without a light's edge in view have the paths' own bits",
   CHECK(apart.result.rays_closest == paths.result.rays_closest);
 }
 
-TEST_CASE("only scenes with lights that can be seen have stages for their edges",
+TEST_CASE("only scenes with directly visible lights have stages for their edges",
           "[seen-lights]") {
   SceneBuilder b(kSize, kSize);
   b.AddQuad({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, b.AddDiffuse(Grey(0.5)));
@@ -139,8 +139,7 @@ TEST_CASE("only scenes with lights that can be seen have stages for their edges"
   }
 }
 
-TEST_CASE("a profile says what the edges of lights cost, stage by stage",
-          "[seen-lights]") {
+TEST_CASE("a profile lists the stages of light edges", "[seen-lights]") {
   TestRender t;
   t.spp = 8;
   for (const bool apart : {true, false}) {

@@ -30,8 +30,7 @@ std::string HexOf(const Geometry& g, const AccelOptions& options = {}) {
 
 }  // namespace
 
-TEST_CASE("the key of a tree follows everything that a tree depends on",
-          "[accel][tree-key]") {
+TEST_CASE("the key of a BVH covers everything that it depends on", "[accel][tree-key]") {
   const Geometry plain = AllShapes();
   const std::vector<std::function<void(Geometry&)>> changes = {
       [](Geometry& g) { g.triangles[0].p[0][0] += 1; },
@@ -69,7 +68,7 @@ TEST_CASE("the key of a tree follows everything that a tree depends on",
   for (const std::string& key : keys) CHECK(key.size() == 32);
 }
 
-TEST_CASE("the key of a tree does not follow how shapes look", "[accel][tree-key]") {
+TEST_CASE("the key of a BVH ignores the appearance of shapes", "[accel][tree-key]") {
   const Geometry plain = AllShapes();
   Geometry other = plain;
   other.triangles[7].material = 3;
@@ -82,7 +81,7 @@ TEST_CASE("the key of a tree does not follow how shapes look", "[accel][tree-key
   CHECK(HexOf(other) == HexOf(plain));
 }
 
-TEST_CASE("the key of a tree is the same for any number of threads",
+TEST_CASE("the key of a BVH does not depend on the number of threads",
           "[accel][tree-key]") {
   const Geometry plain = AllShapes();
   const std::string key = HexOf(plain);

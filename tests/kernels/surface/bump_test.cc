@@ -5,8 +5,8 @@
 #include "kernels/stages.h"
 #include "src/base/core/pi.h"
 #include "src/scene/prepare/prepared_scene.h"
-#include "tests/kernels/surface/relief_files.h"
-#include "tests/reference/relief.h"
+#include "tests/kernels/surface/bump_files.h"
+#include "tests/reference/bump_maps.h"
 #include "tests/reference/scenes.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
@@ -108,7 +108,7 @@ TEST_CASE("a ramp tilts the normal by the angle of its slope", "[relief]") {
   CheckNormals(s, [&](Vec3d) { return n; });
 }
 
-TEST_CASE("heights are lengths of the world, at every scale of it", "[relief]") {
+TEST_CASE("bump heights are lengths in world space at every scale", "[relief]") {
   for (const double unit : {1e-3, 1000.0}) {
     CAPTURE(unit);
     Ramp ramp(unit);
@@ -159,7 +159,8 @@ TEST_CASE("bumps of spheres, disks and planes", "[relief]") {
   }
 }
 
-TEST_CASE("meshes with normals are bumped on square axes, as in pbrt", "[relief]") {
+TEST_CASE("meshes with normals are bumped along orthogonal axes, as in pbrt",
+          "[relief]") {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}};
   mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -220,7 +221,7 @@ TEST_CASE("a normal map of one colour gives one normal", "[relief]") {
   CHECK(s.scene().materials.displacement_texture.empty());
 }
 
-TEST_CASE("normals are turned until they are seen", "[relief]") {
+TEST_CASE("shading normals are rotated until they face the viewer", "[relief]") {
   const bool metal = GENERATE(false, true);
   CAPTURE(metal);
   TemporaryFolder folder;
@@ -260,7 +261,7 @@ TEST_CASE("normals are turned until they are seen", "[relief]") {
   CHECK(turned > 5);
 }
 
-TEST_CASE("footprints are those of the camera's pixels", "[relief]") {
+TEST_CASE("footprints equal those of the camera's pixels", "[relief]") {
   for (const bool perspective : {true, false}) {
     CAPTURE(perspective);
     Ramp ramp;
@@ -280,8 +281,8 @@ TEST_CASE("footprints are those of the camera's pixels", "[relief]") {
       at.dpdu = {2, 0, 0.3};
       at.dpdv = {0.5, 3, 0};
       const reference::UvSteps half = reference::HalfFootprint(ramp.b.scene(), at);
-      const double u = (std::abs(p.spread_0[i]) + std::abs(p.spread_1[i])) / 2;
-      const double v = (std::abs(p.spread_2[i]) + std::abs(p.spread_3[i])) / 2;
+      const double u = (std::abs(p.footprint_0[i]) + std::abs(p.footprint_1[i])) / 2;
+      const double v = (std::abs(p.footprint_2[i]) + std::abs(p.footprint_3[i])) / 2;
       CHECK(u == Approx(half.u).epsilon(1e-3));
       CHECK(v == Approx(half.v).epsilon(1e-3));
     }

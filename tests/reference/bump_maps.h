@@ -19,8 +19,8 @@ UvSteps HalfFootprint(const SceneDescription& scene, const SurfacePoint& at);
 
 /// The surface with the shading normal and tangent that its material (no mix) gives it.
 /// `wo`: unit, to where the path came from.
-SurfacePoint WithRelief(const SceneDescription& scene, const Material& material,
-                        const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
-                        const NormalMapLookup& normal_map);
+SurfacePoint WithBumpMaps(const SceneDescription& scene, const Material& material,
+                          const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
+                          const NormalMapLookup& normal_map);
 
 }  // namespace lanelight::reference

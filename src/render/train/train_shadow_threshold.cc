@@ -19,7 +19,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kMostShadowSamples = 60'000;
+constexpr std::uint64_t kMaxShadowSamples = 60'000;
 // Points that are stratified leave less variance than the independent ones of the pass,
 // and the pass has that between the points of a pixel too; roulette adds noise that no
 // stratification lowers.
@@ -39,7 +39,7 @@ TrainingSamples ShadowPass(const TrainingContext& context, const TrainingWork& w
 // The square of the mean standard deviation. By the mean variance a few pixels that see
 // rare light would have all others save on rays that matter there; what most pixels have
 // alone would leave nothing to save where light is rare everywhere.
-double UsualVariance(const std::vector<double>& variances) {
+double BaselineVariance(const std::vector<double>& variances) {
   double sum = 0;
   for (double v : variances) sum += std::sqrt(v);
   const double mean = sum / double(variances.size());
@@ -48,20 +48,20 @@ double UsualVariance(const std::vector<double>& variances) {
 
 }  // namespace
 
-TrainingOutcome TrainShadowWorth(const TrainingContext& context) {
+TrainingOutcome TrainShadowThreshold(const TrainingContext& context) {
   const std::uint64_t samples = std::clamp<std::uint64_t>(
-      context.options.planned_samples / 100, 1, kMostShadowSamples);
+      context.options.planned_samples / 100, 1, kMaxShadowSamples);
   const TrainingWork work = MakeTrainingWork(context.scene, samples);
-  ShadowWorth& worth = context.tables.shadow_worth;
-  worth.inverse.clear();  // the pass traces every ray
+  ShadowThreshold& pixel_threshold = context.tables.shadow_threshold;
+  pixel_threshold.inverse.clear();  // the pass traces every ray
   const TrainingSamples pass = ShadowPass(context, work);
   const ImageGuess image = GuessImage(context.scene, pass, work);
-  const double variance = UsualVariance(RelativeVariances(pass, work, image));
-  const double share = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
+  const double variance = BaselineVariance(RelativeVariances(pass, work, image));
+  const double fraction = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
   const Film& film = context.scene.view->film;
-  worth.inverse = InverseShadowWorth(image, std::uint32_t(film.width * film.height),
-                                     std::sqrt(kStratified * variance * share),
-                                     double{ExposureOf(context.scene)});
+  pixel_threshold.inverse = InverseShadowThreshold(
+      image, std::uint32_t(film.width * film.height),
+      std::sqrt(kStratified * variance * fraction), double{ExposureOf(context.scene)});
   TrainingOutcome outcome;
   outcome.samples = pass.colors.size();
   outcome.rays = pass.rays();

@@ -11,10 +11,10 @@
 
 namespace lanelight {
 
-FoundTree FindTree(const Geometry& geometry, const AccelOptions& options,
-                   const KnownTree* known) {
+ReusedBvh FindBvh(const Geometry& geometry, const AccelOptions& options,
+                  const CachedBvh* known) {
   const Stopwatch watch;
-  FoundTree tree;
+  ReusedBvh tree;
   tree.report.shared = known != nullptr && known->key == KeyOf(geometry, options);
   tree.accel = tree.report.shared ? known->accel : BuildAccel(geometry, options);
   tree.report.seconds = watch.Seconds();
@@ -58,7 +58,7 @@ class KeyText {
     text_.append(reinterpret_cast<const char*>(array.data()), size);
   }
 
-  TreeKey Key() const { return HashTo128(text_.data(), text_.size()); }
+  BvhKey Key() const { return HashTo128(text_.data(), text_.size()); }
 
  private:
   std::string text_;
@@ -96,7 +96,7 @@ void AddShapes(const Geometry& g, KeyText& text) {
 
 }  // namespace
 
-TreeKey KeyOf(const Geometry& geometry, const AccelOptions& options) {
+BvhKey KeyOf(const Geometry& geometry, const AccelOptions& options) {
   KeyText text;
   text.Add(options.few_triangles);
   text.Add(options.few_round);

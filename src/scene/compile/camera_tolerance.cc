@@ -10,8 +10,8 @@ namespace {
 // Width of a pixel on the image plane at distance 1, or of an orthographic image.
 double PixelWidth(const Camera& camera, const Film& film) {
   const double* w = camera.screen_window;
-  const bool is_given = w[0] != w[1] && w[2] != w[3];
-  if (!is_given) return 2.0 / std::min(film.width, film.height);
+  const bool has_window = w[0] != w[1] && w[2] != w[3];
+  if (!has_window) return 2.0 / std::min(film.width, film.height);
   return std::min((w[1] - w[0]) / film.width, (w[3] - w[2]) / film.height);
 }
 
@@ -48,10 +48,11 @@ double DistanceTo(const PlacedShape& placed, Vec3d eye) {
 
 }  // namespace
 
-double SeenTolerance(const PlacedShape& placed, const Camera& camera, const Film& film) {
+double CameraTolerance(const PlacedShape& placed, const Camera& camera,
+                       const Film& film) {
   const double distance = DistanceTo(placed, camera.world_from_camera.Point({0, 0, 0}));
   const double radius = placed.shape->radius * LargestScale(placed.transform);
-  const double seen = kSeenPixels * PixelSize(camera, film, distance) / radius;
+  const double seen = kTolerancePixels * PixelSize(camera, film, distance) / radius;
   const bool is_sphere = placed.shape->kind == ShapeKind::kSphere;
   const double finest = is_sphere ? kFinestSphere : kFinestCylinder;
   return seen > finest ? std::min(seen, kCoarsest) : finest;

@@ -1,4 +1,4 @@
-#include "tests/reference/relief.h"
+#include "tests/reference/bump_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,13 +85,13 @@ bool OnlyMirrorsOrRefracts(MaterialKind kind) {
 // See kernels/surface/mapped_normals-inl.h.
 Vec3d KeepInView(Vec3d n, Vec3d ng, Vec3d wo, bool mirrors) {
   if (Dot(ng, wo) < 0) wo = -wo;
-  const double least = 1.0 / 64, steepest = std::acos(least);
-  if (Dot(n, wo) < least) {
+  const double min_cosine = 1.0 / 64, steepest = std::acos(min_cosine);
+  if (Dot(n, wo) < min_cosine) {
     const TangentFrame frame = MakeFrame(wo, n);
     n = std::sin(steepest) * frame.x + std::cos(steepest) * wo;
   }
   const Vec3d mirrored = 2 * Dot(n, wo) * n - wo;
-  const double wanted = std::min(least, Dot(wo, ng)), height = Dot(mirrored, ng);
+  const double wanted = std::min(min_cosine, Dot(wo, ng)), height = Dot(mirrored, ng);
   if (!mirrors || height >= wanted) return n;
   return Normalize(wo + Normalize(mirrored + (wanted - height) * ng));
 }
@@ -124,9 +124,9 @@ UvSteps HalfFootprint(const SceneDescription& scene, const SurfacePoint& at) {
   return {sum.u == 0 ? absent.u : sum.u, sum.v == 0 ? absent.v : sum.v};
 }
 
-SurfacePoint WithRelief(const SceneDescription& scene, const Material& material,
-                        const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
-                        const NormalMapLookup& normal_map) {
+SurfacePoint WithBumpMaps(const SceneDescription& scene, const Material& material,
+                          const SurfacePoint& at, Vec3d wo, const TextureLookup& texture,
+                          const NormalMapLookup& normal_map) {
   const bool mapped = !material.normal_map.empty();
   if (!mapped && material.displacement.texture == kNone) return at;
   SurfacePoint out =
