@@ -77,9 +77,9 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
       ->description(WithDefault("SIMD target to show", "the best available"));
   AddSetting(*command, "threads", options->settings);
   command->add_flag("--json", options->json, "Print JSON");
-  command->add_flag("--format", options->format,
-                    "Print what becomes of every directive and parameter of pbrt-v4's "
-                    "file format, as Markdown");
+  command->add_flag(
+      "--format", options->format,
+      "Print how every pbrt-v4 directive and parameter is supported, as Markdown");
   command->footer(
       "\nExamples:\n  lanelight info --simd AVX2\n"
       "  lanelight info out.exr\n"

@@ -79,8 +79,8 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
           [options](const std::string& text) {
             options->outputs.targets.display = ReadValue(kDisplayEndpoint, text);
           },
-          "Show the image so far in tev, or another viewer of its protocol, that listens "
-          "there; default: nowhere, and port 14158")
+          "Send the current image to tev (or a compatible viewer) at this address; "
+          "default: none; default port: 14158")
       ->check(ValueOf(kDisplayEndpoint))
       ->type_name("HOST[:PORT]");
   AddSceneOptions(*command, options->scene);

@@ -28,8 +28,8 @@ std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   if (strategy.control == Control::kNone) return "";
   const double c = r.control ? r.control->coefficient : strategy.coefficient.value_or(1);
   std::string text =
-      fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})", Name(strategy.control),
-                  strategy.coefficient ? "" : "mean ", c, 0 - c);
+      fmt::format("{}, {}c = {:.4g} ({:.4g} in the paper's sign convention)",
+                  Name(strategy.control), strategy.coefficient ? "" : "mean ", c, 0 - c);
   if (r.control) {
     text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
   }
@@ -97,14 +97,15 @@ std::string NextRow(const RenderReport& report, const Job& job,
 }
 
 // Names the choices of the strategy that differ from the default.
-std::string StrategyRow(const RunResult& r, const Job& job) {
+std::string StrategyRow(const RunResult& r, const Job& job, bool verbose) {
   const Strategy in_force = StrategyInForce(r, job);
   Strategy usual;
   usual.decide = in_force.decide;
   const std::string changes = ChoicesNotIn(ToText(usual), ToText(in_force));
   if (changes.empty()) return "";
-  const char* by =
-      r.training.changes.empty() ? "" : " (chosen by a short trial run; details with -v)";
+  const char* by = r.training.changes.empty() ? ""
+                   : verbose                  ? " (chosen by a short trial run)"
+                             : " (chosen by a short trial run; details with -v)";
   return SummaryRow("strategy", changes + by);
 }
 
@@ -130,7 +131,7 @@ std::string StageTable(const RunResult& result) {
       {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
   for (const StageProfile& s : result.stages) {
     lines.push_back(
-        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
+        {StageTitle(s.name), TotalText(double(s.calls)), TotalText(double(s.items)),
          fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
          fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
          fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
@@ -143,7 +144,7 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   const SimdTarget target = job.plan.options.target;
   return "\n" + SummaryRow("strategy", ToText(StrategyInForce(r, job))) +
-         SummaryRow("points", PointsText(job)) + TrialRow(r) +
+         SummaryRow("sampler", PointsText(job)) + TrialRow(r) +
          SummaryRow("errors", ErrorText(report.error)) +
          ControlRow(r, job.scene.strategy) + RaysRow(r) +
          SummaryRow("health", HealthText(r.health)) +
@@ -166,6 +167,15 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 }
 
 }  // namespace
+
+std::string StageTitle(const std::string& name) {
+  constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
+      {"seen edges: ", "edges: "}, {"seen: ", "visible: "}};
+  for (const auto& [prefix, title] : kTitles) {
+    if (name.starts_with(prefix)) return std::string(title) + name.substr(prefix.size());
+  }
+  return name;
+}
 
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
                              bool verbose) {
@@ -208,7 +218,7 @@ std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice) {
   const RunResult& r = report.result;
   std::string text = ImageRow(report, job.window) + ErrorRow(report.error) +
-                     SpeedRows(r) + StrategyRow(r, job);
+                     SpeedRows(r) + StrategyRow(r, job, choice.verbose);
   const std::string transport = TransportText(job);
   if (transport.starts_with("spectral")) text += SummaryRow("transport", transport);
   if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));

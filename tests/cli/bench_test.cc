@@ -77,7 +77,7 @@ TEST_CASE("bench says what is slower than before, by its exit code too", "[cli]"
   const std::string fast = Scaled(path, 1000, directory / "fast.json");
   check(Bench(directory, {"--against", fast}), kExitSlower, "slower: ");
   const std::string slow = Scaled(path, 1e-3, directory / "slow.json");
-  check(Bench(directory, {"--against", slow}), kExitGood, "nothing is slower");
+  check(Bench(directory, {"--against", slow}), kExitGood, "no row is slower");
 
   Json json = ReadJson(slow);
   json["busy"] = {"the load was 9"};

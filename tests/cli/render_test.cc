@@ -182,7 +182,7 @@ TEST_CASE("a result that cannot be written is kept elsewhere", "[cli]") {
   CHECK_THAT(r.err, Contains("gone/o.exr") && Contains("No such file or directory"));
   REQUIRE(temporary.Files().size() == 1);
   const std::string kept = temporary / temporary.Files().front();
-  CHECK_THAT(r.err, Contains("kept in '" + kept + "'"));
+  CHECK_THAT(r.err, Contains("written to '" + kept + "'"));
   CHECK(ReadExr(kept).width == 32);
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("a full disk everywhere is reported, and nothing half written stays", 
   const ProcessResult r = RunLanelight({"render", scene, "-o", out}, options);
   CHECK(r.signal == 0);
   CHECK(r.exit_code == kExitBadInput);
-  CHECK_THAT(r.err, Contains("o.exr") && Contains("it could not be kept") &&
+  CHECK_THAT(r.err, Contains("o.exr") && Contains("it could not be written") &&
                         !Contains("error: error:") && !Contains("either: error:"));
   CHECK(temporary.Files().empty());
   CHECK(directory.Files() == std::vector<std::string>{"o.exr", "sphere.pbrt"});

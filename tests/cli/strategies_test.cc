@@ -54,9 +54,9 @@ TEST_CASE("the default of decide says where it is which", "[cli]") {
   const std::string list = RunLanelight({"strategies"}).out;
   const std::string decide = list.substr(list.find("decide=\n"));
   CHECK_THAT(decide,
-             Contains("default where a strategy is named, and of short renders") &&
-                 Contains("chooses roulette and reuse") &&
-                 Contains("from 4 s or 8 million samples on"));
+             Contains("default if a strategy is named, and of short renders") &&
+                 Contains("changes roulette or reuse") &&
+                 Contains("from 4 s or 8 million samples"));
 }
 
 TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {

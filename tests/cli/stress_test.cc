@@ -50,7 +50,7 @@ TEST_CASE("stress: a case, its row, its files", "[cli][stress]") {
       {"stress", "unit-of-length", "--simd", "all", "--out", out, "--json", json});
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("first breaks") && Contains("unit-of-length") &&
+  CHECK_THAT(r.out, Contains("first failure") && Contains("unit-of-length") &&
                         Contains("The one case is good on " + AvailableTargets()[0]) &&
                         Contains(out + "/report.html"));
   CHECK_THAT(r.err, Contains("stress: 1 of"));

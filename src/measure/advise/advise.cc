@@ -113,7 +113,7 @@ class Adviser {
     const double share = std::min(1.0, pilot_ / advice_.seconds_to_try);
     const auto reached = std::size_t(share * double(tried.size()));
     for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
-      all_[tried[i].index].reason = "the trial's time did not reach it";
+      all_[tried[i].index].reason = "the trial ran out of time";
     }
     tried.resize(reached < 2 ? 1 : reached);
     return tried;
@@ -193,7 +193,7 @@ class Adviser {
     std::sort(tried.begin() + 1, tried.end(), better);
     while (tried.size() > 1 &&
            (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kPromising))) {
-      Drop(tried.back(), "less efficient than others after a round");
+      Drop(tried.back(), "less efficient than other candidates");
       tried.pop_back();
     }
     if (tried.size() < 2) return;
@@ -246,8 +246,9 @@ class Adviser {
     both.efficiency = {usual.value * more.value, usual.low * more.low,
                        usual.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.pays_per_pixel ? "gains by pixels, and loses after a filter"
-                                        : "not clearly better";
+    both.reason = blocks.pays_per_pixel
+                      ? "more efficient per pixel, less efficient after a filter"
+                      : "not clearly better";
     both.samples = samples;
     all_.push_back(both);
   }

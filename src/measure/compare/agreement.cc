@@ -90,7 +90,7 @@ class AgreementTest {
     out_.untested = std::ranges::count_if(p_, [](double p) { return p != p; });
     out_.detectable = Detectable();
     if (out_.untested == out_.tests) {
-      out_.why = "their means rest on too few bright samples";
+      out_.why = "too few bright samples determine their means";
       out_.p = kNotKnown;
       return out_;
     }

@@ -61,14 +61,14 @@ std::string VerdictOf(const ImageComparison& c) {
                   c.flip ? fmt::format("; FLIP {:.3g}", c.flip->summary().mean) : "");
   switch (c.agreement.verdict) {
     case AgreementVerdict::kAgree:
-      return text + ", which their noise explains";
+      return text + "; the difference is not significant";
     case AgreementVerdict::kDiffer:
       return text +
-             fmt::format(", more than their noise explains ({})", PText(c.agreement.p));
+             fmt::format("; the difference is significant ({})", PText(c.agreement.p));
     case AgreementVerdict::kCannotTell:
       break;
   }
-  return text + "; it is unknown whether noise explains it: " + c.agreement.why;
+  return text + "; significance unknown: " + c.agreement.why;
 }
 
 nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
@@ -135,7 +135,7 @@ std::string AgreementText(const Agreement& a) {
     case AgreementVerdict::kCannotTell:
       break;
   }
-  return "cannot tell: " + a.why;
+  return "no test: " + a.why;
 }
 
 nlohmann::json ToJson(const ImageComparison& c) {

@@ -21,29 +21,29 @@ IMAGES = "tone picture place pan pane difference comparator controls readout"
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts.
 PAGES = {
-    "Study": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
+    "Study": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv in the same directory"},
              "images",
              f"""{CURVES} {IMAGES} curves hero warnings summary ranking ranking_columns calibration
              figures figures_level insets maps stages levels glossary main"""),
-    "Paper": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
+    "Paper": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv in the same directory"},
                   "images",
                   f"""{CURVES} tone picture difference curves hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
     "Comparison": ({"NAME": "compare", "TABS": "Images",
-                     "FILES": "what compare --json prints"}, "images",
+                     "FILES": "the output of compare --json"}, "images",
                     f"""{REPORT} {PLOTS} {IMAGES} maps histogram compare_tiles compare_numbers
                     compare_main"""),
-    "Sweep": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
+    "Sweep": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv in the same directory"}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
                   sweep_plots sweep_images sweep_stages sweep_table sweep_headline
                   sweep_summary sweep_main"""),
-    "Bench": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
+    "Bench": ({"NAME": "bench", "TABS": "Scenes", "FILES": "the output of bench --json"},
                   "sweep", f"{CURVES} stages rates bench_rows bench_main"),
-    "Stress": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
+    "Stress": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json in the same directory"}, "stress",
                    f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles
                    stress_about stress_detail stress_strategies stress_table stress_summary
                    stress_main"""),
-    "Live": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
+    "Live": ({"NAME": "live", "TABS": "Scene", "FILES": "the output of lanelight study",
                   "CONNECT": "; connect-src 'self'"}, "live",
                  f"""{COMMON} strategies scale plot_draw tone place live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout

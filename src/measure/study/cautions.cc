@@ -83,10 +83,10 @@ class Cautioner {
   void BusyMachines() {
     for (const MachineInfo& machine : analysis_.machines) {
       if (!IsOverloaded(machine)) continue;
-      texts_.push_back(fmt::format(
-          "The load of a machine before the start, {:.2f}, exceeds its {:.3g} "
-          "cores: times and efficiencies may be wrong.",
-          *machine.load, *CoresAtATime(machine)));
+      texts_.push_back(
+          fmt::format("The machine was busy before the start (load {:.2f}, {:.3g} "
+                      "cores): times and efficiencies may be wrong.",
+                      *machine.load, *CoresAtATime(machine)));
     }
   }
 
@@ -131,7 +131,7 @@ std::string ReferenceText(const SceneRuns& runs, const SceneAnalysis& analysis) 
   if (analysis.biased_alike.empty()) return "";
   return fmt::format(
       "The mean image of {} differs from the reference by more than noise, but not from "
-      "those of the other strategies, which points at the reference.",
+      "those of the other strategies, so the reference may be wrong.",
       NamesText(runs, analysis.biased_alike));
 }
 

@@ -47,7 +47,7 @@ class Writer {
     if (repetitions < 3) {
       return Say(fmt::format(
           "No ranking: {} repetition{} too few for intervals; use 3 or more. In these "
-          "renders {} has the least error for the time, {} times the efficiency of {}.",
+          "renders {} is the most efficient, with {} times the efficiency of {}.",
           repetitions, repetitions == 1 ? " is" : "s are", NameOf(best),
           EstimateText(gain), NameOf(analysis_.baseline)));
     }
@@ -57,12 +57,12 @@ class Writer {
             : fmt::format("{} times the efficiency of {}", EstimateText(gain),
                           NameOf(analysis_.baseline));
     if (first.size() == 1) {
-      return Say(fmt::format("{} gives the least error for the time: {}.", NameOf(best),
-                             amount));
+      return Say(
+          fmt::format("{} is the most efficient strategy: {}.", NameOf(best), amount));
     }
     Say(
-        fmt::format("{} gives the least error for the time in these renders ({}), but {} "
-                    "not certainly behind.",
+        fmt::format("{} is the most efficient strategy in these renders ({}), but {} not "
+                    "significantly less efficient.",
                     NameOf(best), amount, Others(first)));
   }
 
@@ -82,13 +82,13 @@ class Writer {
     const auto& mine = Of(best).to_target;
     const auto& base = Of(analysis_.baseline).to_target;
     if (!mine || !base || best == analysis_.baseline) return;
-    Say(
-        fmt::format("To a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
-                    "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
-                    analysis_.target_relmse, mine->seconds.value, mine->samples.value,
-                    mine->extrapolated ? " (extrapolated)" : "",
-                    NameOf(analysis_.baseline), base->seconds.value, base->samples.value,
-                    base->extrapolated ? " (extrapolated)" : ""));
+    Say(fmt::format(
+        "To reach a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
+        "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
+        analysis_.target_relmse, mine->seconds.value, mine->samples.value,
+        mine->extrapolated ? " (extrapolated)" : "", NameOf(analysis_.baseline),
+        base->seconds.value, base->samples.value,
+        base->extrapolated ? " (extrapolated)" : ""));
   }
 
   void Order() {
@@ -121,18 +121,17 @@ class Writer {
       if (runs_.strategies[i].status == RunStatus::kFailed) failed.push_back(i);
     }
     if (!heavy.empty()) {
-      Say(fmt::format(
-          "Rare bright samples carry much of the error of {}: intervals there "
-          "may not hold, and bias cannot be tested.",
-          NamesText(runs_, heavy)));
+      Say(
+          fmt::format("Rare bright samples cause much of the error of {}: its intervals "
+                      "are unreliable, and bias cannot be tested.",
+                      NamesText(runs_, heavy)));
       TrimmedWinner();
     }
     Say(BiasText(runs_, analysis_));
     if (!failed.empty()) Say("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
-      Say("The reference is too noisy for the smallest errors: more than half of those "
-          "is "
-          "its own error.");
+      Say("The reference is too noisy for the smallest errors: its own noise is more "
+          "than half of them.");
     }
     if (runs_.interrupted) Say("The study was interrupted; --resume continues it.");
   }

@@ -57,7 +57,7 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
       return fast + "slower: " + slower + ".";
     case RateComparison::Verdict::kNotSlower:
       return fast +
-             fmt::format("nothing is slower by more than {:.3g} %.", 100 * tolerance);
+             fmt::format("no row is slower by more than {:.3g} %.", 100 * tolerance);
     case RateComparison::Verdict::kNotComparable:
       break;
   }

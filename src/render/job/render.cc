@@ -65,7 +65,7 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
         IdentityDifferences(ParseJson(own), "rank 0", ParseJson(std::string(its)), "it");
     if (differs.empty()) return;
     throw InputError(
-        fmt::format("{} would render something else:{}", group.Name(rank), differs));
+        fmt::format("{} has a different render:{}", group.Name(rank), differs));
   });
 }
 
@@ -74,7 +74,7 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
                          Checkpoint& checkpoint) {
   checkpoint.Finish();
   if (settings.path.empty() || !checkpoint.kept()) throw failure;
-  throw RankFailure(fmt::format("{}\nthe state is kept: continue with --resume '{}'",
+  throw RankFailure(fmt::format("{}\nthe state was saved: continue with --resume '{}'",
                                 failure.what(), settings.path));
 }
 

@@ -88,8 +88,8 @@ void ApplySpectralFilm(const std::optional<AskedTransport>& asked,
   const bool rgb = asked ? *asked == AskedTransport::kRgb : transport == Transport::kRgb;
   if (rgb) {
     throw InputError(fmt::format(
-        "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
-        "leave it out, or use Film \"rgb\"",
+        "the scene's Film \"spectral\" needs wavelengths, but {} renders RGB: remove "
+        "that setting, or use Film \"rgb\"",
         asked ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
   }
   transport = Transport::kSpectral;

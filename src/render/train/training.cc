@@ -84,7 +84,7 @@ std::vector<TrainedTable> TakeTraining(const StrategyTables& tables) {
   if (!shadow.empty()) {
     trained.push_back(
         {kShadowWorth,
-         "inverse worth of shadow rays, by pixel of the full image and channel",
+         "inverse weight of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
   }
   return trained;

@@ -121,11 +121,10 @@ void NoteUnlitInsides(const SceneDescription& description,
     const Material& m = description.materials[i];
     if (m.inside == kNone || rows[i] < 0) continue;
     if (scene.materials.kind[static_cast<std::size_t>(rows[i])] != smooth) continue;
-    scene.notes.push_back(
-        {m.where,
-         "light of point, spot and distant lights does not get into a smooth "
-         "\"subsurface\" material; with a \"roughness\" of 0.1 it does",
-         true});
+    scene.notes.push_back({m.where,
+                           "point, spot and distant lights do not light a smooth "
+                           "\"subsurface\" material; set its \"roughness\" to 0.1",
+                           true});
   }
 }
 

@@ -53,8 +53,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(u32, sample, ({}), kPath, (), "sample index of the pixel: second coordinate")       \
   X(u32, output, ({}), kPath, (), "slot of the sample in the task's sample buffer")     \
   X(u32, depth, ({}), kPath, (), "scattering events so far")                            \
-  X(u32, branch, ({kSplitting}), kPath, (), "which copy of its sample the path is, 0 = the first") \
-  X(u32, budget, ({kSplitting}), kPath, (), "copies that the path may still become, itself included") \
+  X(u32, branch, ({kSplitting}), kPath, (), "index of this split path in its sample, 0 = the first") \
+  X(u32, budget, ({kSplitting}), kPath, (), "maximum number of split paths, itself included") \
   /* ray: origin and unit direction, scene units */                                       \
   LANELIGHT_XYZ(X, f32, o, ({}), kRay, (), "ray origin")                                \
   LANELIGHT_XYZ(X, f32, d, ({}), kPath, (), "ray direction, unit")                      \
@@ -62,16 +62,16 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, wavelength, ({kSpectral}), kPath, (), "number that chose the wavelengths of the path; below 0, or -0: glass has left one (src/scene/compiled/spectra.h)") \
-  X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular, and surfaces are rougher from there on") \
+  X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular; later surfaces are rougher") \
   X(f32, bsdf_pdf, ({kMis, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
   X(f32, eta_scale, ({kRefraction, kReuse}), kPath, (1.0f), "product of eta^2 of refractions: undone by roulette") \
-  X(u32, reuse, ({kReuse}), kPath, (0u), "how far the path has come: ReuseState (src/vocabulary/path/block.h)") \
+  X(u32, reuse, ({kReuse}), kPath, (0u), "progress of the path: ReuseState (src/vocabulary/path/block.h)") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
   LANELIGHT_2(X, f32, u_lens, ({kLens}), kCamera, (), "position on the lens")           \
   X(f32, weight, ({kSignedFilter, kRealisticCamera}), kPath, (), "weight of the sample: of filter and lens system") \
-  X(f32, time, ({kMotion}), kPath, (), "time of all that the path meets, from 0 where the shutter opens to 1 where it closes") \
+  X(f32, time, ({kMotion}), kPath, (), "time of the path, from 0 (shutter opens) to 1 (shutter closes)") \
   /* hit */                                                                               \
   X(f32, t, ({}), kRay, (std::numeric_limits<float>::infinity()), "hit distance, +inf = miss") \
   X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/scene/geometry/geometry.h); of the last one, where the ray starts, until there is a new one") \
@@ -157,7 +157,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* training pass with splitting: what the path would be without (kernels/roulette/single_path_records.cc) */ \
   X(f32, copy_weight, ({kRecordsSinglePaths}), kPath, (1.0f), "product of 1/r of its decisions so far") \
   X(f32, decided_at, ({kRecordsSinglePaths}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
-  X(f32, single_gathered, ({kRecordsSinglePaths}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
+  X(f32, single_gathered, ({kRecordsSinglePaths}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of split paths") \
   X(f32, single_l, ({kRecordsSinglePaths}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \

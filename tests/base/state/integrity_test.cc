@@ -63,11 +63,11 @@ TEST_CASE("a state cut at any byte is refused", "[state]") {
   for (std::size_t size = bytes.size(); size-- > 0;) {
     REQUIRE(truncate(path.c_str(), static_cast<off_t>(size)) == 0);
     const std::string error = ErrorOf(path);
-    if (error.find(size > 0 ? "torn" : "empty") != error.npos) continue;
+    if (error.find(size > 0 ? "truncated" : "empty") != error.npos) continue;
     FAIL_CHECK(size << " bytes: " << error);
   }
   folder.Write("state", bytes + '\0');
-  CHECK_THAT(ErrorOf(path), Contains("torn"));
+  CHECK_THAT(ErrorOf(path), Contains("truncated"));
 }
 
 TEST_CASE("a state with any bit flipped is refused", "[state]") {

@@ -134,7 +134,7 @@ TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
              Catch::Contains("reuse=block needs"));
   page.Ask(R"({"do": "exr", "slot": 0})");
   CHECK(page.Until([&] {
-    return page.Last("refused")["text"].get<std::string>().find("no whole picture") !=
+    return page.Last("refused")["text"].get<std::string>().find("no complete image") !=
            std::string::npos;
   }));
 }

@@ -178,7 +178,7 @@ TEST_CASE("it listens on 127.0.0.1 alone, and says so of ports that are taken",
   // Another address of this machine's loopback.
   CHECK(Connect(INADDR_LOOPBACK + 1, server.port) < 0);
   CHECK_THROWS_WITH(Server(server.live_scene(), "", server.port),
-                    Catch::Contains("cannot be had"));
+                    Catch::Contains("cannot use port"));
 }
 
 TEST_CASE("pages are told goodbye", "[live]") {

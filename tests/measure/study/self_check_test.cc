@@ -65,7 +65,7 @@ TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
   CHECK(f.inside == 9);
   CHECK(f.total == 24);
   CHECK(f.worst_share == Approx(0.24));
-  CHECK_THAT(text, Contains("Those of narrow held in 9 of 24") && Contains("(31, 5)") &&
+  CHECK_THAT(text, Contains("For narrow it is 9 of 24") && Contains("(31, 5)") &&
                        Contains("24 %") && !Contains("good") && !Contains("other"));
 }
 

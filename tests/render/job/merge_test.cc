@@ -237,7 +237,7 @@ TEST_CASE("states of other renders are not gone on with", "[merge]") {
   refused(missing, "nothing");
   const std::string text = ReadWholeFile(r.checkpoint.path);
   folder.Write("a", text.substr(0, text.size() / 2));
-  refused(r, "torn");
+  refused(r, "truncated");
 }
 
 }  // namespace lanelight

@@ -275,7 +275,7 @@ TEST_CASE("without access to files nothing is opened", "[parse]") {
                            "Shape \"plymesh\" \"string filename\" \"a.ply\"",
                            "LightSource \"point\" \"spectrum I\" \"a.spd\""}) {
     CAPTURE(text);
-    CHECK(WorldError(text).find("files may not be read here") != std::string::npos);
+    CHECK(WorldError(text).find("reading files is disabled here") != std::string::npos);
   }
 }
 

@@ -299,7 +299,7 @@ TEST_CASE("measured materials that cannot be", "[parse]") {
   const std::string material = "Material \"measured\" ";
   const std::string named = material + "\"string filename\" \"no.bsdf\"";
   CHECK_THAT(WorldError(material), Contains("has no \"string filename\""));
-  CHECK_THAT(WorldError(named), Contains("files may not be read here"));
+  CHECK_THAT(WorldError(named), Contains("reading files is disabled here"));
   CHECK_THROWS_WITH(ParseSceneText("WorldBegin " + named, "test.pbrt", "."),
                     Contains("test.pbrt:1:") && Contains("no.bsdf"));
 }

@@ -120,6 +120,14 @@ function fmtSeconds(seconds, digits = 3) {
 }
 
 // Value and bounds with a common power of ten or unit: {value, bounds}; bounds may be "".
+// Stage names as a reader knows them; the data keeps the names of profiles.
+function stageTitle(name) {
+  return name
+    .replace(/^lights seen$/, "visible lights")
+    .replace(/^seen edges: /, "edges: ")
+    .replace(/^seen: /, "visible: ");
+}
+
 function intervalTexts(interval, scale = 1, suffix = "", signed = false) {
   const x = valueOf(interval);
   if (x === null) return { value: UNKNOWN, bounds: "" };

@@ -19,7 +19,7 @@ function breakLines(frame, aCase, target) {
     const x = frame.x(place.parameter);
     return withTip(
       svg("line.break.told", { x1: x, x2: x, y1: frame.top, y2: frame.bottom }),
-      () => noteOf("First breaks here", breakText(aCase, place)),
+      () => noteOf("First failure", breakText(aCase, place)),
     );
   });
 }

@@ -147,12 +147,12 @@ void AddRadianceCases(std::vector<Case>& cases) {
   const CaseAdder twins{cases, "lights", Truth::kTwin};
   closed_lights(
       {"radiance", "radiance of every kind of light, from 1e-30 to 1e30",
-       "what is seen is in proportion",
+       "the image is proportional to it",
        LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        ByRadiance});
   invariant(
       {"noise-of-radiance", "noise of an image of radiance 1e-30 to 1e30",
-       "the standard error is in proportion",
+       "the standard error is proportional to it",
        LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        NoiseByRadiance});
   closed_film({"decades-in-one-image",
