@@ -145,7 +145,7 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
   AddBenchOptions(*command, *options);
   AddBenchOutputs(*command, *options);
   command->footer(
-      "\nRows are measured in turns, so a slow phase of the machine affects all of them. "
+      "\nRows are measured in turns, so a slow phase of the machine affects all rows.\n"
       "docs/bench.md says what the columns mean, and which scenes these are.\n"
       "\nExamples:\n"
       "  lanelight bench --json today.json --html today.html\n"

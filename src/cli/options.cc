@@ -93,8 +93,8 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
             WithDefault("Time between states", fmt::format("{} s", s.seconds)))
       ->transform(ValueOf(SecondsType{0.01, 1e6}));
   flags.resume_flag = AddOption(command, "--resume [FILE]", s.from,
-                                "Resume from this state, and keep it; bare: from that of "
-                                "--checkpoint, if it exists")
+                                "Resume from this state and update it; bare: resume from "
+                                "the --checkpoint file, if it exists")
                           ->expected(0, 1);
   AddOption(
       command, "--watch FILE", s.watch,

@@ -117,8 +117,8 @@ std::string StrategyWords(const Job& job) {
   const std::string text = ToText(strategy);
   if (strategy.decide != Decide::kPilot) return text;
   return text +
-         "; decide=pilot: a short trial run before the image finds out whether another "
-         "roulette or reuse is more efficient, and `render` says which";
+         "; decide=pilot: a short trial run before the image may choose another roulette "
+         "or reuse; `render` prints the choice";
 }
 
 // Everything that runs comes last.

@@ -49,7 +49,7 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
       SummaryRow("machine", MachineText(ThisMachine())) +
       SummaryRow("peaks", PeaksText(report.peaks, target)) +
       SummaryRow("columns",
-                 fmt::format("{:.0f} KiB for the paths of a wavefront, which fit {}",
+                 fmt::format("{:.0f} KiB for the paths of a wavefront; they fit in {}",
                              double(result.bytes_in_flight) / 1024, report.level.name));
   if (result.counter_error != 0) {
     text += SummaryRow("counters", std::string(result.counters ? "in part: " : "none: ") +
@@ -117,14 +117,13 @@ std::string CounterTable(const ProfileReport& report) {
 // Explains columns that could be misread.
 std::string Notes(const ProfileReport& report, const RunResult& result) {
   std::string text = SummaryRow(
-      "read,write",
-      fmt::format(" bytes per item of path columns; BVH, triangles, textures and "
-                  "tables are not in them, nor in GB/s and \"of {}\"",
-                  report.level.name));
-  text += SummaryRow("bound", result.counters
-                                  ? "the limit that a stage works at (docs/profile.md)"
-                                  : "\"memory\" where the columns alone show it; without "
-                                    "counters \"-\" means not known (docs/profile.md)");
+      "read,write", fmt::format(" bytes of path columns per item; read, write, GB/s and "
+                                "\"of {}\" exclude BVH, triangles, textures and tables",
+                                report.level.name));
+  text += SummaryRow(
+      "bound", result.counters ? "what limits the speed of the stage (docs/profile.md)"
+                               : "\"memory\": memory bandwidth limits the stage; \"-\": "
+                                 "unknown without hardware counters (docs/profile.md)");
   if (report.waiting_seconds > 0.05 * report.seconds) {
     text += SummaryRow(
         "busy", fmt::format("other programs used the processors for {:.0f} % of the "

@@ -148,4 +148,4 @@ def it_says_goodbye(page):
     out, err, code = live_program.THE_ONE[0].interrupt()
     require(code == 0 and "goodbye" in out and "stopping" in err, out, err, code)
     text = until(page, "return document.querySelector('#closed')?.innerText", "no word")
-    require("Goodbye" in text, text)
+    require("lanelight has exited" in text, text)

@@ -96,7 +96,7 @@ TEST_CASE("stress: an interruption keeps what was measured", "[cli][stress]") {
   CHECK(r.signal == 0);
   CHECK(r.exit_code == kExitInterrupted);
   CHECK_THAT(r.err, Contains("finishing the current point"));
-  CHECK_THAT(r.out, Contains("not measured to the end"));
+  CHECK_THAT(r.out, Contains("not measured completely"));
   CHECK(Parsed(out + "/stress.json").at("interrupted") == true);
 }
 

@@ -35,7 +35,8 @@ inline std::uint64_t PlaceIn(const void* grid, const void* part) {
 /// bytes.
 inline void CheckHead(const nanovdb::GridData& grid, std::uint64_t size) {
   if (size < sizeof grid) {
-    FailDamaged(0, "{} bytes; its head alone has {}", size, sizeof grid);
+    FailDamaged(0, "a grid of {} bytes is too short; its header alone takes {}", size,
+                sizeof grid);
   }
   if (grid.mMagic != NANOVDB_MAGIC_NUMBER) {
     FailDamaged(PlaceIn(&grid, &grid.mMagic), "wrong magic number of a grid");
@@ -97,7 +98,8 @@ class TreeCheck {
     first_ = sizeof(nanovdb::GridData) + sizeof(Tree());
     if (size_ < first_) {
       FailDamaged(Place(&grid_.data()->mGridSize),
-                  "a size of {} bytes; head and tree alone have {}", size_, first_);
+                  "a size of {} bytes is too small; header and tree alone take {}", size_,
+                  first_);
     }
     const std::uint64_t& offset = Tree().mNodeOffset[RootNode::LEVEL];
     root_ = sizeof(nanovdb::GridData) + offset;

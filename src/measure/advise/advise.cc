@@ -281,11 +281,12 @@ class Adviser {
     if (stopped) return "the trial was interrupted";
     if (advice_.interrupted) {
       return fmt::format(
-          "the trial was ended after {:g} times its planned processor time: the default",
+          "the trial exceeded {:g} times its planned processor time, so the default is "
+          "used",
           kTimeoutFactor);
     }
     if (advice_.rays == 0) {
-      return "the trial's time is too short to compare strategies: the default";
+      return "the trial is too short to compare strategies, so the default is used";
     }
     if (chosen_ == 0) {
       return "no change is clearly more efficient than the default strategy";

@@ -48,11 +48,12 @@ std::string Sentence(const SuiteResult& result) {
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {
-    text += fmt::format("; {} {} have points too noisy to detect an error of 10 %", weak,
-                        failed.empty() ? "of them" : "more");
+    text +=
+        fmt::format("; {} {} have points that are too noisy to detect an error of 10 %",
+                    weak, failed.empty() ? "of them" : "more");
   }
   if (judged < total) {
-    text += fmt::format("; {} {} not measured to the end", Cases(total - judged),
+    text += fmt::format("; {} {} not measured completely", Cases(total - judged),
                         total - judged == 1 ? "was" : "were");
   }
   return text + ".";

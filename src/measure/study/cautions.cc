@@ -105,8 +105,8 @@ bool AnyHeavy(const SceneAnalysis& analysis) {
 std::string ImagesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
   if (!analysis.biased.empty()) {
     return fmt::format(
-        "The mean image of {} differs from the reference by more than noise (level {:g} "
-        "for all tests together).",
+        "The mean image of {} differs from the reference by more than noise "
+        "(significance level {:g}, all tests together).",
         NamesText(runs, analysis.biased), analysis.bias_level);
   }
   if (analysis.bias_tests == 0 || !analysis.biased_alike.empty()) return "";
@@ -140,7 +140,7 @@ std::string SuspectTilesText(const SceneAnalysis& analysis) {
   if (tiles == 0) return "";
   return fmt::format(
       "In {} tile{} of the image the strategies agree with each other but not with the "
-      "reference, whose variance is too small there.",
+      "reference, so its estimated variance is probably too small there.",
       tiles, tiles == 1 ? "" : "s");
 }
 

@@ -37,7 +37,8 @@ class Writer {
     const std::size_t best = analysis_.ranking.front();
     const Interval& gain = *Of(best).efficiency;
     if (!std::isfinite(gain.value) || Of(best).AtLevel().relmse.value <= 0) {
-      return Say("No error is left to compare: the strategies reach the reference.");
+      return Say(
+          "No strategy differs from the reference, so there is no error to compare.");
     }
     std::vector<std::size_t> first;
     for (std::size_t i : analysis_.ranking) {
@@ -62,7 +63,7 @@ class Writer {
     }
     Say(
         fmt::format("{} is the most efficient strategy in these renders ({}), but {} not "
-                    "significantly less efficient.",
+                    "significantly less efficient (all pairs tested together).",
                     NameOf(best), amount, Others(first)));
   }
 
@@ -82,13 +83,13 @@ class Writer {
     const auto& mine = Of(best).to_target;
     const auto& base = Of(analysis_.baseline).to_target;
     if (!mine || !base || best == analysis_.baseline) return;
-    Say(fmt::format(
-        "To reach a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
-        "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
-        analysis_.target_relmse, mine->seconds.value, mine->samples.value,
-        mine->extrapolated ? " (extrapolated)" : "", NameOf(analysis_.baseline),
-        base->seconds.value, base->samples.value,
-        base->extrapolated ? " (extrapolated)" : ""));
+    Say(
+        fmt::format("To reach a relative MSE of {:.3g}, it takes {:.3g} s of processor "
+                    "time ({:.3g} spp{}); {} takes {:.3g} s ({:.3g} spp{}).",
+                    analysis_.target_relmse, mine->seconds.value, mine->samples.value,
+                    mine->extrapolated ? " (extrapolated)" : "",
+                    NameOf(analysis_.baseline), base->seconds.value, base->samples.value,
+                    base->extrapolated ? " (extrapolated)" : ""));
   }
 
   void Order() {
@@ -107,10 +108,11 @@ class Writer {
     };
     const std::size_t best = *std::ranges::max_element(analysis_.ranking, better);
     if (best == analysis_.baseline) return;
-    Say(fmt::format(
-        "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
-        NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
-        NameOf(analysis_.baseline)));
+    Say(
+        fmt::format("Without the worst 1 % of the pixels, {} is the most efficient: {} "
+                    "times the efficiency of {}.",
+                    NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
+                    NameOf(analysis_.baseline)));
   }
 
   void Warnings() {

@@ -114,12 +114,15 @@ void Checkpoint::CheckSame(const StateFile& file) {
     tiles_ = file.tiles();
     return;
   }
+  const std::string mine =
+      settings_.part.count == 1
+          ? "this render"
+          : fmt::format("--part {}/{}", settings_.part.index, settings_.part.count);
   throw InputError(
-      fmt::format("'{}' has {} of the {} pixels of the image, and this render is for {} "
-                  "(--part {}/{})"
-                  ": the state of another part, or of parts that do not make a whole",
-                  file.path(), PixelsOf(file.tiles()), job_.window.pixels(),
-                  PixelsOf(tiles_), settings_.part.index, settings_.part.count));
+      fmt::format("'{}' is the state of {} of {} pixels, but {} has {}; use the --part "
+                  "that wrote it",
+                  file.path(), PixelsOf(file.tiles()), job_.window.pixels(), mine,
+                  PixelsOf(tiles_)));
 }
 
 bool Checkpoint::Restore(RunState& state) {

@@ -179,7 +179,8 @@ void Display::Serve() {
   lock.unlock();
   if (server_->Send(CreateImagePacket(name_, window_.width(), window_.height())) !=
       Connection::Sent::kAll) {
-    return Fail(fmt::format("the display server {} does not listen", endpoint_.Text()));
+    return Fail(
+        fmt::format("the display server {} does not accept images", endpoint_.Text()));
   }
   lock.lock();
   while (true) {

@@ -27,8 +27,8 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
         "--transport rgb");
   }
   if (s.Splits()) {
-    Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
-           Name(s.roulette) + ": use roulette=throughput");
+    Refuse(std::string("reuse=block does not support split paths (roulette=") +
+           Name(s.roulette) + "); use roulette=throughput");
   }
   if (s.control != Control::kNone) {
     Refuse(

@@ -71,11 +71,10 @@ void RequireUvAlpha(const SceneDescription& description, const Placement& placem
       if (alpha == kNone || !textures.programs[alpha].uses_place) continue;
       throw InputError(
           placed.shape->where,
-          fmt::format(
-              "the \"alpha\" of a shape of an instance uses texture \"{}\", which "
-              "depends on places in space; supported are textures of surface "
-              "coordinates (\"mapping\" \"uv\")",
-              description.textures[alpha].name));
+          fmt::format("the \"alpha\" of a shape of an instance uses texture \"{}\", "
+                      "which depends on the position in space; use a texture of surface "
+                      "coordinates (\"mapping\" \"uv\")",
+                      description.textures[alpha].name));
     }
   }
 }

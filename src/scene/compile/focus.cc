@@ -137,8 +137,8 @@ void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
         {placed.shape->where,
          fmt::format(
              "the radius of an emitting sphere is {:.2g} times the camera's distance to "
-             "it: its surface is wrong by up to {:.2g} of that distance; above a factor "
-             "of {:.0e} use a disk or a mesh for the near part",
+             "it: rounding moves its surface by up to {:.2g} of that distance; use a "
+             "disk or a mesh for the near part if the factor exceeds {:.0e}",
              radius / foot.distance, radius / foot.distance * 0x1p-22,
              kMostEmitterRange)});
   }

@@ -216,7 +216,7 @@ const std::map<std::string, MaterialType> kMaterials = {
 // Reads bump and normal maps. Some materials have no normal that these could change.
 void ReadBumps(ParseState& state, ParamSet& params, Material* material) {
   static constexpr std::pair<MaterialKind, const char*> kWithout[] = {
-      {MaterialKind::kMix, "the bump and normal maps of the mixed materials count"},
+      {MaterialKind::kMix, "the bump and normal maps of the mixed materials are used"},
       {MaterialKind::kInterface, "an interface has no surface of its own"},
       {MaterialKind::kHair, "hair has no bump or normal maps"}};
   for (const auto& [kind, why] : kWithout) {

@@ -102,7 +102,7 @@ OptionStatement ReadOption(Statement& statement) {
   const Token close = statement.lexer.Next();
   if (close.kind != TokenKind::kClose) {
     throw InputError(statement.lexer.Where(close),
-                     "found {} where option {} needs ] after one value", close.Describe(),
+                     "found {}, but option {} needs ] after one value", close.Describe(),
                      Quoted(option.name));
   }
   return option;

@@ -106,13 +106,13 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 #define LANELIGHT_ENVIRONMENT_CHOICES(X, T, K)                                                  \
   X(T, K, Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
     "p ~ L", "")                                                                          \
-  X(T, K, Compensated, PLAIN, ({}), "compensated", "", "the same minus its mean, with directions=mis: BSDF sampling covers the dim parts", \
+  X(T, K, Compensated, PLAIN, ({}), "compensated", "", "in proportion to radiance minus its mean; BSDF sampling covers the dim parts (needs directions=mis)", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
 
 #define LANELIGHT_SHADOW_ROULETTES(X, T, K)                                                     \
   X(T, K, None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
   X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays that can add less are traced with a lower probability", \
-    "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
+    "f V / s or 0, s = min(1, max(FLOOR = 0.1, contribution / expected pixel value))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
 #define LANELIGHT_DISTANCES(X, T, K)                                                            \
   X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to the transmittance (default)", \
@@ -126,15 +126,15 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
 #define LANELIGHT_DECISIONS(X, T, K)                                                            \
-  X(T, K, None, PLAIN, ({}), "none", "", "the strategy of the other keys (default if a strategy is named, and of short renders)", "one strategy", "")       \
-  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image changes roulette or reuse if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
+  X(T, K, None, PLAIN, ({}), "none", "", "the strategy is used as given (default for short renders, and if a strategy is named)", "one strategy", "")       \
+  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses another roulette or reuse if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 
 // The layouts of reuse=block: X(name, text, meaning)
 #define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
   X(Random, "random", "at random from the tile, anew for each sample (default)")       \
-  X(Compact, "compact", "a rectangle that lies elsewhere in the tile for each sample") \
+  X(Compact, "compact", "a rectangle at another position in the tile for each sample") \
   X(Apart, "apart", "a rectangle of every second pixel")
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)

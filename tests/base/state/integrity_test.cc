@@ -142,7 +142,7 @@ TEST_CASE("a state that claims more than it stores is refused", "[state]") {
   std::string bytes = ReadWholeFile(path);
   Seal(bytes.data(), bytes.size(), kStateSchema);
   CHECK_THAT(ErrorOf(folder.Write("claims", bytes)),
-             Contains("identity claims 1000000001 bytes"));
+             Contains("identity should have 1000000001 bytes"));
 }
 
 TEST_CASE("rows that do not expand are an error of their file", "[state]") {

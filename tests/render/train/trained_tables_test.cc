@@ -83,7 +83,7 @@ TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[stat
   std::vector<TrainedTable> bad = TakeTraining(SmallTables());
   bad[3].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),
-             Contains("'path_values_inverse' has 0 values: 18 are right, 3 for each of "
+             Contains("'path_values_inverse' has 0 values; expected 18: 3 for each of "
                       "the 6 pixels of the full image"));
 }
 

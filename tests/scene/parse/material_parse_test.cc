@@ -159,7 +159,7 @@ TEST_CASE("mix, interface, named materials", "[parse]") {
   const Material& mapped = scene.materials[scene.shapes[4].material];
   CHECK(mapped.normal_map.ends_with("n.png"));
   CHECK(HasNote(scene, "the normal map counts"));
-  CHECK(HasNote(scene, "the bump and normal maps of the mixed materials count"));
+  CHECK(HasNote(scene, "the bump and normal maps of the mixed materials are used"));
 }
 
 TEST_CASE("textures", "[parse]") {

@@ -71,8 +71,8 @@ function tilesOf(view, comparison, show) {
               findImage(study.reference.image),
             ),
             rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
-            el("p.hint", `${agreement.text}.`),
-            agreement.doubt && el("p.hint", `${agreement.doubt}.`),
+            el("p.hint", `${capitalised(agreement.text)}.`),
+            agreement.doubt && el("p.hint", `${capitalised(agreement.doubt)}.`),
           ),
     ),
   );

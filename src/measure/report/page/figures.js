@@ -148,7 +148,7 @@ function orderRows(strategies) {
           label: `Convergence order of ${s.name}`,
         }),
       ),
-      el("div.order-value", joined(intervalTexts(s.order))),
+      el("div.order-value", twoLines(intervalTexts(s.order))),
     ]),
   );
 }

@@ -5,6 +5,10 @@ const UNKNOWN = "–";
 const MINUS = "−";
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
+function capitalised(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
 function known(x) {
   return typeof x === "number" && Number.isFinite(x);
 }

@@ -58,7 +58,10 @@ function heroSentence(view, pair) {
   if (rivals.length === 0) return [name, " is the most efficient", amount, "."];
   const who =
     rivals.length > MOST_RIVALS ? `${rivals.length} others` : someNames(rivals);
-  return [name, " has the highest efficiency", amount, `; ${who} may be equally efficient.`];
+  return [
+    name, " has the highest efficiency", amount,
+    `; ${who} may be equally efficient (all pairs tested together).`,
+  ];
 }
 
 function heroNumber(value, bounds, caption) {

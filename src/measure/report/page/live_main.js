@@ -54,7 +54,7 @@ function build(hello) {
   page.stages = new Stages();
   page.score = el("div#score", { hidden: true });
   page.plot = el("div#error-plot", { hidden: true });
-  const viewer = el("section#viewer", { "aria-label": "Picture" },
+  const viewer = el("section#viewer", { "aria-label": "Image" },
     viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page));
   const side = el("div.live-side",
     section("compare", "Compare strategies A and B", page.cards.map((card) => card.node), paceButtons(page),
@@ -64,7 +64,7 @@ function build(hello) {
     section("stages", "Processor time by stage", page.stages.node));
   document.getElementById("content").replaceChildren(el("div.live", viewer, side));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
-  linkSections([["viewer", "Picture"], ["compare", "Compare"],
+  linkSections([["viewer", "Image"], ["compare", "Compare"],
     ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);
   const name = hello.scene.split("/").slice(-2).join("/");
   document.getElementById("scenes").append(el("span.tab", name));
@@ -121,7 +121,7 @@ const handlers = {
   closed(said) {
     document.body.classList.add("closed");
     const text = said
-      ? "Goodbye: lanelight has exited. The last image stays here until you close the page."
+      ? "lanelight has exited. The last image stays here until you close the page."
       : "The connection was lost. Check that `lanelight live` is running, then reload the page.";
     document.body.append(el("div#closed", { role: "alert" }, text));
   },

@@ -25,7 +25,7 @@ function drawErrorPlot(node, { slots, pace }) {
       ticks: decadeTicks,
       format: pace === "time" ? secondsTick : (x) => fmtShort(x),
     },
-    yAxis: { label: "relative MSE", quiet: true, ticks: decadeTicks, format: errorTick },
+    yAxis: { label: "relative MSE", ticks: decadeTicks, format: errorTick },
   });
   node.replaceChildren(
     drawing,

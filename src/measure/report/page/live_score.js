@@ -24,7 +24,7 @@ function drawScore(node, state) {
     el("div.number", `${fmt(ratio.value)}×`, el("span.bounds", ` ${bounds}`)),
     el("p", el("b", `${verdictText(ratio, state.pace)}. `),
       `Efficiency of B over A, where efficiency is 1 / (relative MSE × ${cost}). The 95 % `,
-      "interval uses the error estimates of both renders and covers repeated looks."),
+      "interval uses the error estimates of both renders and remains valid while they continue."),
     ratio.why && el("p.note", `The interval is open: ${ratio.why}.`),
   );
 }

@@ -10,7 +10,7 @@ function stageRow(stage, total, most) {
     el("span.live-stage-bar", el("span", { style: { width: `${(100 * share) / most}%` } })),
     el("span.live-stage-share", fmtPercent(share, 2)),
     el("span.live-stage-filled",
-      stage.filled !== null && `${fmtPercent(stage.filled, 2)} of lanes used`),
+      stage.filled !== null && `${fmtPercent(stage.filled, 2)} of lanes`),
   );
 }
 

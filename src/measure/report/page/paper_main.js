@@ -47,12 +47,11 @@ function paperHeadline(view) {
 
 function paperIntroduction(view) {
   const { bias } = view.scene;
-  return firstSection("Founding paper: its figures, reproduced and measured",
+  return firstSection("Figures of the founding paper, rendered and measured again",
     el("p.verdict",
       paperHeadline(view)),
     el("p.lead",
-      "S. Maughan, Path Tracing Renderer Using Monte Carlo Methods. Each figure is rendered and ",
-      "measured again, on the scene ", el("b", view.scene.name), "."),
+      "S. Maughan, Path Tracing Renderer Using Monte Carlo Methods. All figures show the scene ", el("b", view.scene.name), "."),
     el("p.equation", "L(x, ω) = Lₑ(x, ω) + ∫ f(x, ω, ω′) L(x′, −ω′) cos θ′ dω′"),
     el("p.lead",
       "The radiance that leaves a point is the emitted radiance plus the scattered part of the " +

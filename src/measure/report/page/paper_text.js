@@ -84,6 +84,7 @@ function foundOfOrders(strategies) {
   const names = steeper.map((s) => `${s.name} (${joined(intervalTexts(s.order))})`);
   const rest = measured.length - steeper.length;
   return steeper.length === 0
-    ? "No strategy converges significantly faster than −½."
-    : `Significantly faster than −½: ${names.join(", ")}. The other ${rest} are not.`;
+    ? "No strategy has an order of convergence significantly below −½."
+    : `Order of convergence significantly below −½: ${names.join(", ")}; not so for the ` +
+        `other ${rest}.`;
 }

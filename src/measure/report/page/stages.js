@@ -74,6 +74,13 @@ function stageSeconds(strategy) {
   );
 }
 
+// Names the first of many stages only; each part of a bar has a tooltip.
+function restText(names) {
+  const shown = names.length > 4 ? names.slice(0, 3) : names;
+  const more = names.length > shown.length ? `, and ${names.length - shown.length} more` : "";
+  return `other (${shown.join(", ")}${more})`;
+}
+
 function stageLegend(names) {
   const rest = names.slice(COLOR_COUNT);
   const entry = (text, index) =>
@@ -83,7 +90,7 @@ function stageLegend(names) {
     );
   return el("ul.stage-legend",
     names.slice(0, COLOR_COUNT).map((name, i) => entry(stageTitle(name), i)),
-    rest.length > 1 && entry(`other (${rest.map(stageTitle).join(", ")})`, COLOR_COUNT),
+    rest.length > 1 && entry(restText(rest.map(stageTitle)), COLOR_COUNT),
     rest.length === 1 && entry(stageTitle(rest[0]), COLOR_COUNT),
   );
 }

@@ -12,9 +12,22 @@ function certaintyText({ equals, seeds, strategies }) {
     const are = seeds === 1 ? "1 seed is" : `${seeds} seeds are`;
     return `${are} too few for intervals; use 3 or more`;
   }
-  if (!known(equals)) return "there are too many strategies to count those that may be equally efficient";
+  if (!known(equals)) return "too many strategies to test which others may be equally efficient";
   if (equals > 0) return `${equals} of the other ${strategies - 1} strategies may be equally efficient`;
   return "all other strategies are significantly less efficient";
+}
+
+// The efficiency of the second-best strategy relative to the baseline, where that is best.
+function nextText({ best, values }) {
+  const same = (group) => Object.entries(values).every(([key, x]) => group.values[key] === x);
+  const others = study.groups.filter((group) =>
+    group.strategy !== best && known(intervalOf(group, "efficiency").value) && same(group));
+  if (others.length === 0) return "";
+  const efficiency = (group) => intervalOf(group, "efficiency");
+  const next = others.reduce((a, b) =>
+    efficiency(b).value > efficiency(a).value ? b : a);
+  const ratio = joined(intervalTexts(efficiency(next), 1, "×"));
+  return `; the next, ${next.strategy}, has ${ratio} its efficiency`;
 }
 
 function leaderText(leader) {
@@ -23,7 +36,7 @@ function leaderText(leader) {
   const on = `on ${values.scene}${where && ` (${where})`}`;
   const head =
     best === baseline
-      ? `${baseline} (baseline) is the most efficient ${on}`
+      ? `${baseline}, the baseline, is the most efficient ${on}${nextText(leader)}`
       : `${best} is the most efficient ${on}: ` +
         `${joined(intervalTexts(efficiency, 1, "×"))} the efficiency of ${baseline}`;
   return `${head}; ${certaintyText(leader)}.`;
@@ -43,8 +56,9 @@ function leadersText(leaders) {
   const without = few.length === 0 ? ""
     : ` ${few.length === 1 ? "1 scene has" : `${few.length} scenes have`} too few seeds for intervals.`;
   return (
-    `${head}. It is significantly more efficient than ${study.baseline} on ` +
-    `${better.length || "none"}, and than every other strategy on ${alone || "none"}.${without}`
+    `${head}. The most efficient strategy is significantly better than ${study.baseline} on ` +
+    `${better.length || "none"} of the scenes, and than every other strategy on ` +
+    `${alone || "none"}.${without}`
   );
 }
 

@@ -36,7 +36,8 @@ function warnings() {
   }
   if (countOf("missing") > 0) {
     texts.push(
-      `${cellsThat(countOf("missing"), "is", "are")} missing; run the same command again to render them.`,
+      `${cellsThat(countOf("missing"), "is", "are")} missing; run the same command again to ` +
+        `render ${countOf("missing") === 1 ? "it" : "them"}.`,
     );
   }
   if (machines.length > 1) {

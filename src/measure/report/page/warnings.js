@@ -65,7 +65,7 @@ function biasWarnings(view) {
       title: "Reference may be wrong locally",
       text:
         `In ${suspect} ${plural(suspect, "tile", "tiles")} the strategies agree with each ` +
-        "other but not with the reference, whose variance estimate is too small there.",
+        "other but not with the reference, so its estimated variance is probably too small there.",
       strategies: [],
     },
   ];

@@ -113,7 +113,8 @@ std::vector<Point> FarSun(double distance, const Effort& effort) {
 void AddLightSizeCases(std::vector<Case>& cases) {
   const CaseAdder add{cases, "lights", Truth::kClosedForm};
   add({"disk-light-radius", "radius of a disk light, from 100 to 1e-8 of its distance",
-       "the plane below shows the closed form, from one side and from both",
+       "the radiance of the plane below equals the closed form, for one-sided and "
+       "two-sided lamps",
        LogAxis("radius", "", {1e-8, 100}, Decades(-8, 2, 2), Decades(-8, 2)), Disk});
   add({"quad-light-size", "size of a quad light, from 100 to 1e-8 of its distance",
        "Lambert's formula for polygons",

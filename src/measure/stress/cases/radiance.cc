@@ -159,7 +159,7 @@ void AddRadianceCases(std::vector<Case>& cases) {
                "two lamps in one image, 1e-12 to 1e12 times as bright", "each is exact",
                LogAxis("ratio", "", {1e-12, 1e12}, Decades(-12, 12, 3)), InOneImage});
   twins({"bright-texel", "one texel of the sky 1 to 1e12 times as bright as the rest",
-         "the plane shows the sum over texels",
+         "the radiance of the plane equals the sum over the texels",
          LogAxis("times as bright", "", {1, 1e12}, Decades(0, 12, 2), Decades(0, 12)),
          BrightTexel});
 }

@@ -122,7 +122,7 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
 void AddStrategyCases(std::vector<Case>& cases) {
   const CaseAdder add{cases, "strategies", Truth::kClosedForm};
   add({"strategies-light-radius", "a sphere light of radius 1e-8 to 0.5, every strategy",
-       "the plane below shows the closed form",
+       "the radiance of the plane below equals the closed form",
        LogAxis("radius", "", {1e-8, 0.5}, {1e-8, 1e-5, 1e-3, 0.03, 0.5},
                {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
        ByLightRadius});
@@ -137,10 +137,10 @@ void AddStrategyCases(std::vector<Case>& cases) {
        ByRoughness});
   add({"strategies-radiance-ratio",
        "a light 1 to 1e12 times as bright as the sky, every strategy",
-       "the plane shows the sum of both",
+       "the radiance of the plane equals the sum of both",
        LogAxis("ratio", "", {1, 1e12}, Decades(0, 12, 4), Decades(0, 12)), ByRatio});
   add({"strategies-lights", "1 to 1e4 point lights over six decades, every strategy",
-       "the plane shows their sum",
+       "the radiance of the plane equals the sum over the lights",
        LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4}, {1, 10, 100, 1e3, 1e4, 1e5, 1e6}),
        ByLights});
   add({"strategies-transmittance",
