@@ -38,10 +38,18 @@ constexpr const char* kFooter =
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "  lanelight sweep scenes/sweep.toml --out sweep\n"
     "  lanelight stress --out stress\n"
-    "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
-    "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
-    "6 interrupted and resumable, 7 stress: a case failed, 8 render: the\n"
-    "image is not what the scene asks for, 9 bench: slower than before.";
+    "\nExit codes:\n"
+    "  0  success\n"
+    "  1  bad input\n"
+    "  2  wrong flags\n"
+    "  3  the render produced invalid samples\n"
+    "  4  compare: the error exceeds --max-relmse, or a value is invalid\n"
+    "  5  render: the target error was not reached\n"
+    "  6  interrupted; can be resumed\n"
+    "  7  stress: a case failed\n"
+    "  8  render: the image differs from the scene file\n"
+    "  9  bench: slower than the earlier run\n"
+    "  10 bench: not comparable with the earlier run";
 
 // CLI11 treats an unknown first word as an unexpected argument; naming the commands
 // helps.

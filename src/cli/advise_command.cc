@@ -59,9 +59,8 @@ std::string AdviceText(const Advice& advice) {
          SkippedText(advice) + SummaryRow("tried", kTriedByAdvice) +
          SummaryRow("advice", advice.why) +
          SummaryRow("strategy", ToText(advice.chosen)) +
-         SummaryRow("trial",
-                    fmt::format("{}, {:.3g} rays", DurationText(advice.pilot_seconds),
-                                double(advice.rays)));
+         SummaryRow("trial", fmt::format("{}, {}rays", DurationText(advice.pilot_seconds),
+                                         CountText(double(advice.rays))));
 }
 
 // The command that renders as the advice says.
@@ -132,7 +131,10 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
       "roulette, light selection and path reuse; not samplers or other keys,\n"
       "which `lanelight study` compares. All are tried on the same pixels and "
       "compared\nby variance times counted work, so the advice is reproducible for a "
-      "scene, its\nsettings and --seed. Only a clearly better change is advised. Without "
+      "scene, its\nsettings and --seed. A change is advised only if\n"
+      "it is significantly better in the trial (95 %); the printed intervals are wider,\n"
+      "since they include the uncertainty of costs and of the pixels that were not "
+      "tried. Without "
       "-o the\ncommand prints the advice and renders no image.\n"
       "\nExamples:\n"
       "  lanelight advise scene.pbrt --time 60\n"

@@ -34,7 +34,7 @@ int Live(const LiveCommandOptions& options) {
   Print(server.address() + "\n");
   FlushOutput();
   server.Run(interrupt.stop());
-  Print("goodbye\n");
+  Print("the live server has stopped\n");
   return kExitGood;
 }
 

@@ -98,7 +98,7 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
                           ->expected(0, 1);
   AddOption(
       command, "--watch FILE", s.watch,
-      "Also write the current image at every --every (.exr or .png; may be given twice)")
+      "Also write the current image with every state (.exr or .png; may be given twice)")
       ->allow_extra_args(false)
       ->check([](const std::string& path) {
         const std::filesystem::path extension = std::filesystem::path(path).extension();

@@ -28,12 +28,13 @@ struct PlotCommandOptions {
 void CheckPlotFlags(const PlotCommandOptions& options) {
   if (options.list) return;
   if (options.figure.empty()) {
-    throw CLI::ValidationError("--figure", "is required; --list names what FILE has");
+    throw CLI::ValidationError("--figure",
+                               "is required; --list prints the plots that FILE has");
   }
   if (options.out.empty()) throw CLI::ValidationError("--output", "is required");
   const std::string ending = std::filesystem::path(options.out).extension();
   if (ending != ".svg" && ending != ".png" && ending != ".csv") {
-    throw CLI::ValidationError("--output", "ends in .svg, .png or .csv");
+    throw CLI::ValidationError("--output", "must end in .svg, .png or .csv");
   }
 }
 

@@ -93,7 +93,8 @@ std::string CostTable(const ProfileReport& report) {
                   DurationText(report.seconds));
   if (!(report.intersect_seconds > 0)) return text;
   return text + fmt::format(
-                    "\nother stages / intersect: {:.2f}   (with film and the rest: "
+                    "\ntime of other stages / time of intersection: {:.2f} (with film "
+                    "and set-up: "
                     "{:.2f})\n",
                     report.Ratio(), report.RatioWithAll());
 }

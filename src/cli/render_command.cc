@@ -72,6 +72,8 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
   auto options = std::make_shared<RenderCommandOptions>();
   AddSettings(*command, kAmountFlag, options->scene.settings);
   AddOutputOptions(*command, options->outputs, options->scene.settings);
+  command->get_option("--output")
+      ->description("Write the image to this file (.exr); required without --part");
   AddCheckpointOptions(*command, options->checkpoint);
   command
       ->add_option_function<std::string>(

@@ -125,8 +125,9 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
               [&s](const std::string& text) {
                 s.target_relmse = ReadValue(kTargetInPercent, text);
               },
-              "The same target as the root of the relative MSE, in percent (1% is "
-              "0.0001); default: what the baseline reaches")
+              "Measure the time to this error (root of the relative MSE) in percent; 1% "
+              "is "
+              "--target-relmse 0.0001; default: what the baseline reaches")
           ->check(ValueOf(kTargetInPercent))
           ->type_name("X%");
   AddOption(command, "--target-relmse X", s.target_relmse,

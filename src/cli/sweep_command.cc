@@ -144,11 +144,10 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
   command->add_flag("--quiet", options->quiet, "Print errors and warnings only");
   command->footer(
       "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv,\n"
-      "DIR/sweep.json and DIR/report.html. Start the same command as often as you like, "
-      "on\n"
-      "any machines that share DIR: each cell is rendered by one process, and the cells "
-      "of\n"
-      "a process that died by another. Exit code 6: interrupted; start it again.\n"
+      "DIR/sweep.json and DIR/report.html. Start the same command as often as you like,\n"
+      "on any machines that share DIR: each cell is rendered by one process. If a "
+      "process\n"
+      "dies, others render its cells. Exit code 6: interrupted; start it again.\n"
       "\nExamples:\n"
       "  lanelight sweep sweep.toml --out out --dry-run\n"
       "  lanelight sweep sweep.toml --out out\n"

@@ -149,7 +149,7 @@ def numbers_are_those_of_the_data(page):
                    "[...r.children].map((c) => c.textContent))")
     table = {row[0]: row[1:] for row in rows}
     for i, comparison in enumerate(data(page)["comparisons"]):
-        require(table["Agreement"][i] == comparison["agreement"]["verdict"], table)
+        require(table["Test result"][i] == comparison["agreement"]["verdict"], table)
         shown = float(table["FLIP at all exposures, mean"][i])
         require(abs(shown - comparison["flip"]["hdr"]["mean"]) < 0.001, table)
 

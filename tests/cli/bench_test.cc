@@ -84,7 +84,7 @@ TEST_CASE("bench says what is slower than before, by its exit code too", "[cli]"
   const std::string busy = WriteText(directory / "busy.json", json.dump());
   const ProcessResult compared = Bench(directory, {"--against", busy});
   CHECK(compared.exit_code == kExitNotComparable);
-  CHECK_THAT(compared.out, Contains("not comparable: before, the load was 9"));
+  CHECK_THAT(compared.out, Contains("not comparable; earlier run: the load was 9"));
   const ProcessResult other =
       Bench(directory, {"--against", slow, "--resolution", "8x8"});
   CHECK(other.exit_code == kExitNotComparable);

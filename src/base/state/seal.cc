@@ -56,7 +56,7 @@ void CheckBlock(const SealBlock& block, std::size_t size, const std::string& pat
                 std::uint64_t schema) {
   if (size == 0) Refuse(path, "is empty, not a state file");
   if (std::memcmp(block.magic, kMagic.data(), std::min(size, kMagic.size())) != 0) {
-    Refuse(path, "is not a state file of lanelight, or its beginning is damaged");
+    Refuse(path, "not a state file of lanelight, or its beginning is damaged");
   }
   if (size < sizeof(block)) {
     Refuse(path, "the state is truncated to {} bytes", size);

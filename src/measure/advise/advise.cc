@@ -263,11 +263,13 @@ class Adviser {
                                           : "probably more efficient than the default";
       } else if (c.status == CandidateStatus::kKept) {
         c.reason =
-            i == 0 ? "the default; another is clearly more efficient"
+            i == 0 ? all_[chosen_].efficiency.low > 1
+                         ? "another candidate is clearly more efficient"
+                         : "another candidate is probably more efficient"
             : i == unseen_
                 ? "few bright samples dominate its error, so the trial is inconclusive"
             : chosen_ == 0 ? "not clearly better than the default"
-                           : "not the best";
+                           : "not the best candidate";
       }
     }
     const AdvisedCandidate& best = all_[chosen_];

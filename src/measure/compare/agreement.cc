@@ -51,8 +51,8 @@ std::string SharedSeed(const Image& test, const Image& reference) {
   const std::string seed = text(test, "seed");
   if (seed.empty() || seed != text(reference, "seed")) return "";
   return fmt::format(
-      "both were rendered with the seed {}, and common noise hides differences; render "
-      "one of them with another --seed",
+      "both images were rendered with seed {}, and their common noise hides differences; "
+      "render one of them with another --seed",
       seed);
 }
 

@@ -32,7 +32,12 @@ FlipMaps FlipOf(const LinearImage& test, const LinearImage& reference, bool high
   return out;
 }
 
-std::string Percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+// Two digits, without an exponent.
+std::string Percent(double share) {
+  const double percent = 100 * share;
+  return percent < 99.5 ? fmt::format("{:.2g} %", percent)
+                        : fmt::format("{:.0f} %", percent);
+}
 
 // Smaller p-values depend on the assumed distributions.
 std::string PText(double p) {

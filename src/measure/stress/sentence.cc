@@ -48,9 +48,8 @@ std::string Sentence(const SuiteResult& result) {
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {
-    text +=
-        fmt::format("; {} {} have points that are too noisy to detect an error of 10 %",
-                    weak, failed.empty() ? "of them" : "more");
+    text += fmt::format("; {} {} {} points too noisy to detect an error of 10 %", weak,
+                        failed.empty() ? "of them" : "more", weak == 1 ? "has" : "have");
   }
   if (judged < total) {
     text += fmt::format("; {} {} not measured completely", Cases(total - judged),

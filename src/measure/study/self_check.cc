@@ -91,7 +91,7 @@ std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis
               : fmt::format("; {} more renders printed no interval.", self.refused);
   for (const SelfFailure& f : analysis.self_failures) {
     text += fmt::format(
-        " For {}, {} of {} renders do. In its others, the worst {:g} % of the pixels "
+        " For {}, {} of {} renders do. In the rest, the worst {:g} % of the pixels "
         "cause {:.0f} % of the error; the worst pixel is most often ({}, {}).",
         runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstShare,
         100 * f.worst_share, f.pixel[0], f.pixel[1]);

@@ -57,6 +57,10 @@ class Writer {
             ? "the baseline"
             : fmt::format("{} times the efficiency of {}", EstimateText(gain),
                           NameOf(analysis_.baseline));
+    if (best == analysis_.baseline && first.size() == 1) {
+      return Say(
+          fmt::format("{} (the baseline) is the most efficient strategy.", NameOf(best)));
+    }
     if (first.size() == 1) {
       return Say(
           fmt::format("{} is the most efficient strategy: {}.", NameOf(best), amount));

@@ -114,15 +114,16 @@ void Checkpoint::CheckSame(const StateFile& file) {
     tiles_ = file.tiles();
     return;
   }
-  const std::string mine =
-      settings_.part.count == 1
-          ? "this render"
-          : fmt::format("--part {}/{}", settings_.part.index, settings_.part.count);
+  if (settings_.part.count == 1) {
+    throw InputError(
+        fmt::format("'{}' is the state of a part ({} of {} pixels): add the --part that "
+                    "wrote it, or combine all parts with `lanelight merge`",
+                    file.path(), PixelsOf(file.tiles()), job_.window.pixels()));
+  }
   throw InputError(
-      fmt::format("'{}' is the state of {} of {} pixels, but {} has {}; use the --part "
-                  "that wrote it",
-                  file.path(), PixelsOf(file.tiles()), job_.window.pixels(), mine,
-                  PixelsOf(tiles_)));
+      fmt::format("'{}' is the state of another part than {}/{}: use the --part that "
+                  "wrote it",
+                  file.path(), settings_.part.index, settings_.part.count));
 }
 
 bool Checkpoint::Restore(RunState& state) {

@@ -44,12 +44,12 @@ std::vector<Setting> Amounts() {
                "Render for this wall time instead of --spp: 90 (seconds), 5m, 2h", "",
                "time_budget"},
               SecondsType{1e-3, 1e9}, &S::seconds, kAmountFlag | kReported),
-      Declare({"target", "X%",
-               "Stop once the error is below X percent, at 95 % confidence: the root of "
-               "the relative MSE, so that 1% is --target-relmse 0.0001. --spp and --time "
-               "are then limits",
-               "", "", "target-relmse"},
-              PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
+      Declare(
+          {"target", "X%",
+           "Stop once the error (root of the relative MSE) is below X percent with 95 % "
+           "confidence; 1% is --target-relmse 0.0001; --spp and --time are then limits",
+           "", "", "target-relmse"},
+          PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
       Declare({"target-relmse", "X",
                "Stop once the relative MSE is below X with 95 % confidence"},
               error, &S::target_relmse, kAmountFlag | kReported),

@@ -39,11 +39,11 @@ namespace lanelight {
   X(kBumps, "displacement textures, shaded as bumps")                         \
   X(kNormalMaps, "normal maps")                                               \
   X(kSpectral, "paths that carry wavelengths (transport=spectral)")           \
-  X(kPlainSpectra, "colours by wavelength, none of them textured")            \
-  X(kSpectralColor1, "a second colour parameter by wavelength")               \
+  X(kPlainSpectra, "spectral colours without textures")                       \
+  X(kSpectralColor1, "a spectral second colour parameter")                    \
   X(kDispersion, "glass whose index depends on the wavelength")               \
-  X(kForcedDiffuse, "all surfaces scatter uniformly (--scattering)")          \
-  X(kRegularizes, "surfaces that are rougher behind a rough bounce")          \
+  X(kForcedDiffuse, "one scattering model for all surfaces (--scattering)")   \
+  X(kRegularizes, "regularization: rougher surfaces after a rough bounce")    \
   X(kAlpha, "alpha cut-outs")                                                 \
   X(kMix, "mix materials")                                                    \
   X(kRefraction, "a refracting interface, whose eta roulette uses")           \
@@ -52,11 +52,11 @@ namespace lanelight {
   X(kMediumGrids, "media whose density varies")                               \
   X(kMediumEmission, "media that emit light")                                 \
   X(kMediumChanges, "surfaces next to media")                                 \
-  X(kInterfaces, "surfaces that only bound a medium")                         \
-  X(kSubsurface, "insides of materials, in which events are not counted")     \
-  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")     \
+  X(kInterfaces, "interfaces (surfaces that only bound a medium)")            \
+  X(kSubsurface, "subsurface scattering")                                     \
+  X(kSubsurfaceTextures, "subsurface scattering with a textured albedo")      \
   X(kOpaqueShadows, "shadow rays that any surface stops")                     \
-  X(kLights, "light that is sampled")                                         \
+  X(kLights, "sampled lights")                                                \
   X(kManyLights, "more than one light")                                       \
   X(kTriangleLights, "emitting triangles")                                    \
   X(kRectangleLights, "emitting rectangles (two triangles each)")             \
@@ -67,7 +67,7 @@ namespace lanelight {
   X(kDistantLights, "distant lights")                                         \
   X(kImageLights, "point lights with an image of their directions")           \
   X(kEmissionImages, "emitting shapes with an image")                         \
-  X(kEmissionCuts, "emitting shapes that alpha cuts")                         \
+  X(kEmissionCuts, "emitting shapes with alpha cut-outs")                     \
   X(kUnseenLights, "emitting shapes that rays pass through")                  \
   X(kPortals, "an environment seen through a portal")                         \
   X(kInfiniteConstant, "constant environment")                                \
@@ -91,14 +91,14 @@ namespace lanelight {
   X(kLightTree, "light-selection=tree")                                       \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
   X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
-  X(kPathValues, "values of paths, from a training pass")                     \
+  X(kPathValues, "path values from a training pass")                          \
   X(kRecordsPaths, "a training pass that records the radiance of paths")      \
   X(kSolidAngleLights, "light-points=solid-angle")                            \
   X(kProjectedLights, "light-points=projected")                               \
   X(kProjectedHits, "light-points=projected, with hits weighted by it (MIS)") \
   X(kLightCandidates, "further candidates for each light sample")             \
   X(kReuse, "path reuse in pixel blocks (reuse=block)")                       \
-  X(kReuseGlossy, "glossy surfaces whose light is reused")                    \
+  X(kReuseGlossy, "path reuse on glossy surfaces")                            \
   X(kDecides, "a strategy chosen by a trial run")                             \
   X(kRecordsSinglePaths,                                                      \
     "a training pass that records the contributions of single "               \

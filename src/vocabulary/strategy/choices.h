@@ -61,7 +61,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 
 #define LANELIGHT_CONTROLS(X, T, K)                                                             \
   X(T, K, None, PLAIN, ({}), "none", "", "no control variate (default)", "1/N sum f", "") \
-  X(T, K, Regression, STAGE, ({}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
+  X(T, K, Regression, STAGE, ({}), "regression", "", "h = polynomial in the first random numbers of a path (quadratic in the direction, linear in the choice of lobe), fitted to the other half of the samples", \
     "1/N sum (f - c sum_j b_j phi_j(u)), E[phi_j] = 0, b_j = Cov(f, phi_j) / Var(phi_j)", "paper eq. 7; Salaun et al. 2022")
 
 #define LANELIGHT_ROULETTES(X, T, K)                                                            \

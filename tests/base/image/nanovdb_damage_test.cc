@@ -104,10 +104,10 @@ TEST_CASE("NanoVDB: errors say where a grid is damaged", "[image][nanovdb]") {
   const std::string where = "grid \"density\" from byte " + std::to_string(at) +
                             " of NanoVDB file \"x.nvdb\" is damaged at its byte ";
   // The root; the first tile's child, out of the grid, in its head, and amiss by a byte.
-  CHECK_THAT(error(kTree + 24, 1ull << 30), Catch::Contains(where + "696: leads to"));
-  CHECK_THAT(error(kTile + 8, 1ull << 30), Catch::Contains(where + "808: leads to"));
-  CHECK_THAT(error(kTile + 8, 0ull - kRoot), Catch::Contains(where + "808: leads to"));
-  CHECK_THAT(error(kTile + 8, 97ull), Catch::Contains(where + "808: leads to"));
+  CHECK_THAT(error(kTree + 24, 1ull << 30), Catch::Contains(where + "696: points to"));
+  CHECK_THAT(error(kTile + 8, 1ull << 30), Catch::Contains(where + "808: points to"));
+  CHECK_THAT(error(kTile + 8, 0ull - kRoot), Catch::Contains(where + "808: points to"));
+  CHECK_THAT(error(kTile + 8, 97ull), Catch::Contains(where + "808: points to"));
   CHECK_THAT(error(kTree + 32, 5), Catch::Contains(where + "704: 5 nodes of level 0"));
 }
 

@@ -102,14 +102,14 @@ TEST_CASE("what is no state file is named so", "[state]") {
              Contains("absent") && Contains("No such file"));
   CHECK_THAT(ErrorOf(folder.Write("empty", "")), Contains("is empty"));
   CHECK_THAT(ErrorOf(folder.Write("text", std::string(2000, 'x'))),
-             Contains("is not a state file"));
+             Contains("not a state file"));
   CHECK_THAT(ErrorOf(folder.File("")), Contains("is a directory"));
   REQUIRE(mkfifo(folder.File("pipe").c_str(), 0600) == 0);
   CHECK_THAT(ErrorOf(folder.File("pipe")), Contains("a FIFO"));
   CHECK_THAT(ErrorOf("/dev/zero"), Contains("a device"));
   const std::string foreign = folder.File("foreign.h5");
   H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK_THAT(ErrorOf(foreign), Contains("is not a state file"));
+  CHECK_THAT(ErrorOf(foreign), Contains("not a state file"));
 }
 
 TEST_CASE("what is sealed but has not what states have is an input error", "[state]") {

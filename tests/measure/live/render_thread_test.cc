@@ -131,7 +131,7 @@ TEST_CASE("what is refused is told, and the rest goes on", "[live]") {
   REQUIRE(page.UntilSpp(1, 4));
   const nlohmann::json slots = page.Last("state")["slots"];
   CHECK_THAT(slots[0]["refused"].get<std::string>(),
-             Catch::Contains("reuse=block needs"));
+             Catch::Contains("reuse=block does not support"));
   page.Ask(R"({"do": "exr", "slot": 0})");
   CHECK(page.Until([&] {
     return page.Last("refused")["text"].get<std::string>().find("no complete image") !=

@@ -16,9 +16,10 @@ using Json = nlohmann::json;
 
 TEST_CASE("stress: one sentence says what came out", "[stress]") {
   SuiteResult result = SyntheticRun();
-  CHECK(Sentence(result) ==
-        "1 of 7 cases fails on AVX3 and EMU128: wrong-inside; in 1 more some points "
-        "are too noisy to say much.");
+  CHECK(
+      Sentence(result) ==
+      "1 of 7 cases fails on AVX3 and EMU128: wrong-inside; 1 more has points too noisy "
+      "to detect an error of 10 %.");
   result.cases.erase(result.cases.begin() + 2, result.cases.begin() + 4);
   CHECK(Sentence(result) == "All 5 cases are good on AVX3 and EMU128.");
   result.cases.resize(1);

@@ -65,7 +65,7 @@ TEST_CASE("a strategy whose intervals are too narrow is named, with its pixels",
   CHECK(f.inside == 9);
   CHECK(f.total == 24);
   CHECK(f.worst_share == Approx(0.24));
-  CHECK_THAT(text, Contains("For narrow it is 9 of 24") && Contains("(31, 5)") &&
+  CHECK_THAT(text, Contains("For narrow, 9 of 24") && Contains("(31, 5)") &&
                        Contains("24 %") && !Contains("good") && !Contains("other"));
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("strategies whose intervals hold are not named", "[study]") {
   for (int k = 0; k < 30; ++k) {
     s.Add("s" + std::to_string(k), 8, [&](int i) { return k != 5 || i > 0; });
   }
-  CHECK_THAT(s.Text(), Contains("99.6 %") && Contains("of 240 renders of 8 seeds"));
+  CHECK_THAT(s.Text(), Contains("99.6 %") && Contains("of 240 renders (8 seeds"));
   CHECK(s.analysis.self_failures.empty());
 }
 

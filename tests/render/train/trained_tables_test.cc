@@ -70,13 +70,14 @@ TEST_CASE("a trained table of the wrong size is named, with the right one", "[st
       const std::size_t size = good[i].values.size();
       CHECK_THAT(ErrorOf(bad, kPixels),
                  Contains("table '" + good[i].name + "' has " +
-                          std::to_string(bad[i].values.size()) +
-                          " values: " + std::to_string(size) + " are right"));
+                          std::to_string(bad[i].values.size()) + " values; expected " +
+                          std::to_string(size) + ":"));
     }
   }
   CHECK(ErrorOf(good, kPixels) == "");
   // Tables of another image.
-  CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
+  CHECK_THAT(ErrorOf(good, 7),
+             Contains("'path_values_inverse' has 18 values; expected 21:"));
 }
 
 TEST_CASE("a per-pixel table that is empty is wrong where cells are not", "[state]") {

@@ -74,8 +74,9 @@ TEST_CASE("textures that cannot be loaded name their place and file", "[texture]
                                               Catch::Contains("No such file"));
   t.path = folder.File("depth.exr");
   WriteExr(t.path, 1, 1, {{"X", {1}}, {"Z", {1}}});
-  CHECK_THROWS_WITH(CompileTextures({t}),
-                    Catch::Contains("depth.exr: its channels (X, Z) are no colour"));
+  CHECK_THROWS_WITH(
+      CompileTextures({t}),
+      Catch::Contains("depth.exr: its channels (X, Z) are not a colour image"));
 }
 
 TEST_CASE("texels that are not finite cost themselves and a note", "[texture]") {

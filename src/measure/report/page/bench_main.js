@@ -30,7 +30,7 @@ function benchHeadline() {
   const scenes = new Set(study.rows.map((row) => row.scene)).size;
   const of = scenes > 1 ? ` (geometric mean of ${scenes} scenes)` : "";
   const more = most > least ? `, ${rateOn(most)}` : "";
-  return `This machine renders ${rateOn(least)}${more}${of}, with ${target}.`;
+  return `This machine renders ${rateOn(least)}${more}${of}, with ${instructionSet(target)}.`;
 }
 
 function benchTable() {

@@ -20,8 +20,9 @@ function targetColumn(view, key, title, texts) {
   const target = view.scene.target_relmse;
   const of = (s) => s.to_target && s.to_target[key];
   return intervalColumn(`target-${key}`, title, of, texts, {
-    unit: known(target) ? `to rel. MSE ${fmtShort(target)}` : null,
-    hint: "Needed to reach the target relative MSE; *: extrapolated beyond the measured sample counts",
+    unit: "to the target",
+    hint: `Needed to reach the target relative MSE${known(target) ? ` of ${fmtShort(target)}` : ""}; ` +
+      "*: extrapolated beyond the measured sample counts",
     cell: (s) => {
       if (!s.to_target) return UNKNOWN;
       const { value, bounds } = texts(of(s));
