@@ -23,9 +23,8 @@ namespace lanelight {
 namespace {
 
 constexpr const char* kDescription =
-    "Lanelight renders pbrt-v4 scenes with a SIMD wavefront path tracer and says how "
-    "far\n"
-    "the image is from the converged one.";
+    "Lanelight renders pbrt-v4 scenes with a SIMD wavefront path tracer and estimates "
+    "the\nerror of the image.";
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
@@ -39,10 +38,18 @@ constexpr const char* kFooter =
     "  lanelight study scenes/cornell-box.pbrt --out box-study\n"
     "  lanelight sweep scenes/sweep.toml --out sweep\n"
     "  lanelight stress --out stress\n"
-    "\nExit codes: 0 good, 1 bad input, 2 wrong flags, 3 the render produced invalid\n"
-    "samples, 4 compare: over the limit, 5 render: the target error was not reached,\n"
-    "6 interrupted, to go on from what is kept, 7 stress: a case failed, 8 render: the\n"
-    "image is not what the scene asks for, 9 bench: slower than before.";
+    "\nExit codes:\n"
+    "  0  success\n"
+    "  1  bad input\n"
+    "  2  wrong flags\n"
+    "  3  the render produced invalid samples\n"
+    "  4  compare: the error exceeds --max-relmse, or a value is invalid\n"
+    "  5  render: the target error was not reached\n"
+    "  6  interrupted; can be resumed\n"
+    "  7  stress: a case failed\n"
+    "  8  render: the image differs from the scene file\n"
+    "  9  bench: slower than the earlier run\n"
+    "  10 bench: not comparable with the earlier run";
 
 // CLI11 treats an unknown first word as an unexpected argument; naming the commands
 // helps.
@@ -164,7 +171,8 @@ bool ForRanks(const CLI::App& root, const RankGroup& group) {
   const std::string name = root.get_subcommands().front()->get_name();
   if (name == "render") return true;
   PrintError(
-      fmt::format("error: {} ranks can `render`; run `lanelight {}` without mpirun",
+      fmt::format("error: only `render` supports several ranks ({} here); run `lanelight "
+                  "{}` without mpirun",
                   group.ranks(), name));
   return false;
 }
@@ -182,8 +190,8 @@ int Run(CLI::App& root, const Command& chosen, RankGroup& group, int argc, char*
   int exit_code = Parse(root, argc, argv);
   if (const std::string who = RanksThatDiffer(group, exit_code); !who.empty()) {
     PrintError("error: " + who +
-               " does not take this command line as rank 0 does: is a "
-               "file missing there, or its program another?");
+               " rejects the command line that rank 0 accepts: check its files and its "
+               "version of the program");
     return group.Fail(kExitUsage, "");
   }
   if (exit_code != kNoExitCode) {

@@ -87,7 +87,7 @@ Stage FirstFilmStage() {
 }
 Stage FirstBounceStage() {
   return {.name = "control_first_bounce",
-          .meaning = "keeps the numbers of the first scattered direction",
+          .meaning = "keeps the random numbers of the first scattered direction",
           .input = QueueId::kVertex,
           .role = StageRole::kSampling,
           .needs = {Feature::kRegressionControl, Feature::kScatters},

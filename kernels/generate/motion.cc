@@ -34,7 +34,7 @@ void Move(Wave& wave) {
 
 Stage MotionStage() {
   return {.name = "motion",
-          .meaning = "times of paths, and a camera that moves",
+          .meaning = "samples the time of paths and moves the camera",
           .input = QueueId::kCamera,
           .role = StageRole::kCamera,
           .needs = {Feature::kMotion},

@@ -168,7 +168,7 @@ Stage IntersectCurvesStage() {
 
 Stage ShadowCurvesStage() {
   return {.name = "shadow_curves",
-          .meaning = "drop shadow rays blocked by curves",
+          .meaning = "removes shadow rays blocked by curves",
           .input = QueueId::kShadow,
           .role = StageRole::kShadow,
           .needs = {Feature::kCurves, Feature::kLights, Feature::kOpaqueShadows},

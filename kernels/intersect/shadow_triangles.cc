@@ -39,7 +39,7 @@ void ShadowRays(Wave& wave) {
 
 Stage ShadowTrianglesStage() {
   return {.name = "shadow_triangles",
-          .meaning = "drop shadow rays blocked by triangles",
+          .meaning = "removes shadow rays blocked by triangles",
           .input = QueueId::kShadow,
           .role = StageRole::kShadow,
           .needs = {Feature::kTriangles, Feature::kLights, Feature::kOpaqueShadows},

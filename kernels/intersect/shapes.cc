@@ -55,20 +55,20 @@ Stage IntersectLargeSpheresStage() {
 }
 
 Stage ShadowSpheresStage() {
-  return ShadowStage<SphereShape>("shadow_spheres", "drop shadow rays blocked by spheres",
-                                  Feature::kSpheres);
+  return ShadowStage<SphereShape>(
+      "shadow_spheres", "removes shadow rays blocked by spheres", Feature::kSpheres);
 }
 Stage ShadowDisksStage() {
-  return ShadowStage<DiskShape>("shadow_disks", "drop shadow rays blocked by disks",
+  return ShadowStage<DiskShape>("shadow_disks", "removes shadow rays blocked by disks",
                                 Feature::kDisks);
 }
 Stage ShadowPlanesStage() {
-  return ShadowStage<PlaneShape>("shadow_planes", "drop shadow rays blocked by planes",
+  return ShadowStage<PlaneShape>("shadow_planes", "removes shadow rays blocked by planes",
                                  Feature::kPlanes);
 }
 Stage ShadowLargeSpheresStage() {
   return ShadowStage<LargeSphereShape>("shadow_large_spheres",
-                                       "drop shadow rays blocked by large spheres",
+                                       "removes shadow rays blocked by large spheres",
                                        Feature::kLargeSpheres);
 }
 

@@ -110,7 +110,7 @@ Stage RecordDecisionStage() {
 }
 Stage RecordPathStage() {
   return {.name = "record_path",
-          .meaning = "writes the record of a finished training path",
+          .meaning = "writes the training sample of a finished path",
           .input = QueueId::kDone,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths},

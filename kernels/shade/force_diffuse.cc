@@ -60,7 +60,7 @@ Stage ForceDiffuseStage() {
   const FieldSet color = {Field::color0_r, Field::color0_g, Field::color0_b};
   const FieldSet identity = {Field::pixel, Field::sample, Field::branch, Field::depth};
   return {.name = "force_diffuse",
-          .meaning = "replaces materials by even scattering with their reflectance",
+          .meaning = "replaces all materials by the model of --scattering",
           .input = QueueId::kSurface,
           .role = StageRole::kShade,
           .needs = {Feature::kForcedDiffuse, Feature::kScatters},

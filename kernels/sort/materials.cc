@@ -93,7 +93,7 @@ void Regularize(Wave& wave) {
 
 Stage RegularizeStage() {
   return {.name = "regularize",
-          .meaning = "rougher materials behind a bounce that is not specular",
+          .meaning = "makes materials rougher after a bounce that is not specular",
           .input = QueueId::kSurface,
           .role = StageRole::kShade,
           .needs = {Feature::kRegularizes, Feature::kScatters},

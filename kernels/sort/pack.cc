@@ -70,7 +70,7 @@ void Pack(Wave& wave) {
 
 Stage PackStage() {
   return {.name = "pack",
-          .meaning = "moves the paths that go on into the first slots",
+          .meaning = "moves surviving paths into the first slots",
           .input = QueueId::kDone,
           .role = StageRole::kSort,
           .reads = fields::EverCarried(),

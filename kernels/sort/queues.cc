@@ -88,7 +88,7 @@ void Vertices(Wave& wave) {
 
 Stage VerticesStage() {
   return {.name = "vertices",
-          .meaning = "brings together all that scatters",
+          .meaning = "collects all paths that scatter",
           .input = QueueId::kSurface,
           .role = StageRole::kSort,
           .needs = {Feature::kOtherEvents, Feature::kScatters},
@@ -130,7 +130,7 @@ void Route(Wave& wave) {
 
 Stage RouteStage() {
   return {.name = "route",
-          .meaning = "bins what scatters by material kind",
+          .meaning = "sorts scattering paths by material kind",
           .input = QueueId::kVertex,
           .role = StageRole::kSort,
           .needs = {Feature::kScatters},

@@ -26,7 +26,7 @@ struct AdviseCommandOptions {
   double pilot = 0;  // seconds; 0: a share of the time
 };
 
-// "skipped    a, b: the trial's time did not reach them; --pilot 2 would".
+// "skipped    a, b: the trial ran out of time; --pilot 2 would".
 std::string SkippedText(const Advice& advice) {
   std::string skipped;
   for (const AdvisedCandidate& c : advice.candidates) {
@@ -34,11 +34,11 @@ std::string SkippedText(const Advice& advice) {
     skipped += (skipped.empty() ? "" : ", ") + c.changes;
   }
   if (skipped.empty()) return "";
-  return SummaryRow(
-      "skipped", fmt::format("{}: {}; --pilot {:.2g}s would try all", skipped,
-                             advice.interrupted ? "the trial was ended before"
-                                                : "the trial's time did not reach them",
-                             advice.seconds_to_try));
+  return SummaryRow("skipped",
+                    fmt::format("{}: {}; use --pilot {:.2g}s to try all", skipped,
+                                advice.interrupted ? "the trial was interrupted"
+                                                   : "the trial ran out of time",
+                                advice.seconds_to_try));
 }
 
 std::string AdviceText(const Advice& advice) {
@@ -59,9 +59,8 @@ std::string AdviceText(const Advice& advice) {
          SkippedText(advice) + SummaryRow("tried", kTriedByAdvice) +
          SummaryRow("advice", advice.why) +
          SummaryRow("strategy", ToText(advice.chosen)) +
-         SummaryRow("trial",
-                    fmt::format("{}, {:.3g} rays", DurationText(advice.pilot_seconds),
-                                double(advice.rays)));
+         SummaryRow("trial", fmt::format("{}, {}rays", DurationText(advice.pilot_seconds),
+                                         CountText(double(advice.rays))));
 }
 
 // The command that renders as the advice says.
@@ -119,7 +118,7 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<AdviseCommandOptions>();
   AddSetting(*command, "time", options->scene.settings)
       ->required()
-      ->description("Time by the wall clock, for trial and render together: seconds, 5m");
+      ->description("Wall time for trial and render together: 90 (seconds), 5m");
   AddOption(*command, "--pilot TIME", options->pilot,
             "Time of the trial of strategies, of 8 million rays each; default: 3 "
             "% of --time")
@@ -130,10 +129,13 @@ void AddAdviseCommand(CLI::App& root, Command& chosen) {
   command->footer(
       "\nTries the scene's own strategy (or --strategy), and changes of the default in\n"
       "roulette, light selection and path reuse; not samplers or other keys,\n"
-      "which `lanelight study` compares. All are tried on the same pixels, by variance\n"
-      "times counted work: the same advice each time, for a scene, its settings and\n"
-      "--seed. What is not clearly better is not advised. Without -o only the advice is\n"
-      "printed.\n"
+      "which `lanelight study` compares. All are tried on the same pixels and "
+      "compared\nby variance times counted work, so the advice is reproducible for a "
+      "scene, its\nsettings and --seed. A change is advised only if\n"
+      "it is significantly better in the trial (95 %); the printed intervals are wider,\n"
+      "since they include the uncertainty of costs and of the pixels that were not "
+      "tried. Without "
+      "-o the\ncommand prints the advice and renders no image.\n"
       "\nExamples:\n"
       "  lanelight advise scene.pbrt --time 60\n"
       "  lanelight advise scene.pbrt --time 60 -o out.exr --json advice.json");

@@ -42,7 +42,7 @@ void Complete(BenchCommandOptions& options) {
 
 std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   const InterruptGuard interrupt(
-      "\nstopping: what was measured so far is printed (once more to abort)\n");
+      "\nstopping: what was measured so far is printed (press Ctrl-C again to abort)\n");
   return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
     if (options.quiet || p.repeats > 0) return;
     PrintError(fmt::format("measuring {} ({} of {})", p.scene, p.done + 1, p.scenes));
@@ -89,8 +89,7 @@ int Bench(BenchCommandOptions options) {
 
 void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
   ThroughputOptions& bench = options.bench;
-  AddOption(command, "SCENE", bench.scenes,
-            "Scene files; default: five that are part of the program");
+  AddOption(command, "SCENE", bench.scenes, "Scene files; default: five built-in scenes");
   AddSetting(command, "resolution", bench.settings);
   AddSetting(command, "crop", bench.settings);
   AddSetting(command, "spp", bench.settings)
@@ -125,7 +124,8 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
             "Write all numbers as JSON ('-': print it)");
   AddOption(command, "--csv FILE", options.csv, "Write one line per row");
   AddOption(command, "--markdown FILE", options.markdown, "Write the tables in Markdown");
-  AddOption(command, "--html FILE", options.html, "Write a page with plots of all rows")
+  AddOption(command, "--html FILE", options.html,
+            "Write an HTML page with plots of all rows")
       ->check(EndsIn(".html"));
   AddOption(command, "--against FILE", options.against,
             "Compare with this JSON of an earlier run and print all ratios; exit with 9 "
@@ -145,8 +145,8 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
   AddBenchOptions(*command, *options);
   AddBenchOutputs(*command, *options);
   command->footer(
-      "\nRenders of all rows take turns, so that a machine that slows down slows all of\n"
-      "them. docs/bench.md says what the columns mean, and which scenes these are.\n"
+      "\nRows are measured in turns, so a slow phase of the machine affects all rows.\n"
+      "docs/bench.md says what the columns mean, and which scenes these are.\n"
       "\nExamples:\n"
       "  lanelight bench --json today.json --html today.html\n"
       "  lanelight bench --against yesterday.json --tolerance 0.03\n"

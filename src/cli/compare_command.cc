@@ -144,27 +144,25 @@ int Compare(CompareCommandOptions options) {
 void AddCompareOptions(CLI::App& command, CompareCommandOptions& options) {
   AddOption(command, "A", options.first, "Image under test (EXR, PFM, HDR, PNG, ...)")
       ->required();
-  AddOption(command, "B", options.second, "Image that it should equal")->required();
+  AddOption(command, "B", options.second, "Image to compare with")->required();
   AddOption(command, "C", options.more,
-            "More images, of which all should equal the last one, the reference; "
-            "default: B is the reference");
+            "More images; the last one is the reference; default: B is the reference");
   command.add_flag("--reference", options.comparison.exact_reference,
-                   "The last image is exact: noise is that of the others alone");
+                   "Treat the last image as exact (without noise)");
   AddOption(command, "--max-relmse X", options.max_relmse,
             "Exit with 4 if a relative MSE exceeds this, or a value is invalid")
       ->transform(ValueFrom(0.0, 1e30));
   command.add_flag("--flip", options.comparison.flip,
                    "Compute FLIP as well (--html and --png do)");
   AddOption(command, "--ppd X", options.comparison.pixels_per_degree,
-            "Pixels in a degree of the eye's field, for FLIP; default: 67.02, a "
-            "screen 0.7 m wide of 3840 pixels, seen from 0.7 m")
+            "Pixels per degree of the field of view, for FLIP; default: 67.02 (3840 "
+            "pixels on a 0.7 m wide screen at 0.7 m)")
       ->transform(ValueFrom(1.0, 1000.0));
   AddOption(command, "--html FILE", options.html,
-            "Write a page to look at the images and their differences")
+            "Write an HTML page with the images and their differences")
       ->check(EndsIn(".html"));
   AddOption(command, "--png FILE", options.png,
-            "Write a picture of the images, their differences and FLIP, a row for "
-            "each image")
+            "Write a PNG with the images, their differences and FLIP, one row per image")
       ->check(EndsIn(".png"));
   command.add_flag("--json", options.json, "Print JSON");
 }

@@ -149,7 +149,7 @@ std::string Values(const CLI::Option& option, const std::string& typed,
 
 void AddCompletionCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "completion", "Print what makes bash, zsh or fish complete this command line");
+      "completion", "Print the completion script for bash, zsh or fish");
   auto shell = std::make_shared<std::string>();
   AddOption(*command, "SHELL bash|zsh|fish", *shell, "Which shell")
       ->required()

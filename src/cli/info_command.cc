@@ -32,11 +32,17 @@ std::vector<std::pair<std::string, std::string>> Versions() {
   return versions;
 }
 
+// Returns the instruction set of a target that Highway names otherwise; else nothing.
+std::string InstructionSet(const std::string& target) {
+  return target.starts_with("AVX3") ? " (AVX-512)" : "";
+}
+
 std::string Text(const RenderSettings& settings) {
   const SimdTarget target(settings.target);
   std::string text =
       fmt::format("{:<14} {}\n", "machine", MachineText(ThisMachine())) +
-      fmt::format("{:<14} {}\n", "target", target.name()) +
+      fmt::format("{:<14} {}{}\n", "target", target.name(),
+                  InstructionSet(target.name())) +
       fmt::format("{:<14} {}\n", "lanes", target.lanes()) +
       fmt::format("{:<14} {}\n", "available", fmt::join(AvailableTargets(), ", ")) +
       fmt::format("{:<14} {}\n", "threads", ThreadCount(settings.threads)) +
@@ -77,9 +83,9 @@ void AddInfoCommand(CLI::App& root, Command& chosen) {
       ->description(WithDefault("SIMD target to show", "the best available"));
   AddSetting(*command, "threads", options->settings);
   command->add_flag("--json", options->json, "Print JSON");
-  command->add_flag("--format", options->format,
-                    "Print what becomes of every directive and parameter of pbrt-v4's "
-                    "file format, as Markdown");
+  command->add_flag(
+      "--format", options->format,
+      "Print how every pbrt-v4 directive and parameter is supported, as Markdown");
   command->footer(
       "\nExamples:\n  lanelight info --simd AVX2\n"
       "  lanelight info out.exr\n"

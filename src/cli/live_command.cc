@@ -29,11 +29,12 @@ int Live(const LiveCommandOptions& options) {
   const live::LiveScene live_scene(options.scene.scene, options.scene.settings);
   PrintNotes(live_scene.job);
   live::Server server(live_scene, CommandLine(options.scene), options.port);
-  const InterruptGuard interrupt("\nstopping: closing the pages (once more to abort)\n");
+  const InterruptGuard interrupt(
+      "\nstopping: closing the pages (press Ctrl-C again to abort)\n");
   Print(server.address() + "\n");
   FlushOutput();
   server.Run(interrupt.stop());
-  Print("goodbye\n");
+  Print("the live server has stopped\n");
   return kExitGood;
 }
 
@@ -44,7 +45,7 @@ void AddLiveCommand(CLI::App& root, Command& chosen) {
       "live", "Render in a browser: move the camera, compare strategies as they render");
   auto options = std::make_shared<LiveCommandOptions>();
   AddOption(*command, "--port N", options->port,
-            WithDefault("Port on 127.0.0.1; 0: any that is free", options->port))
+            WithDefault("Port on 127.0.0.1; 0: any free port", options->port))
       ->check(ValueFrom<std::uint32_t>(0, 65535).description(""));
   AddSceneOptions(*command, options->scene);
   command->footer(

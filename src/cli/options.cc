@@ -93,11 +93,12 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
             WithDefault("Time between states", fmt::format("{} s", s.seconds)))
       ->transform(ValueOf(SecondsType{0.01, 1e6}));
   flags.resume_flag = AddOption(command, "--resume [FILE]", s.from,
-                                "Resume from this state, and keep it; bare: from that of "
-                                "--checkpoint, if it exists")
+                                "Resume from this state and update it; bare: resume from "
+                                "the --checkpoint file, if it exists")
                           ->expected(0, 1);
-  AddOption(command, "--watch FILE", s.watch,
-            "Write the image so far at every --every (.exr or .png; may be given twice)")
+  AddOption(
+      command, "--watch FILE", s.watch,
+      "Also write the current image with every state (.exr or .png; may be given twice)")
       ->allow_extra_args(false)
       ->check([](const std::string& path) {
         const std::filesystem::path extension = std::filesystem::path(path).extension();
@@ -141,10 +142,9 @@ void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {
                                  "--part needs --checkpoint FILE for its state");
     }
     if (!targets.exr.empty() || !targets.png.empty()) {
-      throw CLI::ValidationError(
-          "--part",
-          "a part is no image: leave out --output, and put the states together "
-          "with `lanelight merge`");
+      throw CLI::ValidationError("--part",
+                                 "a part is not a whole image: remove --output, and "
+                                 "combine the states with `lanelight merge`");
     }
   } else if (targets.exr.empty()) {
     throw CLI::RequiredError("--output");
@@ -156,8 +156,7 @@ void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {
 void CheckPart(const CheckpointSettings& settings, const Job& job) {
   if (settings.part.count == 1 || !job.OpenEnded()) return;
   throw InputError(
-      "--part needs a fixed number of samples, --spp: a time or a target error is one of "
-      "the whole image");
+      "--part needs a fixed --spp: time and target error apply to the whole image");
 }
 
 }  // namespace lanelight

@@ -45,8 +45,9 @@ std::string StagesOf(const Phase& phase) {
   for (std::size_t i = 0; i < phase.stages.size(); ++i) {
     const Stage& s = phase.stages[i].stage;
     const bool repeated = i >= phase.first_repeated && i < phase.last_repeated;
-    text += NamedRow(
-        s.name, std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
+    text +=
+        NamedRow(StageTitle(s.name),
+                 std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
   }
   return text;
 }
@@ -55,7 +56,7 @@ std::string StagesOf(const Phase& phase) {
 std::string NamesOf(const Phase& phase) {
   std::string names;
   for (const PlannedStage& s : phase.stages) {
-    names += std::string(names.empty() ? "" : " ") + s.stage.name;
+    names += std::string(names.empty() ? "" : " ") + StageTitle(s.stage.name);
   }
   return FactRow("", names, 1);
 }
@@ -74,7 +75,7 @@ std::string Stages(const Plan& plan) {
 std::string OmittedStages(const Plan& plan) {
   std::string text = fmt::format("omitted stages ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
-    text += NamedRow(s.stage.name, s.reason);
+    text += NamedRow(StageTitle(s.stage.name), s.reason);
   }
   return text;
 }
@@ -117,8 +118,8 @@ std::string StrategyWords(const Job& job) {
   const std::string text = ToText(strategy);
   if (strategy.decide != Decide::kPilot) return text;
   return text +
-         "; decide=pilot: a short trial run before the image finds out whether another "
-         "roulette or reuse is more efficient, and `render` says which";
+         "; decide=pilot: a short trial run before the image may choose another roulette "
+         "or reuse; `render` prints the choice";
 }
 
 // Everything that runs comes last.

@@ -28,12 +28,13 @@ struct PlotCommandOptions {
 void CheckPlotFlags(const PlotCommandOptions& options) {
   if (options.list) return;
   if (options.figure.empty()) {
-    throw CLI::ValidationError("--figure", "is required; --list names what FILE has");
+    throw CLI::ValidationError("--figure",
+                               "is required; --list prints the plots that FILE has");
   }
   if (options.out.empty()) throw CLI::ValidationError("--output", "is required");
   const std::string ending = std::filesystem::path(options.out).extension();
   if (ending != ".svg" && ending != ".png" && ending != ".csv") {
-    throw CLI::ValidationError("--output", "ends in .svg, .png or .csv");
+    throw CLI::ValidationError("--output", "must end in .svg, .png or .csv");
   }
 }
 
@@ -68,17 +69,17 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
       "plot", "Draw the numbers of a study, a sweep or a bench, for a paper");
   auto options = std::make_shared<PlotCommandOptions>();
   AddOption(*command, "FILE", options->file,
-            "study.json of `lanelight study`, sweep.json of `lanelight sweep`, or "
-            "what `lanelight bench --json` has written")
+            "study.json of `lanelight study`, sweep.json of `lanelight sweep`, or the "
+            "JSON of `lanelight bench --json`")
       ->required();
   AddOption(*command, "--figure NAME", options->figure,
             "Write this plot, of those that --list names");
   AddOption(*command, "-o,--output FILE", options->out,
             "Write the plot: .svg or .png (needs matplotlib), or its numbers: .csv");
   AddOption(*command, "--scene NAME", options->scene,
-            "Of several, by name; default: the only one");
+            "Scene by name, if FILE has several");
   command->add_flag("--all", options->all,
-                    "Draw all strategies, not the paper's or the leading eight");
+                    "Draw all strategies; default: the paper's or the leading eight");
   command->add_flag("--list", options->list, "Print which plots FILE has, and stop");
   command->footer(
       "\nExamples:\n"

@@ -49,7 +49,7 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
       SummaryRow("machine", MachineText(ThisMachine())) +
       SummaryRow("peaks", PeaksText(report.peaks, target)) +
       SummaryRow("columns",
-                 fmt::format("{:.0f} KiB of a wavefront's paths, which live in {}",
+                 fmt::format("{:.0f} KiB for the paths of a wavefront; they fit in {}",
                              double(result.bytes_in_flight) / 1024, report.level.name));
   if (result.counter_error != 0) {
     text += SummaryRow("counters", std::string(result.counters ? "in part: " : "none: ") +
@@ -66,7 +66,7 @@ std::string Ns(double ns) {
 std::vector<std::string> CostCells(const ProfileRow& row) {
   const StageProfile& c = row.counts;
   std::vector<std::string> cells(11);
-  cells[0] = c.name;
+  cells[0] = StageTitle(c.name);
   cells[1] = fmt::format("{:.1f}%", 100 * row.fraction);
   if (c.calls == 0) return cells;
   cells[2] = Ns(row.NsPerItem());
@@ -93,7 +93,8 @@ std::string CostTable(const ProfileReport& report) {
                   DurationText(report.seconds));
   if (!(report.intersect_seconds > 0)) return text;
   return text + fmt::format(
-                    "\nother stages / intersect: {:.2f}   (with film and the rest: "
+                    "\ntime of other stages / time of intersection: {:.2f} (with film "
+                    "and set-up: "
                     "{:.2f})\n",
                     report.Ratio(), report.RatioWithAll());
 }
@@ -104,7 +105,7 @@ std::string CounterTable(const ProfileReport& report) {
       {"per item", "cycles", "instructions", "IPC", "L1 misses", "LLC misses"}};
   for (const ProfileRow& row : report.rows) {
     if (row.counts.counted_items == 0) continue;
-    lines.push_back({row.counts.name,
+    lines.push_back({StageTitle(row.counts.name),
                      fmt::format("{:.1f}", row.PerItem(Counter::kCycles)),
                      fmt::format("{:.1f}", row.PerItem(Counter::kInstructions)),
                      fmt::format("{:.2f}", row.InstructionsPerCycle()),
@@ -117,21 +118,19 @@ std::string CounterTable(const ProfileReport& report) {
 // Explains columns that could be misread.
 std::string Notes(const ProfileReport& report, const RunResult& result) {
   std::string text = SummaryRow(
-      "read,write",
-      fmt::format(" bytes per item of path columns; BVH, triangles, textures and "
-                  "tables are not in them, nor in GB/s and \"of {}\"",
-                  report.level.name));
-  text += SummaryRow("bound", result.counters
-                                  ? "the limit that a stage works at (docs/profile.md)"
-                                  : "\"memory\" where the columns alone show it; without "
-                                    "counters \"-\" means not known (docs/profile.md)");
+      "read,write", fmt::format(" bytes of path columns per item; read, write, GB/s and "
+                                "\"of {}\" exclude BVH, triangles, textures and tables",
+                                report.level.name));
+  text += SummaryRow(
+      "bound", result.counters ? "what limits the speed of the stage (docs/profile.md)"
+                               : "\"memory\": memory bandwidth limits the stage; \"-\": "
+                                 "unknown without hardware counters (docs/profile.md)");
   if (report.waiting_seconds > 0.05 * report.seconds) {
-    text += SummaryRow("busy",
-                       fmt::format("other programs had the processors for {:.0f} % of "
-                                   "the time; the table counts processor time, but the "
-                                   "caches were theirs too",
-                                   100 * report.waiting_seconds /
-                                       (report.seconds + report.waiting_seconds)));
+    text += SummaryRow(
+        "busy", fmt::format("other programs used the processors for {:.0f} % of the "
+                            "time; their cache use may slow the stages of this table",
+                            100 * report.waiting_seconds /
+                                (report.seconds + report.waiting_seconds)));
   }
   return text;
 }

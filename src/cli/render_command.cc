@@ -72,6 +72,8 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
   auto options = std::make_shared<RenderCommandOptions>();
   AddSettings(*command, kAmountFlag, options->scene.settings);
   AddOutputOptions(*command, options->outputs, options->scene.settings);
+  command->get_option("--output")
+      ->description("Write the image to this file (.exr); required without --part");
   AddCheckpointOptions(*command, options->checkpoint);
   command
       ->add_option_function<std::string>(
@@ -79,8 +81,8 @@ void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen) {
           [options](const std::string& text) {
             options->outputs.targets.display = ReadValue(kDisplayEndpoint, text);
           },
-          "Show the image so far in tev, or another viewer of its protocol, that listens "
-          "there; default: nowhere, and port 14158")
+          "Send the current image to tev (or a compatible viewer) at this address; "
+          "default: none; default port: 14158")
       ->check(ValueOf(kDisplayEndpoint))
       ->type_name("HOST[:PORT]");
   AddSceneOptions(*command, options->scene);

@@ -20,8 +20,8 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   if (!quiet && job.seconds > 0 && r.seconds > 1.05 * job.seconds &&
       r.samples <= 2 * job.window.pixels() && report.unsampled_pixels == 0) {
     PrintError(
-        fmt::format("note: --time {}: one sample per pixel takes longer ({}); a lower "
-                    "--resolution takes less",
+        fmt::format("note: --time {}: one sample per pixel takes longer ({}); use a "
+                    "lower --resolution",
                     job.seconds, DurationText(r.seconds)));
   }
   if (!job.target.Any() || Reached(job.target, report.error)) return kExitGood;
@@ -33,14 +33,15 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                             : r.stop_reason == StopReason::kTime      ? "--time"
                                                                       : "--spp";
   const double spp = double(r.samples) / double(job.window.pixels());
-  PrintError(r.stop_reason == StopReason::kHopeless
-                 ? fmt::format(
-                       "error: no number of samples can show that the target is reached; "
-                       "stopped after {:.0f} per pixel, {:.0f} times the estimate: {}",
-                       spp, kHopelessFactor, error)
-                 : fmt::format(
-                       "error: the target was not reached before the end by {}; error {}",
-                       limit, error));
+  PrintError(
+      r.stop_reason == StopReason::kHopelessFactor
+          ? fmt::format("error: the target was not reached and more samples will not "
+                        "help: stopped after {:.0f} samples per pixel, {:.0f}x the "
+                        "estimated need; error {}",
+                        spp, kHopelessFactor, error)
+          : fmt::format(
+                "error: the target was not reached before the limit ({}); error {}",
+                limit, error));
   return kExitTargetMissed;
 }
 
@@ -61,7 +62,7 @@ void PrintPartial(const RenderReport& report, const Job& job,
   }
   std::error_code ignored;
   if (!requested.empty() && fs::exists(requested, ignored)) {
-    text += "; '" + requested + "' is as it was";
+    text += "; '" + requested + "' is unchanged";
   }
   PrintError(text);
 }
@@ -90,11 +91,12 @@ void AddOutputOptions(CLI::App& command, RenderOutputs& options,
                          ->expected(0, 1);
   AddSettings(command, kImageFlag, settings);
   AddOption(command, "--json FILE", options.targets.json,
-            "Write a report for scripts ('-': print it)");
+            "Write the results as JSON ('-': print them)");
   CLI::Option* verbose =
       command.add_flag("-v,--verbose", options.verbose,
                        "Also print strategy, machine, times and the cost of each stage");
-  command.add_flag("--quiet", options.quiet, "Print errors only")->excludes(verbose);
+  command.add_flag("--quiet", options.quiet, "Print errors and warnings only")
+      ->excludes(verbose);
 }
 
 void ResolveOutputs(RenderOutputs& options, const RenderSettings& settings) {
@@ -168,7 +170,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   if (!report.partial && report.black) PrintError(fmt::format("warning: {}", kNoLight));
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.state_kept) {
-    PrintError("error: the last state could not be kept in '" + checkpoint.path + "'");
+    PrintError("error: the last state could not be written to '" + checkpoint.path + "'");
     return kExitBadInput;
   }
   if (!good) return kExitBadInput;

@@ -12,7 +12,8 @@ namespace lanelight {
 namespace {
 
 constexpr const char* kBlack = "unknown: every sample is black";
-constexpr const char* kUnknown = "unknown: needs two samples per pixel, or two pairs";
+constexpr const char* kUnknown =
+    "unknown: needs 2 samples per pixel (4 with antithetic sampling)";
 
 // Three digits, and no more zeros than these.
 std::string Percent(double relative_mse) {

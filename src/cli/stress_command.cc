@@ -32,7 +32,7 @@ struct StressCommandOptions {
 
 constexpr const char* kStressInterruptText =
     "\nstopping: finishing the current point, then writing the results so far (press "
-    "again to abort)\n";
+    "Ctrl-C again to abort)\n";
 
 std::vector<stress::Case> Selected(const StressCommandOptions& options) {
   try {
@@ -104,15 +104,14 @@ void AddStressOptions(CLI::App& command, StressCommandOptions& options) {
   AddOption(command, "CASE TEXT", options.words,
             WithDefault("Cases, groups, or patterns of them ('ggx-*')", "all"));
   command.add_flag("--list", options.list,
-                   "Print the cases: the extreme, and what must hold there");
+                   "Print all cases with their parameter and expected result");
   command.add_flag("--full", options.suite.effort.full,
-                   "Every value of each map, with the samples that a sharp answer needs");
+                   "Measure all values of each map, with more samples (slow)");
   AddOption(command, "--out DIR", options.out, "Write stress.json and report.html there");
   AddOption(command, "--json FILE", options.json, "Write stress.json ('-': print it)");
   CLI::Validator target = ValueOf(TargetType(AvailableTargets()));
   AddOption(command, "--simd NAME", options.targets,
-            WithDefault("SIMD targets (see `lanelight info`), or all that this "
-                        "machine has",
+            WithDefault("SIMD targets (see `lanelight info`), or all of this machine",
                         "the best available"))
       ->transform(CLI::Validator(
           [target](std::string& text) {
@@ -134,13 +133,11 @@ void AddStressCommand(CLI::App& root, Command& chosen) {
   auto options = std::make_shared<StressCommandOptions>();
   AddStressOptions(*command, *options);
   command->footer(
-      "\nPrints a row per case: for the promised point that is nearest to failing, what "
-      "is\n"
-      "expected, what is measured with its interval, and by how many standard errors "
-      "(z)\n"
-      "it exceeds its tolerance; then where, outside of what is promised, the case "
-      "first\n"
-      "breaks (docs/stress.md). Ctrl-C finishes the current point and prints the "
+      "\nPrints a row per case: for the point of the supported range nearest to "
+      "failing,\nthe expected value, the measured value with its interval, and by how "
+      "many standard\nerrors (z) it exceeds its tolerance; then the first failure "
+      "outside the supported\nrange (docs/stress.md). Ctrl-C finishes the current point "
+      "and prints the "
       "results\n"
       "so far. Exit code 7: a case failed.\n"
       "\nExamples:\n"

@@ -133,10 +133,11 @@ std::string Summary(const SuiteResult& result) {
   const std::string left_out =
       not_measured == 0
           ? ""
-          : fmt::format("; {} points say nothing (the report says why)", not_measured);
+          : fmt::format("; {} points were not measured (the report gives reasons)",
+                        not_measured);
   return fmt::format(
-      "\n{}\n{} promised points in {} ({} of processor time){}; a correct renderer fails "
-      "one run in {:.0f}\n{}\n",
+      "\n{}\n{} points in supported ranges, in {} ({} of processor time){}; false-alarm "
+      "rate: 1 in {:.0f} runs\n{}\n",
       Sentence(result), result.promised, DurationText(result.seconds),
       DurationText(result.cpu_seconds), left_out, 1 / result.options.false_alarm,
       MachineText(result.machine));
@@ -148,7 +149,7 @@ std::string StressTable(const SuiteResult& result) {
   const std::size_t width = NameWidth(result);
   std::string text =
       fmt::format(fmt::runtime(kCaseRow), "case", width, "expected", "measured", "z",
-                  "invalid", "cpu", "rays", "verdict", "  first breaks at");
+                  "invalid", "cpu", "rays", "verdict", "  first failures at");
   std::string group;
   for (const CaseResult& one : result.cases) {
     if (one.points.empty()) continue;  // not begun

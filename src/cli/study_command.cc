@@ -23,10 +23,10 @@ struct StudyCommandOptions {
 
 void CheckCombination(const StudyOptions& study) {
   if (study.scenes.size() > 1 && study.paper) {
-    throw CLI::ValidationError("--paper", "is a page of one scene only");
+    throw CLI::ValidationError("--paper", "works with one scene only");
   }
   if (study.scenes.size() > 1 && !study.references.empty()) {
-    throw CLI::ValidationError("--reference", "goes with one scene only");
+    throw CLI::ValidationError("--reference", "works with one scene only");
   }
   try {
     StudyStrategies(study, {});
@@ -49,7 +49,7 @@ int RunStudyCommand(StudyCommandOptions& options) {
   WorkProgress progress(ChooseProgressStyle(options.quiet), "study ");
   const InterruptGuard interrupt(
       "\nstopping: the report covers the finished renders; --resume continues (press "
-      "again to abort)\n",
+      "Ctrl-C again to abort)\n",
       options.study.settings.threads);
   StudyHooks hooks;
   hooks.on_progress = [&](const StudyProgress& p) { progress.Update(StepOf(p)); };
@@ -103,12 +103,13 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
           ->delimiter(',')
           ->transform(ValueOf(CountType{1, kMaxSpp}));
   AddOption(command, "--budget TIME", s.budget,
-            "Render for equal times instead, of the wall clock: each strategy takes "
-            "up to so many samples as it can; compared by processor time")
+            "Render for equal wall times instead: each strategy takes as many samples as "
+            "fit; results are compared by processor time")
       ->transform(ValueOf(SecondsType{1e-3, 1e6}))
       ->excludes(spp);
   AddOption(command, "--repetitions R", s.repetitions,
-            "Independent renders of each; default: enough for the confidence")
+            "Independent renders per strategy and sample count; default: enough for "
+            "--confidence")
       ->transform(ValueFrom(1, 10000));
   AddOption(command, "--confidence C", s.confidence,
             WithDefault("Confidence of all intervals", s.confidence))
@@ -124,8 +125,9 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
               [&s](const std::string& text) {
                 s.target_relmse = ReadValue(kTargetInPercent, text);
               },
-              "The same as the root of the relative MSE in percent: 1% is 0.0001; "
-              "default: what the baseline reaches")
+              "Measure the time to this error (root of the relative MSE) in percent; 1% "
+              "is "
+              "--target-relmse 0.0001; default: what the baseline reaches")
           ->check(ValueOf(kTargetInPercent))
           ->type_name("X%");
   AddOption(command, "--target-relmse X", s.target_relmse,
@@ -139,7 +141,7 @@ void AddMeasureOptions(CLI::App& command, StudyCommandOptions& options) {
 
 void AddStudyCommand(CLI::App& root, Command& chosen) {
   CLI::App* command = root.add_subcommand(
-      "study", "Measure which strategy gives the least error for the time");
+      "study", "Measure which sampling strategy is the most efficient");
   auto options = std::make_shared<StudyCommandOptions>();
   AddOption(*command, "SCENE", options->study.scenes, "Scene files")->required();
   AddOption(*command, "--out DIR", options->study.out, "Directory for report and data")
@@ -150,7 +152,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
   command->add_flag("--paper", options->study.paper,
                     "Write DIR/index.html too: the founding paper's figures on one page");
   AddSettings(*command, kStudyFlag, options->study.settings);
-  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->add_flag("--quiet", options->quiet, "No progress and no summary");
   command->footer(
       "\nWrites DIR/report.html, study.json, study.csv (docs/study.md) and EXR images.\n"
       "Ctrl-C reports what is finished; --resume continues from there.\n"

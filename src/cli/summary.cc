@@ -18,8 +18,8 @@ namespace lanelight {
 namespace {
 
 std::string HealthText(const Health& h) {
-  if (h.Total() == 0) return "all samples valid";
-  return fmt::format("{} INVALID samples set to zero: {} NaN, {} infinite, {} negative",
+  if (h.Total() == 0) return "all valid";
+  return fmt::format("{} INVALID, set to zero: {} NaN, {} infinite, {} negative",
                      h.Total(), h.nan, h.infinite, h.negative);
 }
 
@@ -28,8 +28,8 @@ std::string ControlRow(const RunResult& r, const Strategy& strategy) {
   if (strategy.control == Control::kNone) return "";
   const double c = r.control ? r.control->coefficient : strategy.coefficient.value_or(1);
   std::string text =
-      fmt::format("{}, {}c = {:.4g} (in the paper's sign {:.4g})", Name(strategy.control),
-                  strategy.coefficient ? "" : "mean ", c, 0 - c);
+      fmt::format("{}, {}c = {:.4g} ({:.4g} in the paper's sign convention)",
+                  Name(strategy.control), strategy.coefficient ? "" : "mean ", c, 0 - c);
   if (r.control) {
     text += fmt::format(", correlation reached {:.4f}", r.control->correlation);
   }
@@ -50,6 +50,18 @@ std::string ImageRow(const RenderReport& report, const PixelRect& window) {
                     fmt::format("{} ({}x{} pixels, {:.4g} samples each)", files,
                                 window.width(), window.height(),
                                 double(report.result.samples) / double(window.pixels())));
+}
+
+// The row of a render of a part, which writes a state instead of an image.
+std::string PartRow(const RenderReport& report, const PixelRect& window,
+                    const std::string& state) {
+  const std::uint64_t pixels = window.pixels() - report.unsampled_pixels;
+  return SummaryRow(
+      "state",
+      fmt::format("{} ({} of {} pixels, {:.4g} samples each); combine all "
+                  "parts with `lanelight merge`",
+                  state, pixels, window.pixels(),
+                  double(report.result.samples) / std::max(double(pixels), 1.0)));
 }
 
 std::string ErrorRow(const ErrorEstimate& error) {
@@ -97,14 +109,15 @@ std::string NextRow(const RenderReport& report, const Job& job,
 }
 
 // Names the choices of the strategy that differ from the default.
-std::string StrategyRow(const RunResult& r, const Job& job) {
+std::string StrategyRow(const RunResult& r, const Job& job, bool verbose) {
   const Strategy in_force = StrategyInForce(r, job);
   Strategy defaults;
   defaults.decide = in_force.decide;
   const std::string changes = ChoicesNotIn(ToText(defaults), ToText(in_force));
   if (changes.empty()) return "";
-  const char* by =
-      r.training.changes.empty() ? "" : " (chosen by a short trial run; details with -v)";
+  const char* by = r.training.changes.empty() ? ""
+                   : verbose                  ? " (chosen by a short trial run)"
+                             : " (chosen by a short trial run; details with -v)";
   return SummaryRow("strategy", changes + by);
 }
 
@@ -130,23 +143,23 @@ std::string StageTable(const RunResult& result) {
       {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
   for (const StageProfile& s : result.stages) {
     lines.push_back(
-        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
+        {StageTitle(s.name), TotalText(double(s.calls)), TotalText(double(s.items)),
          fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
          fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
          fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
   }
   return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0}) +
-         fmt::format("{:.3f} seconds of all threads together\n", total);
+         fmt::format("total: {:.3f} s of processor time (all threads)\n", total);
 }
 
 std::string DetailRows(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   const SimdTarget target = job.plan.options.target;
   return "\n" + SummaryRow("strategy", ToText(StrategyInForce(r, job))) +
-         SummaryRow("points", PointsText(job)) + TrialRow(r) +
+         SummaryRow("sampler", PointsText(job)) + TrialRow(r) +
          SummaryRow("errors", ErrorText(report.error)) +
          ControlRow(r, job.scene.strategy) + RaysRow(r) +
-         SummaryRow("health", HealthText(r.health)) +
+         SummaryRow("samples", HealthText(r.health)) +
          SummaryRow(
              "steps",
              fmt::format("load {}, build {} (BVH {} in {}), render {}, write {}",
@@ -167,6 +180,24 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 
 }  // namespace
 
+std::string StageTitle(const std::string& name) {
+  constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
+      {"seen lights", "visible lights"},
+      {"sum of copies", "sum of split paths"},
+      {"limit", "max_depth"},
+      {"pack", "compact"}};
+  constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
+      {"seen edges: ", "edges: "}, {"seen: ", "visible: "}};
+  for (const auto& [prefix, title] : kPrefixes) {
+    if (!name.starts_with(prefix)) continue;
+    return std::string(title) + StageTitle(name.substr(prefix.size()));
+  }
+  for (const auto& [internal, title] : kTitles) {
+    if (name == internal) return std::string(title);
+  }
+  return name;
+}
+
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
                              bool verbose) {
   const RunResult& r = report.result;
@@ -183,7 +214,7 @@ std::string MergeSummaryText(const RenderReport& report, const MergedRender& mer
   if (!verbose) return text;
   text += "\n" + SummaryRow("strategy", merged.identity.at("strategy")) +
           SummaryRow("errors", ErrorText(report.error)) + RaysRow(r) +
-          SummaryRow("health", HealthText(r.health));
+          SummaryRow("samples", HealthText(r.health));
   for (const MachineInfo& machine : merged.machines) {
     text += SummaryRow("machine", MachineText(machine));
   }
@@ -208,11 +239,14 @@ std::string TransportText(const Job& job) {
 std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice) {
   const RunResult& r = report.result;
-  std::string text = ImageRow(report, job.window) + ErrorRow(report.error) +
-                     SpeedRows(r) + StrategyRow(r, job);
+  const bool is_part = report.exr.empty() && report.unsampled_pixels > 0 &&
+                       !report.partial && !choice.checkpoint.empty();
+  std::string text = is_part ? PartRow(report, job.window, choice.checkpoint)
+                             : ImageRow(report, job.window) + ErrorRow(report.error);
+  text += SpeedRows(r) + StrategyRow(r, job, choice.verbose);
   const std::string transport = TransportText(job);
   if (transport.starts_with("spectral")) text += SummaryRow("transport", transport);
-  if (r.health.Total() > 0) text += SummaryRow("health", HealthText(r.health));
+  if (r.health.Total() > 0) text += SummaryRow("samples", HealthText(r.health));
   text += NextRow(report, job, choice.checkpoint);
   if (choice.verbose) text += DetailRows(report, job);
   return text + DiffersRow(job.loaded->description.notes);

@@ -41,20 +41,20 @@ void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
   PrintFailures(o.failures);
   if (!o.other_cells.empty()) {
     PrintError(
-        fmt::format("note: {} of the directories in {}/cells, e.g. {}, are not of "
-                    "this sweep; they stay, and are not in the table",
+        fmt::format("note: {} directories in {}/cells, e.g. {}, are not part of this "
+                    "sweep; they are kept and excluded from the table",
                     o.other_cells.size(), options.out, o.other_cells.front()));
   }
   if (o.without_target > 0) {
     PrintError(
-        fmt::format("note: {} cells are for SIMD targets that this machine has "
-                    "not; run the sweep on one that has them too",
+        fmt::format("note: {} cells need SIMD targets that this machine lacks; run the "
+                    "sweep on a machine that has them",
                     o.without_target));
   }
   if (o.differing > 0) {
     PrintError(
-        fmt::format("warning: the images of {} cells are not what their scene files ask "
-                    "for (the notes of their reports say why)",
+        fmt::format("warning: the images of {} cells differ from their scene files (see "
+                    "the notes in their reports)",
                     o.differing));
   }
   if (o.invalid_samples > 0) {
@@ -92,8 +92,7 @@ int RunSweepCommand(SweepCommandOptions& options) {
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
       "\nstopping: the current cell is discarded; the same command renders it again "
-      "(once "
-      "more to abort)\n");
+      "(press Ctrl-C again to abort)\n");
   SweepHooks hooks;
   hooks.on_progress = [&](const SweepProgress& p) { progress.Update(StepOf(p)); };
   hooks.on_problem = [&](const std::string& text) { progress.PrintMessage(text); };
@@ -109,7 +108,7 @@ int RunSweepCommand(SweepCommandOptions& options) {
 
 void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
   AddOption(command, "--part I/N", options.part,
-            "Render only every N-th cell, from the I-th on; processes with different "
+            "Render only every N-th cell, starting at the I-th; processes with different "
             "parts need no locks");
   command.add_flag(
       "--wait", options.sweep.wait,
@@ -131,23 +130,24 @@ void AddSweepCommand(CLI::App& root, Command& chosen) {
   CLI::Option* dry =
       command->add_flag("--dry-run", options->dry_run,
                         "Print the cells with predicted time and space, and render none");
-  AddOption(*command, "--pilots N", options->pilots,
-            WithDefault("Most short renders that --dry-run predicts from; 0: no times",
-                        options->pilots))
+  AddOption(
+      *command, "--pilots N", options->pilots,
+      WithDefault(
+          "Maximum number of short renders for the prediction of --dry-run; 0: no times",
+          options->pilots))
       ->transform(ValueFrom(0, 100000))
       ->needs(dry);
   command
       ->add_flag("--table-only", options->sweep.table_only,
-                 "Write table and page of the finished cells, and render nothing")
+                 "Write table and page of the finished cells, without rendering")
       ->excludes(dry);
-  command->add_flag("--quiet", options->quiet, "Print errors only");
+  command->add_flag("--quiet", options->quiet, "Print errors and warnings only");
   command->footer(
       "\nWrites DIR/cells/NAME/image.exr and report.json of every cell, DIR/sweep.csv,\n"
-      "DIR/sweep.json and DIR/report.html. Start the same command as often as you like, "
-      "on\n"
-      "any machines that share DIR: each cell is rendered by one process, and the cells "
-      "of\n"
-      "a process that died by another. Exit code 6: interrupted; start it again.\n"
+      "DIR/sweep.json and DIR/report.html. Start the same command as often as you like,\n"
+      "on any machines that share DIR: each cell is rendered by one process. If a "
+      "process\n"
+      "dies, others render its cells. Exit code 6: interrupted; start it again.\n"
       "\nExamples:\n"
       "  lanelight sweep sweep.toml --out out --dry-run\n"
       "  lanelight sweep sweep.toml --out out\n"

@@ -26,7 +26,7 @@ def the_first_screen_answers_with_a_picture(page):
         winner = data["strategies"][data["ranking"][0]]
         sentence = page.find("#summary .verdict").text
         require(winner["name"] in sentence, "the winner is not named:", sentence)
-        require(len(sentence) < 140, "too long:", sentence)
+        require(len(sentence) < 220, "too long:", sentence)
         numbers = [n.text for n in page.all("#summary .hero-number .number")]
         require(len(numbers) == 2, "numbers:", numbers)
         value = winner["efficiency"]["value"]
@@ -41,12 +41,12 @@ def the_first_screen_answers_with_a_picture(page):
 def warnings_are_said_once(page):
     open_crowd(page)
     items = [item.text for item in page.all("#summary .warnings li")]
-    require(0 < len(items) <= 8, len(items), "things to know:", items)
+    require(0 < len(items) <= 8, len(items), "warnings:", items)
     titles = [item.text for item in page.all("#summary .warnings li > b")]
     require(len(set(titles)) == len(titles), "said twice:", titles)
     text = " ".join(items)
     require("at 16 samples per pixel. Ranks change." in text, "no caution:", text)
-    require("points at" in text or "not from each other" in text, "no word of it:", text)
+    require("may be wrong" in text, "no word of it:", text)
     page.open()
 
 
@@ -119,5 +119,5 @@ def many_curves_fade_and_filter(page):
 def refused_intervals_are_told(page):
     open_crowd(page)
     text = page.find("#calibration").text
-    require("stated no interval" in text, "the text says:", text)
+    require("no interval" in text, "the text says:", text)
     page.open()

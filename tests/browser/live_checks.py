@@ -245,5 +245,5 @@ def overlays_wait_for_what_they_show(page):
         require(seen["coloured"] == 0, layer, "has colours of nothing known:", seen)
         require(seen["shades"] > 20, layer, "hides the picture:", seen)
         if layer != "samples":
-            require("not known yet" in page.text("#legend"), page.text("#legend"))
+            require("no data yet" in page.text("#legend"), page.text("#legend"))
             require("1.0" not in page.text("#legend"), page.text("#legend"))

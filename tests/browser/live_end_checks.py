@@ -146,6 +146,6 @@ def it_says_goodbye(page):
     errors = [message for message in page.console() if "ReadPixels" not in message]
     require(not errors, errors)
     out, err, code = live_program.THE_ONE[0].interrupt()
-    require(code == 0 and "goodbye" in out and "stopping" in err, out, err, code)
+    require(code == 0 and "has stopped" in out and "stopping" in err, out, err, code)
     text = until(page, "return document.querySelector('#closed')?.innerText", "no word")
-    require("Goodbye" in text, text)
+    require("lanelight has exited" in text, text)

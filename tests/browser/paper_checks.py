@@ -18,7 +18,7 @@ def every_figure_has_picture_number_and_sentences(page):
         sentences = page.js("return [...document.querySelectorAll(arguments[0])]"
                             ".map((p) => p.textContent)", f"#part-{number} p")
         require(len(sentences) == 3, number, "says", sentences)
-        require("Nothing was found" not in sentences[2], number, sentences[2])
+        require("did not measure" not in sentences[2], number, sentences[2])
         require(re.search(r"\d", sentences[2]), "no number in", sentences[2])
         canvas = page.find(f"#part-{number} :is(canvas, .curves)")
         ink = page.ink(canvas)

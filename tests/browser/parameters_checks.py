@@ -78,5 +78,5 @@ def one_sentence_says_what_was_found(page):
     require(len(leaders) == 3 and "3 scenes" in text, text)
     better = sum(l["best"] != l["baseline"] and (l["efficiency"]["low"] or 0) > 1
                  for l in leaders)
-    require(f"On {better or 'none'} it is certainly better than default" in text, text)
+    require(f"significantly better than default on {better or 'none'} of the scenes" in text, text)
     require(leaders[0]["best"] in text, text)

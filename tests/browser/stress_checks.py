@@ -132,7 +132,7 @@ def refusals_and_failures_are_marked(page):
     text = note_of(page, '[data-plot="error"] .refused')
     require('<b>x</b> of 1e-4 is below "1e-3"' in text, text)
     choose(page, "wrong-inside")
-    require("inside the promise, 10 m: off by +20 %" in page.find("#map").text,
+    require("inside the supported range, 10 m: off by +20 %" in page.find("#map").text,
             page.find("#map").text)
 
 

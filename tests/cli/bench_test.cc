@@ -77,14 +77,14 @@ TEST_CASE("bench reports slower rows, also by its exit code", "[cli]") {
   const std::string fast = Scaled(path, 1000, directory / "fast.json");
   check(Bench(directory, {"--against", fast}), kExitSlower, "slower: ");
   const std::string slow = Scaled(path, 1e-3, directory / "slow.json");
-  check(Bench(directory, {"--against", slow}), kExitGood, "nothing is slower");
+  check(Bench(directory, {"--against", slow}), kExitGood, "no row is slower");
 
   Json json = ReadJson(slow);
   json["busy"] = {"the load was 9"};
   const std::string busy = WriteText(directory / "busy.json", json.dump());
   const ProcessResult compared = Bench(directory, {"--against", busy});
   CHECK(compared.exit_code == kExitNotComparable);
-  CHECK_THAT(compared.out, Contains("not comparable: before, the load was 9"));
+  CHECK_THAT(compared.out, Contains("not comparable; earlier run: the load was 9"));
   const ProcessResult other =
       Bench(directory, {"--against", slow, "--resolution", "8x8"});
   CHECK(other.exit_code == kExitNotComparable);

@@ -53,7 +53,8 @@ bool TakesValue(const std::string& head) {
 
 // A text that begins with what the flag does, which is not done without it.
 bool SaysWhatItDoes(const std::string& text) {
-  static const std::regex verb("(Write|Save|Resume|Stop|Render|Run|Exit|Compare)\\b.*");
+  static const std::regex verb(
+      "(Write|Also write|Save|Resume|Stop|Render|Run|Exit|Compare)\\b.*");
   return std::regex_match(text, verb);
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("an interruption before the first pass ends keeps the image", "[cli]")
     CHECK(BytesOf(exr) == before);
     CHECK_FALSE(std::filesystem::exists(directory / "keep.png"));
     CHECK_THAT(r.err, Contains("have no sample") && Contains("keep.partial.exr") &&
-                          Contains("is as it was"));
+                          Contains("is unchanged"));
     CHECK_THAT(r.out, Contains("unknown") && !Contains("95 % confidence"));
     REQUIRE(std::filesystem::exists(directory / "keep.partial.exr"));
     const ProcessResult info = RunLanelight({"info", directory / "keep.partial.exr"});
@@ -131,7 +131,7 @@ TEST_CASE("an interrupted advise keeps the image", "[cli]") {
   INFO(r.err);
   CHECK(r.exit_code == kExitInterrupted);
   CHECK(BytesOf(exr) == before);
-  CHECK_THAT(r.err, Contains("keep.partial.exr") && Contains("is as it was"));
+  CHECK_THAT(r.err, Contains("keep.partial.exr") && Contains("is unchanged"));
 }
 
 TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {

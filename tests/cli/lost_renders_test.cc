@@ -110,7 +110,7 @@ TEST_CASE("no results folder may contain an input file", "[cli]") {
     const ProcessResult r = RunLanelight(arguments);
     INFO(arguments[0] << " " << file << ": " << r.err);
     CHECK(r.exit_code == kExitBadInput);
-    CHECK_THAT(r.err, Contains(file) && Contains("which is read"));
+    CHECK_THAT(r.err, Contains(file) && Contains("which is an input"));
   };
   const std::string sweep =
       WriteText(directory / "sweep.toml", "[grid]\nscene = \"box.pbrt\"\nspp = 1\n");

@@ -115,7 +115,7 @@ TEST_CASE("a study and a sweep report deviations from the scene file", "[cli]") 
   const ProcessResult sweep = RunLanelight({"sweep", file, "--out", directory / "sweep"});
   INFO(sweep.out << sweep.err);
   CHECK(sweep.exit_code == kExitGood);
-  CHECK_THAT(sweep.err, Contains("the images of 2 cells are not what"));
+  CHECK_THAT(sweep.err, Contains("the images of 2 cells differ from"));
 }
 
 TEST_CASE("warnings are labelled and precede notes", "[cli]") {

@@ -72,7 +72,7 @@ TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
   for (const char* word :
        {"stage", "share", "ns/item", "items", "calls", "lanes", "read", "write", "GB/s",
         "bound", "peaks", "intersect_spheres", "outside stages", "film", "total",
-        "other stages / intersect: ", "16 samples"}) {
+        "time of other stages / time of intersection: ", "16 samples"}) {
     CHECK_THAT(r.out, Contains(word));
   }
   double last = 100, sum = 0;
@@ -245,7 +245,7 @@ TEST_CASE("a full disk loses the trace, not the table", "[cli]") {
                                        options);
   CHECK(r.exit_code == kExitBadInput);
   CHECK_THAT(r.err, Contains("t.json"));
-  CHECK_THAT(r.out, Contains("other stages / intersect"));
+  CHECK_THAT(r.out, Contains("time of other stages / time of intersection"));
   CHECK(directory.Files() == std::vector<std::string>{"sphere.pbrt"});
   CHECK(temporary.Files().empty());
 }
@@ -262,7 +262,8 @@ TEST_CASE("Ctrl-C keeps the profile measured so far", "[cli]") {
                    interrupt);
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("stopped early") && Contains("other stages / intersect"));
+  CHECK_THAT(r.out, Contains("stopped early") &&
+                        Contains("time of other stages / time of intersection"));
   const Json p = ReadJson(json);
   CHECK(p.at("stopped_early") == true);
   CHECK(p.at("samples") > 0);

@@ -53,10 +53,9 @@ TEST_CASE("the default of decide is documented for each command", "[cli]") {
   CHECK_THAT(plan("1000000"), Contains("decide=pilot"));
   const std::string list = RunLanelight({"strategies"}).out;
   const std::string decide = list.substr(list.find("decide=\n"));
-  CHECK_THAT(decide,
-             Contains("default where a strategy is named, and of short renders") &&
-                 Contains("chooses roulette and reuse") &&
-                 Contains("from 4 s or 8 million samples on"));
+  CHECK_THAT(decide, Contains("default for short renders, and if a strategy is named") &&
+                         Contains("chooses another roulette or reuse") &&
+                         Contains("from 4 s or 8 million samples"));
 }
 
 TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
@@ -72,7 +71,7 @@ TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
              Contains("directions=bsdf,points=stratified,pairs=antithetic:pixel"));
   CHECK_THAT(report.at("plan").at("stages").dump(), Contains("antithetic_camera"));
   CHECK_THAT(report.at("plan").at("omitted_stages").dump(),
-             Contains("no light that is sampled"));
+             Contains("no sampled lights"));
 }
 
 TEST_CASE("a strategy that the scene does not support is refused with a remedy",

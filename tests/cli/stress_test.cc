@@ -51,7 +51,7 @@ TEST_CASE("stress: a case prints its row and writes its files", "[cli][stress]")
       {"stress", "unit-of-length", "--simd", "all", "--out", out, "--json", json});
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("first breaks") && Contains("unit-of-length") &&
+  CHECK_THAT(r.out, Contains("first failure") && Contains("unit-of-length") &&
                         Contains("The one case is good on " + AvailableTargets()[0]) &&
                         Contains(out + "/report.html"));
   CHECK_THAT(r.err, Contains("stress: 1 of"));
@@ -97,7 +97,7 @@ TEST_CASE("stress: an interruption keeps finished measurements", "[cli][stress]"
   CHECK(r.signal == 0);
   CHECK(r.exit_code == kExitInterrupted);
   CHECK_THAT(r.err, Contains("finishing the current point"));
-  CHECK_THAT(r.out, Contains("not measured to the end"));
+  CHECK_THAT(r.out, Contains("not measured completely"));
   CHECK(Parsed(out + "/stress.json").at("interrupted") == true);
 }
 

@@ -44,7 +44,8 @@ TEST_CASE("study: a killed study resumes", "[cli]") {
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out, Contains("efficiency") && Contains("paper-plain") &&
-                        Contains("report.html") && Contains("error for the time"));
+                        Contains("report.html") &&
+                        Contains("the most efficient strategy"));
   CHECK_THAT(r.err, Contains("100 %"));
   Json whole = ReadJson(directory / "whole/study.json");
   RemoveTimings(whole);

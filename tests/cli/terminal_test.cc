@@ -57,14 +57,14 @@ TEST_CASE("the summary prints the main results, -v the details", "[cli]") {
                            "half the error takes about 4 times as long: --spp 64"}) {
     CHECK_THAT(r.out, Contains(word));
   }
-  for (const char* word : {"stage", "machine", "kernels", "health"}) {
+  for (const char* word : {"stage", "machine", "kernels", "all valid"}) {
     CHECK_THAT(r.out, !Contains(word));
   }
   CHECK(std::count(r.out.begin(), r.out.end(), '\n') <= 8);
   const ProcessResult all =
       RunLanelight({"render", scene, "-o", exr, "--spp", "16", "-v"});
   for (const char* word : {"directions=mis:power", "stage", "machine", "kernels",
-                           "health", "ns/item", "RMSE"}) {
+                           "all valid", "ns/item", "RMSE"}) {
     CHECK_THAT(all.out, Contains(word));
   }
   CHECK(RunLanelight({"render", scene, "-o", exr, "-v", "--quiet"}).exit_code ==

@@ -85,7 +85,7 @@ TEST_CASE("wrong flags exit with 2 and a message", "[cli]") {
        "did you mean \"halton\"?"},
       {{"study", "x.pbrt", "--out", "x", "--strategies", "points=sobl"},
        "--strategies: strategy"},
-      {{"stress", "no-such-case"}, "CASE: no case or group is called"},
+      {{"stress", "no-such-case"}, "CASE: unknown case or group"},
       {{"render", "x.pbrt", "-o", "x.exr", "--every", "soon"},
        "--every: \"soon\" is not a time of 0.01 to 1000000 seconds"},
       {{"render", "x.pbrt", "--checkpoint", "x", "--part", "3/2"}, "3/2\" is not I/N"},

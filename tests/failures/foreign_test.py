@@ -133,12 +133,12 @@ def two_processes():
         first = test.start(*command)
         test.expect(wait_for((folder / "s").exists), "no state")
         for _ in range(3):
-            errors = refused("a second process on a state", command, "is being kept by",
+            errors = refused("a second process on a state", command, "is in use by",
                              f"process {first.pid} on ")
         shutil.copyfile(folder / "s", folder / "copy")
         refused("merging into a state that is being kept",
                 ["merge", folder / "copy", "--partial", "--state", folder / "s"],
-                "is being kept by")
+                "is in use by")
         refused("merging a state into itself",
                 ["merge", folder / "s", "--partial", "--state", folder / "s"],
                 "would overwrite")

@@ -85,12 +85,13 @@ std::string WhyNoCounters(int error) {
     case ENODEV:
     case EOPNOTSUPP:
       return reason +
-             "; this machine shows no counters to the kernel: on a virtual machine the "
-             "host must pass them through (a virtual PMU)";
+             "; the kernel finds no hardware counters; on a virtual machine, the host "
+             "must "
+             "provide a virtual PMU";
     case EBUSY:
       return reason +
-             "; other programs, or the kernel's watchdog "
-             "(/proc/sys/kernel/nmi_watchdog), hold the processor's counters";
+             "; other programs or the kernel's watchdog "
+             "(/proc/sys/kernel/nmi_watchdog) use the processor's counters";
     case ENOSYS:
       return reason + "; needs a kernel with CONFIG_PERF_EVENTS";
     default:

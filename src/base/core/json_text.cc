@@ -28,10 +28,10 @@ Json ParseJson(std::string_view text) {
 
 std::string JsonProblem(const Json::exception& error) {
   if (error.id == kTooDeep) {
-    return fmt::format("values lie more than {} deep in each other", kDeepestJson);
+    return fmt::format("values are nested more than {} deep", kDeepestJson);
   }
   if (const auto* parse = dynamic_cast<const Json::parse_error*>(&error)) {
-    return fmt::format("it is not JSON from byte {} on", parse->byte);
+    return fmt::format("invalid JSON at byte {}", parse->byte);
   }
   return "a value is missing, or is of another type than this program writes";
 }

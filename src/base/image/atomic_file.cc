@@ -121,7 +121,8 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   }
   const std::string file = LinkTarget(path);
   WriteAndRename(file, content);
-  if (!SyncFolder(file)) Fail(file, "written, but its folder cannot be", errno);
+  if (!SyncFolder(file))
+    Fail(file, "written, but its directory cannot be flushed to disk", errno);
 }
 
 void RemoveTemporaries(const std::string& path) {

@@ -117,8 +117,8 @@ double LinearValue(const Image& image, int x, int y, int channel) {
 
 std::string NoColorChannels(const Image& image) {
   return fmt::format(
-      "its channels ({}) are no colour; supported are R, G and B, or a grey one: Y, or a "
-      "single one other than A",
+      "its channels ({}) are not a colour image; supported: R, G and B, or Y, or one "
+      "channel other than A",
       fmt::join(image.names, ", "));
 }
 

@@ -35,10 +35,11 @@ inline std::uint64_t PlaceIn(const void* grid, const void* part) {
 /// bytes.
 inline void CheckHead(const nanovdb::GridData& grid, std::uint64_t size) {
   if (size < sizeof grid) {
-    FailDamaged(0, "{} bytes; its head alone has {}", size, sizeof grid);
+    FailDamaged(0, "a grid of {} bytes is too short; its header alone takes {}", size,
+                sizeof grid);
   }
   if (grid.mMagic != NANOVDB_MAGIC_NUMBER) {
-    FailDamaged(PlaceIn(&grid, &grid.mMagic), "not the number that grids begin with");
+    FailDamaged(PlaceIn(&grid, &grid.mMagic), "wrong magic number of a grid");
   }
   if (grid.mVersion.getMajor() != NANOVDB_MAJOR_VERSION_NUMBER) {
     FailDamaged(PlaceIn(&grid, &grid.mVersion), "version {}; supported: {}",
@@ -88,8 +89,8 @@ class TreeCheck {
     const bool fits = place <= size_ && count <= size_ - place;
     if (fits && place >= first_ && place % NANOVDB_DATA_ALIGNMENT == 0) return;
     FailDamaged(from,
-                "leads to {} bytes at byte {}, which must be a multiple of {}, and all "
-                "between {} and {}",
+                "points to {} bytes at byte {}; the offset must be a multiple of {} and "
+                "the range between {} and {}",
                 count, place, NANOVDB_DATA_ALIGNMENT, first_, size_);
   }
 
@@ -97,7 +98,8 @@ class TreeCheck {
     first_ = sizeof(nanovdb::GridData) + sizeof(Tree());
     if (size_ < first_) {
       FailDamaged(Place(&grid_.data()->mGridSize),
-                  "a size of {} bytes; head and tree alone have {}", size_, first_);
+                  "a size of {} bytes is too small; header and tree alone take {}", size_,
+                  first_);
     }
     const std::uint64_t& offset = Tree().mNodeOffset[RootNode::LEVEL];
     root_ = sizeof(nanovdb::GridData) + offset;
@@ -112,13 +114,13 @@ class TreeCheck {
     for (std::uint32_t i = 0; i < Root().tileCount(); ++i) {
       const auto* tile = Root().data()->tile(i);
       if (RootNode::DataType::CoordToKey(tile->origin()) != tile->key) {
-        FailDamaged(Place(&tile->key), "the key {} is no place", tile->key);
+        FailDamaged(Place(&tile->key), "invalid key {}", tile->key);
       }
       keys.push_back(tile->key);
     }
     std::sort(keys.begin(), keys.end());
     if (std::adjacent_find(keys.begin(), keys.end()) == keys.end()) return;
-    FailDamaged(root_, "two tiles of the root have the same place");
+    FailDamaged(root_, "two tiles of the root have the same key");
   }
 
   template <typename Node>
@@ -138,7 +140,7 @@ class TreeCheck {
     // Nodes that many lead to would be visited without end, or nearly.
     in_nodes_ += bytes;
     if (in_nodes_ > size_ - first_) {
-      FailDamaged(from, "leads to a node that something else has led to already");
+      FailDamaged(from, "points to a node that already has a parent");
     }
     nodes_[Node::LEVEL].push_back(place);
     if constexpr (Node::LEVEL > 0) {

@@ -31,7 +31,8 @@ class Reader {
  public:
   explicit Reader(std::istream& file) : file_(file) {
     const auto end = file_.seekg(0, std::ios::end).tellg();
-    if (end < 0 || !file_.seekg(0)) throw InputError("has no end that is known");
+    if (end < 0 || !file_.seekg(0))
+      throw InputError("has an unknown size; it must be a regular file");
     size_ = static_cast<std::uint64_t>(end);
   }
   std::uint64_t place() const { return place_; }
@@ -78,7 +79,7 @@ io::Header ReadHeader(Reader& reader) {
     reader.Fail(place, "{}",
                 header.magic == io::reverseEndianness(NANOVDB_MAGIC_NUMBER)
                     ? "written on a machine with the other byte order"
-                    : "not the number that NanoVDB files begin with");
+                    : "wrong magic number of a NanoVDB file");
   }
   const auto version = header.version.getMajor();
   if (version != NANOVDB_MAJOR_VERSION_NUMBER) {
@@ -107,7 +108,7 @@ void Unzip(Reader& reader, GridBytes* bytes) {
   uLongf size = bytes->size();
   const int status = uncompress(bytes->data(), &size, packed.data(), packed.size());
   if (status != Z_OK || size != bytes->size()) {
-    reader.Fail(place, "what zip has compressed is damaged");
+    reader.Fail(place, "the zip-compressed data is damaged");
   }
 }
 
@@ -122,7 +123,7 @@ void Unblosc(Reader& reader, GridBytes* bytes) {
         size != chunk ||
         blosc_decompress_ctx(packed.data(), bytes->data() + done, chunk, 1) !=
             static_cast<int>(chunk)) {
-      reader.Fail(place, "what blosc has compressed is damaged");
+      reader.Fail(place, "the blosc-compressed data is damaged");
     }
     done += chunk;
   }
@@ -133,14 +134,13 @@ GridBytes MakeRoom(const Reader& reader, io::Codec codec, std::uint64_t size) {
   if (codec == io::Codec::NONE) {
     reader.Need(size, "a grid");
   } else if (size / kMaxExpansion > reader.left()) {
-    reader.Fail(reader.place(),
-                "a grid of {} bytes, which the {} that follow cannot become", size,
-                reader.left());
+    reader.Fail(reader.place(), "a grid of {} bytes cannot come from {} compressed bytes",
+                size, reader.left());
   }
   try {
     return GridBytes(size);
   } catch (const std::bad_alloc&) {
-    reader.Fail(reader.place(), "no memory for a grid of {} bytes", size);
+    reader.Fail(reader.place(), "not enough memory for a grid of {} bytes", size);
   }
 }
 

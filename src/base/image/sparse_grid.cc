@@ -34,7 +34,7 @@ void CheckPlace(const SparseGrid& grid) {
                                                     corner & 4 ? high.z : low.z});
     for (int a = 0; a < 3; ++a) {
       if (std::abs(at[a]) <= kFarthestVoxel) continue;  // nor is it NaN
-      throw InputError("has a box that reaches to voxel {}; at most {} is supported",
+      throw InputError("has a bounding box up to voxel {}; at most {} is supported",
                        at[a], kFarthestVoxel);
     }
   }
@@ -124,7 +124,7 @@ std::shared_ptr<const SparseGrid> MakeSparseGrid(GridBytes bytes) {
   CheckHead(head, bytes.size());
   if (head.mGridClass == nanovdb::GridClass::LevelSet) {
     throw InputError(
-        "is a level set, distances to a surface; a medium needs a fog volume");
+        "is a level set (distances to a surface); a medium needs a fog volume");
   }
   auto grid = MakeOfType(head.mGridType, std::move(bytes));
   CheckValues(*grid);

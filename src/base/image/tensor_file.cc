@@ -33,7 +33,7 @@ T TensorFile::Read(const char* what) {
 
 TensorFile::TensorFile(std::string bytes) : bytes_(std::move(bytes)) {
   if (bytes_.compare(0, kMagic.size(), kMagic) != 0) {
-    FailAtByte(0, "does not begin as tensor files do, with \"tensor_file\"");
+    FailAtByte(0, "does not start with \"tensor_file\"");
   }
   at_ = kMagic.size();
   const int major = Read<std::uint8_t>("the version");

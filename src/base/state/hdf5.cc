@@ -102,8 +102,9 @@ void CheckStored(const Handle& dataset, const std::string& name, double bytes) {
   constexpr double kMaxExpansion = 1032;  // by deflate
   const auto stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
   if (bytes <= kMaxExpansion * stored) return;
-  throw Failure(fmt::format("{} claims {:.0f} bytes, and the file has {:.0f} for it",
-                            name, bytes, stored));
+  throw Failure(
+      fmt::format("{} should have {:.0f} bytes, but the file stores only {:.0f}", name,
+                  bytes, stored));
 }
 
 void SetText(hid_t object, const char* name, const std::string& text) {
@@ -128,7 +129,7 @@ std::string ReadText(hid_t parent, const char* name) {
   const bool fixed = Check(H5Tget_class(type.get()), name) == H5T_STRING &&
                      Check(H5Tis_variable_str(type.get()), name) == 0;
   if (!fixed || !DimsOf(dataset).empty()) {
-    throw Failure(fmt::format("{} is not one text", name));
+    throw Failure(fmt::format("{} is not a single string", name));
   }
   const std::size_t size = H5Tget_size(type.get());
   CheckStored(dataset, name, static_cast<double>(size));

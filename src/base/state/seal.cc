@@ -56,13 +56,13 @@ void CheckBlock(const SealBlock& block, std::size_t size, const std::string& pat
                 std::uint64_t schema) {
   if (size == 0) Refuse(path, "is empty, not a state file");
   if (std::memcmp(block.magic, kMagic.data(), std::min(size, kMagic.size())) != 0) {
-    Refuse(path, "is not a state file of lanelight, or its beginning is damaged");
+    Refuse(path, "not a state file of lanelight, or its beginning is damaged");
   }
   if (size < sizeof(block)) {
-    Refuse(path, "the state is torn: {} bytes are left", size);
+    Refuse(path, "the state is truncated to {} bytes", size);
   }
   if (HashOfSeal(block) != block.seal) {
-    Refuse(path, "the state is damaged: its first 512 bytes do not have their checksum");
+    Refuse(path, "the state is damaged: the checksum of its first 512 bytes is wrong");
   }
   if (block.schema != schema) {
     Refuse(path, "the state is of schema {}; this program reads schema {}", block.schema,
@@ -90,8 +90,7 @@ std::uint64_t CheckSeal(int fd, const std::string& path, std::uint64_t schema) {
   if (fstat(fd, &info) != 0) Refuse(path, "cannot read: {}", std::strerror(errno));
   const std::uint64_t size = static_cast<std::uint64_t>(info.st_size);
   if (size != block.length) {
-    Refuse(path, "the state is torn: it has {} bytes and was written with {}", size,
-           block.length);
+    Refuse(path, "the state is truncated: it has {} of {} bytes", size, block.length);
   }
   StreamHash hash;
   std::vector<char> buffer(1 << 18);  // stays in the second cache
@@ -101,7 +100,7 @@ std::uint64_t CheckSeal(int fd, const std::string& path, std::uint64_t schema) {
     if (n < buffer.size()) break;
   }
   if (hash.Digest() != block.content) {
-    Refuse(path, "the state is damaged: its content does not have its checksum");
+    Refuse(path, "the state is damaged: the checksum of its content is wrong");
   }
   return size;
 }

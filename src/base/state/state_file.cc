@@ -78,7 +78,7 @@ struct StateFile::Impl {
     identity = hdf5::ReadText(f, "identity");
     report = hdf5::ReadText(f, "report");
     const std::vector<PixelRect> windows = ReadRects(f, "window");
-    if (windows.size() != 1) throw hdf5::Failure("window is not one rectangle");
+    if (windows.size() != 1) throw hdf5::Failure("window is not a single rectangle");
     window = windows[0];
     tiles = ReadRects(f, "tiles");
     const std::string problem = TileProblem(tiles, window);

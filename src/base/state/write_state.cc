@@ -61,10 +61,8 @@ std::span<char> BytesOf(const hdf5::Handle& file) {
 void WriteContent(hid_t file, const StateContent& content) {
   hdf5::SetText(file, "meaning", "the state of a render by lanelight");
   hdf5::SetNumber(file, "schema", kStateSchema);
-  hdf5::WriteText(file, {"identity", "the run that this is a state of (JSON)"},
-                  content.identity);
-  hdf5::WriteText(file, {"report", "what the run has done so far (JSON)"},
-                  content.report);
+  hdf5::WriteText(file, {"identity", "identity of the render (JSON)"}, content.identity);
+  hdf5::WriteText(file, {"report", "progress of the render (JSON)"}, content.report);
   const auto write = [&](hid_t group, const StateColumn& column, const TileRows* tiles) {
     WriteColumn(group, column, tiles, content.compress);
   };

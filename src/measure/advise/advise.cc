@@ -114,7 +114,7 @@ class Adviser {
     const double fraction = std::min(1.0, pilot_ / advice_.seconds_to_try);
     const auto reached = std::size_t(fraction * double(tried.size()));
     for (std::size_t i = std::max<std::size_t>(reached, 1); i < tried.size(); ++i) {
-      all_[tried[i].index].reason = "the trial's time did not reach it";
+      all_[tried[i].index].reason = "the trial ran out of time";
     }
     tried.resize(reached < 2 ? 1 : reached);
     return tried;
@@ -194,7 +194,7 @@ class Adviser {
     std::sort(tried.begin() + 1, tried.end(), better);
     while (tried.size() > 1 &&
            (tried.size() > 1 + kBest || Score(tried.back()) < std::log(kMinTrialGain))) {
-      Drop(tried.back(), "less efficient than others after a round");
+      Drop(tried.back(), "less efficient than other candidates");
       tried.pop_back();
     }
     if (tried.size() < 2) return;
@@ -247,8 +247,9 @@ class Adviser {
     both.efficiency = {baseline.value * more.value, baseline.low * more.low,
                        baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.gains_per_pixel ? "gains by pixels, and loses after a filter"
-                                         : "not clearly better";
+    both.reason = blocks.gains_per_pixel
+                      ? "more efficient per pixel, less efficient after a filter"
+                      : "not clearly better";
     both.samples = samples;
     all_.push_back(both);
   }
@@ -263,11 +264,13 @@ class Adviser {
                                           : "probably more efficient than the default";
       } else if (c.status == CandidateStatus::kKept) {
         c.reason =
-            i == 0 ? "the default; another is clearly more efficient"
+            i == 0 ? all_[chosen_].efficiency.low > 1
+                         ? "another candidate is clearly more efficient"
+                         : "another candidate is probably more efficient"
             : i == unseen_
                 ? "few bright samples dominate its error, so the trial is inconclusive"
             : chosen_ == 0 ? "not clearly better than the default"
-                           : "not the best";
+                           : "not the best candidate";
       }
     }
     const AdvisedCandidate& best = all_[chosen_];
@@ -281,11 +284,12 @@ class Adviser {
     if (stopped) return "the trial was interrupted";
     if (advice_.interrupted) {
       return fmt::format(
-          "the trial was ended after {:g} times its planned processor time: the default",
+          "the trial exceeded {:g} times its planned processor time, so the default is "
+          "used",
           kTimeoutFactor);
     }
     if (advice_.rays == 0) {
-      return "the trial's time is too short to compare strategies: the default";
+      return "the trial is too short to compare strategies, so the default is used";
     }
     if (chosen_ == 0) {
       return "no change is clearly more efficient than the default strategy";

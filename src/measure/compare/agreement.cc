@@ -51,8 +51,8 @@ std::string SharedSeed(const Image& test, const Image& reference) {
   const std::string seed = text(test, "seed");
   if (seed.empty() || seed != text(reference, "seed")) return "";
   return fmt::format(
-      "both were rendered with the seed {}, and common noise hides differences; render "
-      "one of them with another --seed",
+      "both images were rendered with seed {}, and their common noise hides differences; "
+      "render one of them with another --seed",
       seed);
 }
 
@@ -90,7 +90,7 @@ class AgreementTest {
     out_.untested = std::ranges::count_if(p_, [](double p) { return p != p; });
     out_.detectable = Detectable();
     if (out_.untested == out_.tests) {
-      out_.why = "their means rest on too few bright samples";
+      out_.why = "too few bright samples determine their means";
       out_.p = kNotKnown;
       return out_;
     }

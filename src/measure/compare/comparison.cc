@@ -32,7 +32,12 @@ FlipMaps FlipOf(const LinearImage& test, const LinearImage& reference, bool high
   return out;
 }
 
-std::string Percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+// Two digits, without an exponent.
+std::string Percent(double share) {
+  const double percent = 100 * share;
+  return percent < 99.5 ? fmt::format("{:.2g} %", percent)
+                        : fmt::format("{:.0f} %", percent);
+}
 
 // Smaller p-values depend on the assumed distributions.
 std::string PText(double p) {
@@ -61,14 +66,14 @@ std::string VerdictOf(const ImageComparison& c) {
                   c.flip ? fmt::format("; FLIP {:.3g}", c.flip->summary().mean) : "");
   switch (c.agreement.verdict) {
     case AgreementVerdict::kAgree:
-      return text + ", which their noise explains";
+      return text + "; the difference is not significant";
     case AgreementVerdict::kDiffer:
       return text +
-             fmt::format(", more than their noise explains ({})", PText(c.agreement.p));
+             fmt::format("; the difference is significant ({})", PText(c.agreement.p));
     case AgreementVerdict::kInconclusive:
       break;
   }
-  return text + "; it is unknown whether noise explains it: " + c.agreement.why;
+  return text + "; significance unknown: " + c.agreement.why;
 }
 
 nlohmann::json FlipJson(const std::optional<FlipMaps>& flip) {
@@ -135,7 +140,7 @@ std::string AgreementText(const Agreement& a) {
     case AgreementVerdict::kInconclusive:
       break;
   }
-  return "cannot tell: " + a.why;
+  return "no test: " + a.why;
 }
 
 nlohmann::json ToJson(const ImageComparison& c) {

@@ -69,7 +69,7 @@ ComparisonSheet SheetOf(const std::vector<SheetRow>& rows) {
         std::max(out.flip_scale, std::min(1.0, ScaleOf(row.comparison.flip->map())));
   }
   const int width = kColumns * (w + kGap) - kGap, height = count * (h + kGap) - kGap;
-  CheckImageSize("the picture of the comparison", width, height);
+  CheckImageSize("the image of the comparison", width, height);
   out.image = MakeImage(width, height, {"R", "G", "B"});
   Draw(out.image, {0, 0, width, height}, [](std::size_t) { return kGapColor; });
   for (int r = 0; r < count; ++r) {

@@ -43,14 +43,15 @@ Decision AccessCheck::Decide(const HttpRequest& request) const {
       end != std::string::npos && request.target[0] == '/' &&
       SameToken(std::string_view(request.target).substr(1, end - 1), token_);
   if (!has_token) {
-    return {Answer::kRefused, 404,
-            "there is nothing here; the address that `lanelight live` prints has a token "
-            "in it"};
+    return {
+        Answer::kRefused, 404,
+        "unknown address; open the address that `lanelight live` prints, with its token"};
   }
   const std::string rest = request.target.substr(end);
   if (rest == "/" && !request.upgrade) return {Answer::kPage, 200, ""};
   if (rest != "/socket" || !request.upgrade) {
-    return {Answer::kRefused, 404, "only the page and its socket are here"};
+    return {Answer::kRefused, 404,
+            "unknown path; this server has only the page and its socket"};
   }
   if (request.origin != "http://" + request.host) {
     return {Answer::kRefused, 403, "the Origin of the socket is not this server's page"};

@@ -47,7 +47,7 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch) {
   const Interval &ea = a.error.relmse, &eb = b.error.relmse;
   if (!(ea.value > 0) || !(eb.value > 0) || !std::isfinite(ea.value) ||
       !std::isfinite(eb.value)) {
-    ratio.why = "an error is estimated to be 0";
+    ratio.why = "an estimated error is 0";
     return ratio;
   }
   ratio.available = true;

@@ -110,8 +110,7 @@ void Listen(tcp::acceptor& acceptor, std::uint16_t port) {
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
     throw InputError(
-        fmt::format("port {} of 127.0.0.1 cannot be had: {}; without --port "
-                    "a free one is taken",
+        fmt::format("cannot use port {} of 127.0.0.1: {}; omit --port to use a free one",
                     port, error.message()));
   }
 }

@@ -74,7 +74,7 @@ void Session::SendPixel(int x, int y) {
 void Session::SendExr(int index) {
   const Slot& slot = slots_[static_cast<std::size_t>(index)];
   if (!slot.renderer || slot.renderer->spp() == 0) {
-    SendText("refused", "there is no whole picture yet to be saved");
+    SendText("refused", "there is no complete image to save yet");
     return;
   }
   slot.renderer->Fit();

@@ -154,7 +154,7 @@ std::string StateText(const StateOfPage& state, const std::string& command) {
 
 nlohmann::json ParseMessage(std::string_view text) {
   if (text.size() > kLongestMessage) {
-    throw InputError(fmt::format("a message of {} bytes; at most {} are taken",
+    throw InputError(fmt::format("a message of {} bytes; at most {} are accepted",
                                  text.size(), kLongestMessage));
   }
   try {
@@ -167,7 +167,7 @@ nlohmann::json ParseMessage(std::string_view text) {
 }
 
 InputError NotUnderstood(const nlohmann::json::exception& error) {
-  return InputError("the message is not understood: " + JsonProblem(error));
+  return InputError("invalid message: " + JsonProblem(error));
 }
 
 bool ChangesWork(const nlohmann::json& message) {

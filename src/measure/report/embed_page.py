@@ -18,33 +18,46 @@ REPORT = f"{COMMON} data view strategies table"
 PLOTS = "whisker scale plot_draw plot plot_save plot_legend"
 CURVES = f"{REPORT} {PLOTS} guides"
 IMAGES = "tone picture place pan pane difference comparator controls readout"
+
+
+def also(files):
+    """Returns the sentence for browsers without JavaScript."""
+    return f"The numbers are also in {files}."
+
+
 # Of the pages: what stands where page.html has these words; styles after base.css, table.css
 # and plots.css, and before print.css; scripts.
 PAGES = {
-    "Study": ({"NAME": "study", "TABS": "Scenes", "FILES": "study.json and study.csv beside it"},
+    "Study": ({"NAME": "study", "TABS": "Scenes",
+               "FILES": also("study.json and study.csv in the same directory")},
              "images",
              f"""{CURVES} {IMAGES} curves hero warnings summary ranking ranking_columns calibration
              figures figures_level insets maps stages levels glossary main"""),
-    "Paper": ({"NAME": "paper", "TABS": "Paper", "FILES": "study.json and study.csv beside it"},
+    "Paper": ({"NAME": "paper", "TABS": "Paper",
+               "FILES": also("study.json and study.csv in the same directory")},
                   "images",
                   f"""{CURVES} tone picture difference curves hero summary ranking_columns figures
                   figures_level insets paper_text paper_main"""),
     "Comparison": ({"NAME": "compare", "TABS": "Images",
-                     "FILES": "what compare --json prints"}, "images",
+               "FILES": also("the output of compare --json")}, "images",
                     f"""{REPORT} {PLOTS} {IMAGES} maps histogram compare_tiles compare_numbers
                     compare_main"""),
-    "Sweep": ({"NAME": "sweep", "TABS": "Sweep", "FILES": "sweep.csv beside it"}, "images sweep",
+    "Sweep": ({"NAME": "sweep", "TABS": "Sweep",
+               "FILES": also("sweep.csv in the same directory")}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
                   sweep_plots sweep_images sweep_stages sweep_table sweep_headline
                   sweep_summary sweep_main"""),
-    "Bench": ({"NAME": "bench", "TABS": "Scenes", "FILES": "what bench --json prints"},
+    "Bench": ({"NAME": "bench", "TABS": "Scenes",
+               "FILES": also("the output of bench --json")},
                   "sweep", f"{CURVES} stages rates bench_rows bench_main"),
-    "Stress": ({"NAME": "stress", "TABS": "Targets", "FILES": "stress.json beside it"}, "stress",
+    "Stress": ({"NAME": "stress", "TABS": "Targets",
+               "FILES": also("stress.json in the same directory")}, "stress",
                    f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles
                    stress_about stress_detail stress_strategies stress_table stress_summary
                    stress_main"""),
-    "Live": ({"NAME": "live", "TABS": "Scene", "FILES": "what `lanelight study` writes",
-                  "CONNECT": "; connect-src 'self'"}, "live",
+    "Live": ({"NAME": "live", "TABS": "Scene",
+              "FILES": "Without a browser, use lanelight render.",
+              "CONNECT": "; connect-src 'self'"}, "live",
                  f"""{COMMON} strategies scale plot_draw tone place live_socket live_camera
                  live_shader live_screen live_place live_viewer live_controls live_readout
                  live_strategy live_presets live_score live_plot live_stages live_save

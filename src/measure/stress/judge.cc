@@ -42,7 +42,7 @@ void CountPromised(CaseResult& result) {
 }
 
 std::string FailureText(const CaseResult& result) {
-  if (result.promised == 0) return "no promised point was measured";
+  if (result.promised == 0) return "no point in the supported range was measured";
   const JudgedPoint& worst = result.points[static_cast<std::size_t>(result.worst)];
   return worst.verdict.why;
 }

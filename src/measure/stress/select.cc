@@ -24,7 +24,7 @@ bool Means(const std::string& word, const Case& about) {
     }
   }
   const std::string nearest = NearestName(word, known);
-  throw InputError("no case or group is called " + Quoted(word) +
+  throw InputError("unknown case or group " + Quoted(word) +
                    (nearest.empty() ? "" : "; did you mean " + Quoted(nearest) + "?") +
                    "; `lanelight stress --list` shows all");
 }

@@ -37,7 +37,7 @@ std::string Sentence(const SuiteResult& result) {
   const std::vector<std::string> failed = NamesOf(result, Outcome::kFailed);
   const int total = static_cast<int>(result.cases.size());
   const int judged = total - result.Count(Outcome::kUnfinished);
-  if (total == 0) return "There was no case to measure.";
+  if (total == 0) return "No case was measured.";
   std::string text;
   if (failed.empty()) {
     text = (judged == 1 ? "The one case is" : fmt::format("All {} are", Cases(judged))) +
@@ -48,11 +48,11 @@ std::string Sentence(const SuiteResult& result) {
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {
-    text += fmt::format("; in {} {} some points are too noisy to say much", weak,
-                        failed.empty() ? "of them" : "more");
+    text += fmt::format("; {} {} {} points too noisy to detect an error of 10 %", weak,
+                        failed.empty() ? "of them" : "more", weak == 1 ? "has" : "have");
   }
   if (judged < total) {
-    text += fmt::format("; {} {} not measured to the end", Cases(total - judged),
+    text += fmt::format("; {} {} not measured completely", Cases(total - judged),
                         total - judged == 1 ? "was" : "were");
   }
   return text + ".";

@@ -146,9 +146,9 @@ Json ToJson(const SuiteResult& result) {
 void MakeResultsFolder(const std::string& dir) {
   std::error_code error;
   std::filesystem::create_directories(dir, error);
-  if (error) throw InputError(dir + ": cannot be made: " + error.message());
+  if (error) throw InputError(dir + ": cannot create the directory: " + error.message());
   if (access(dir.c_str(), W_OK) == 0) return;
-  throw InputError(dir + ": nothing can be written there: " + std::strerror(errno));
+  throw InputError(dir + ": cannot write to the directory: " + std::strerror(errno));
 }
 
 void WriteResults(const SuiteResult& result, const std::string& dir) {

@@ -48,7 +48,7 @@ PointVerdict JudgeValue(const Point& point, double level) {
   const bool known =
       point.standard_error >= 0 && point.tolerance >= 0 && point.degrees_of_freedom > 0;
   if (!known || !std::isfinite(point.standard_error + point.tolerance)) {
-    return Faulty(verdict, Fault::kNotNumber, "its error is not known");
+    return Faulty(verdict, Fault::kNotNumber, "its standard error is unknown");
   }
   const double critical_value =
       stat::StudentTwoSidedQuantile(level, point.degrees_of_freedom);

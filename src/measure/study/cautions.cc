@@ -84,10 +84,10 @@ class CautionFinder {
   void BusyMachines() {
     for (const MachineInfo& machine : analysis_.machines) {
       if (!IsOverloaded(machine)) continue;
-      texts_.push_back(fmt::format(
-          "The load of a machine before the start, {:.2f}, exceeds its {:.3g} "
-          "cores: times and efficiencies may be wrong.",
-          *machine.load, *CoresAtATime(machine)));
+      texts_.push_back(
+          fmt::format("The machine was busy before the start (load {:.2f}, {:.3g} "
+                      "cores): times and efficiencies may be wrong.",
+                      *machine.load, *CoresAtATime(machine)));
     }
   }
 
@@ -106,8 +106,8 @@ bool AnyHeavy(const SceneAnalysis& analysis) {
 std::string ImagesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
   if (!analysis.biased.empty()) {
     return fmt::format(
-        "The mean image of {} differs from the reference by more than noise (level {:g} "
-        "for all tests together).",
+        "The mean image of {} differs from the reference by more than noise "
+        "(significance level {:g}, all tests together).",
         NamesText(runs, analysis.biased), analysis.bias_level);
   }
   if (analysis.bias_tests == 0 || !analysis.biased_alike.empty()) return "";
@@ -132,7 +132,7 @@ std::string ReferenceText(const SceneRuns& runs, const SceneAnalysis& analysis) 
   if (analysis.biased_alike.empty()) return "";
   return fmt::format(
       "The mean image of {} differs from the reference by more than noise, but not from "
-      "those of the other strategies, which points at the reference.",
+      "those of the other strategies, so the reference may be wrong.",
       NamesText(runs, analysis.biased_alike));
 }
 
@@ -141,7 +141,7 @@ std::string SuspectTilesText(const SceneAnalysis& analysis) {
   if (tiles == 0) return "";
   return fmt::format(
       "In {} tile{} of the image the strategies agree with each other but not with the "
-      "reference, whose variance is too small there.",
+      "reference, so its estimated variance is probably too small there.",
       tiles, tiles == 1 ? "" : "s");
 }
 

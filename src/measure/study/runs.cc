@@ -42,8 +42,8 @@ void CheckOtherScenes(const StudyOptions& options, const std::vector<SceneRuns>&
       continue;
     }
     throw InputError(
-        "'{}' has a study of the scene '{}' too, which would be missing from its tables; "
-        "name that scene as well, or use another directory",
+        "'{}' also has a study of the scene '{}', which the new tables would omit; name "
+        "that scene too, or use another directory",
         options.out, name);
   }
 }

@@ -31,7 +31,7 @@ constexpr Model kModels[] = {
     {Scattering::kUniform, "completely diffuse: directions uniform over the hemisphere"},
     {Scattering::kLambertian, "Lambertian: directions in proportion to the cosine"},
     {Scattering::kInSphere,
-     "the paper's Lambertian: the normal plus a point from within the unit sphere"},
+     "the paper's Lambertian: the normal plus a random point in the unit sphere"},
 };
 
 bool HasDiffuse(const FeatureSet& features) {

@@ -74,24 +74,25 @@ void Calibrate(double confidence, SceneAnalysis& analysis) {
 std::string CalibrationText(const SceneRuns& runs, const SceneAnalysis& analysis) {
   const SelfCheck& self = analysis.calibration;
   if (self.total == 0) {
-    return self.refused > 0 ? "No render stated an interval of its own error." : "";
+    return self.refused > 0 ? "No render printed a confidence interval for its own error."
+                            : "";
   }
   const Interval& fraction = analysis.calibration_share;
-  std::string text = fmt::format("The renders' own 95 % error intervals held in {:.1f} %",
-                                 100 * fraction.value);
+  std::string text = fmt::format("{:.1f} %", 100 * fraction.value);
   if (fraction.HasBounds()) {
     text += fmt::format(" [{:.1f}, {:.1f}]", 100 * fraction.low, 100 * fraction.high);
   }
-  text +=
-      fmt::format(" of {} renders of {} seed{}, which the strategies share", self.total,
-                  analysis.calibration_seeds, analysis.calibration_seeds == 1 ? "" : "s");
-  text += self.refused == 0 ? "."
-                            : fmt::format("; {} more stated no interval.", self.refused);
+  text += fmt::format(
+      " of {} renders ({} seed{}, shared by the strategies) have their true error inside "
+      "their own 95 % interval",
+      self.total, analysis.calibration_seeds, analysis.calibration_seeds == 1 ? "" : "s");
+  text += self.refused == 0
+              ? "."
+              : fmt::format("; {} more renders printed no interval.", self.refused);
   for (const SelfFailure& f : analysis.self_failures) {
     text += fmt::format(
-        " Those of {} held in {} of {}: in the rest, {:g} % of the pixels had {:.0f} % "
-        "of "
-        "the error, and pixel ({}, {}) was the worst most often.",
+        " For {}, {} of {} renders do. In the rest, the worst {:g} % of the pixels "
+        "cause {:.0f} % of the error; the worst pixel is most often ({}, {}).",
         runs.strategies[f.strategy].named.name, f.inside, f.total, 100 * kWorstFraction,
         100 * f.worst_share, f.pixel[0], f.pixel[1]);
   }

@@ -37,7 +37,8 @@ class Writer {
     const std::size_t best = analysis_.ranking.front();
     const Interval& gain = *Of(best).efficiency;
     if (!std::isfinite(gain.value) || Of(best).AtLevel().relmse.value <= 0) {
-      return Append("No error is left to compare: the strategies reach the reference.");
+      return Append(
+          "No strategy differs from the reference, so there is no error to compare.");
     }
     std::vector<std::size_t> first;
     for (std::size_t i : analysis_.ranking) {
@@ -47,7 +48,7 @@ class Writer {
     if (repetitions < 3) {
       return Append(fmt::format(
           "No ranking: {} repetition{} too few for intervals; use 3 or more. In these "
-          "renders {} has the least error for the time, {} times the efficiency of {}.",
+          "renders {} is the most efficient, with {} times the efficiency of {}.",
           repetitions, repetitions == 1 ? " is" : "s are", NameOf(best),
           EstimateText(gain), NameOf(analysis_.baseline)));
     }
@@ -56,13 +57,17 @@ class Writer {
             ? "the baseline"
             : fmt::format("{} times the efficiency of {}", EstimateText(gain),
                           NameOf(analysis_.baseline));
+    if (best == analysis_.baseline && first.size() == 1) {
+      return Append(
+          fmt::format("{} (the baseline) is the most efficient strategy.", NameOf(best)));
+    }
     if (first.size() == 1) {
-      return Append(fmt::format("{} gives the least error for the time: {}.",
-                                NameOf(best), amount));
+      return Append(
+          fmt::format("{} is the most efficient strategy: {}.", NameOf(best), amount));
     }
     Append(
-        fmt::format("{} gives the least error for the time in these renders ({}), but {} "
-                    "not certainly behind.",
+        fmt::format("{} is the most efficient strategy in these renders ({}), but {} not "
+                    "significantly less efficient (all pairs tested together).",
                     NameOf(best), amount, Others(first)));
   }
 
@@ -83,8 +88,8 @@ class Writer {
     const auto& base = Of(analysis_.baseline).to_target;
     if (!mine || !base || best == analysis_.baseline) return;
     Append(
-        fmt::format("To a relative MSE of {:.3g} it takes {:.3g} s of processor time and "
-                    "{:.3g} spp{}, {} {:.3g} s and {:.3g} spp{}.",
+        fmt::format("To reach a relative MSE of {:.3g}, it takes {:.3g} s of processor "
+                    "time ({:.3g} spp{}); {} takes {:.3g} s ({:.3g} spp{}).",
                     analysis_.target_relmse, mine->seconds.value, mine->samples.value,
                     mine->extrapolated ? " (extrapolated)" : "",
                     NameOf(analysis_.baseline), base->seconds.value, base->samples.value,
@@ -107,10 +112,11 @@ class Writer {
     };
     const std::size_t best = *std::ranges::max_element(analysis_.ranking, better);
     if (best == analysis_.baseline) return;
-    Append(fmt::format(
-        "Without the worst 1 % of the pixels {} is the most efficient, {} times {}.",
-        NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
-        NameOf(analysis_.baseline)));
+    Append(
+        fmt::format("Without the worst 1 % of the pixels, {} is the most efficient: {} "
+                    "times the efficiency of {}.",
+                    NameOf(best), EstimateText(*Of(best).efficiency_trimmed),
+                    NameOf(analysis_.baseline)));
   }
 
   void Warnings() {
@@ -121,19 +127,18 @@ class Writer {
       if (runs_.strategies[i].status == RunStatus::kFailed) failed.push_back(i);
     }
     if (!heavy.empty()) {
-      Append(fmt::format(
-          "Rare bright samples carry much of the error of {}: intervals there "
-          "may not hold, and bias cannot be tested.",
-          NamesText(runs_, heavy)));
+      Append(
+          fmt::format("Rare bright samples cause much of the error of {}: its intervals "
+                      "are unreliable, and bias cannot be tested.",
+                      NamesText(runs_, heavy)));
       TrimmedWinner();
     }
     Append(BiasText(runs_, analysis_));
     if (!failed.empty()) Append("Failed: " + List(failed) + ".");
     if (Of(analysis_.ranking.front()).AtLevel().ReferenceLimited()) {
       Append(
-          "The reference is too noisy for the smallest errors: more than half of those "
-          "is "
-          "its own error.");
+          "The reference is too noisy for the smallest errors: its own noise is more "
+          "than half of them.");
     }
     if (runs_.interrupted) Append("The study was interrupted; --resume continues it.");
   }

@@ -59,6 +59,7 @@ std::string PredictionText(const Sweep& sweep, const SweepPrediction& prediction
                       sweep.cells.size(), sweep.excluded, sums.done);
   if (sums.failing > 0) text += fmt::format(", {} will fail", sums.failing);
   if (sums.unknown > 0) text += fmt::format(", {} take an unknown time", sums.unknown);
+  if (prediction.combinations == 0) return text + "\n";
   text += fmt::format("\n{} of {} combinations of scene and strategy were measured",
                       prediction.probes, prediction.combinations);
   if (sums.estimated > 0) {

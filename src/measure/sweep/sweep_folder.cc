@@ -39,8 +39,7 @@ std::string Differences(const Json& there, const Json& here) {
   for (const std::string& key : keys) {
     const std::string a = TextOr(there, key), b = TextOr(here, key);
     if (a == b) continue;
-    text +=
-        fmt::format("{}{} is {} there and {} here", text.empty() ? "" : "; ", key, a, b);
+    text += fmt::format("{}{} was {} and is now {}", text.empty() ? "" : "; ", key, a, b);
   }
   return text;
 }

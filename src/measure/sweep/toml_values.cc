@@ -101,7 +101,7 @@ TomlFile::TomlFile(const std::string& path, const std::string& text)
   try {
     root_ = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw InputError(Where(error.source()), "this is not TOML: {}", error.description());
+    throw InputError(Where(error.source()), "invalid TOML: {}", error.description());
   }
 }
 

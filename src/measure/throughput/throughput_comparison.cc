@@ -32,7 +32,7 @@ std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
 
 void AddBusy(const KnownThroughput& known, const char* when, RateComparison& comparison) {
   for (const std::string& reason : known.busy) {
-    comparison.busy.push_back(fmt::format("{}, {}", when, reason));
+    comparison.busy.push_back(fmt::format("{}: {}", when, reason));
   }
 }
 
@@ -57,7 +57,7 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
       return fast + "slower: " + slower + ".";
     case RateComparison::Verdict::kNotSlower:
       return fast +
-             fmt::format("nothing is slower by more than {:.3g} %.", 100 * tolerance);
+             fmt::format("no row is slower by more than {:.3g} %.", 100 * tolerance);
     case RateComparison::Verdict::kNotComparable:
       break;
   }
@@ -67,7 +67,7 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
               ? "no row is in both measurements"
               : "rows differ in samples, size, threads, target or strategy";
   }
-  return "not comparable: " + why + ".";
+  return "not comparable; " + why + ".";
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
   std::map<std::string, const KnownRow*> old;
   for (const KnownRow& row : before.rows) old[row.Key()] = &row;
   RateComparison comparison;
-  AddBusy(before, "before", comparison);
-  AddBusy(now, "now", comparison);
+  AddBusy(before, "earlier run", comparison);
+  AddBusy(now, "this run", comparison);
   for (const KnownRow& row : now.rows) {
     const auto found = old.find(row.Key());
     if (found != old.end()) {
@@ -122,13 +122,14 @@ std::string ComparisonText(const RateComparison& comparison,
   };
   if (!comparison.rows.empty()) {
     std::vector<std::vector<std::string>> lines = {
-        {"ratio of rates", "per second", "per processor s", ""}};
+        {"ratio of rates", "per second", "per processor s"}};
     const bool slow = comparison.Judge(tolerance) == RateComparison::Verdict::kSlower;
     for (const RateRatio& row : comparison.rows) {
-      lines.push_back({row.row, IntervalText(row.ratio), IntervalText(row.cpu_ratio),
-                       slow && row.Regresses(tolerance) ? "SLOWER" : ""});
+      lines.push_back({row.row, IntervalText(row.ratio), IntervalText(row.cpu_ratio)});
+      if (slow) lines.back().push_back(row.Regresses(tolerance) ? "SLOWER" : "");
     }
-    text += TextTable(lines, {width, 1, 1});
+    if (slow) lines.front().push_back("");
+    text += TextTable(lines, {width, 1, std::size_t{slow}});
   }
   for (const std::string& row : comparison.refused) text += line("refused: " + row);
   for (const std::string& row : comparison.only_in_one) {
@@ -137,8 +138,7 @@ std::string ComparisonText(const RateComparison& comparison,
   return text + "\n" + Wrapped(VerdictText(comparison, tolerance), width) + "\n" +
          Wrapped(
              "Intervals cover the scatter of each run's repeats, not the influence of "
-             "other "
-             "programs.",
+             "other programs.",
              width) +
          "\n";
 }

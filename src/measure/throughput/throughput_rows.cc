@@ -124,16 +124,16 @@ std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& ro
   std::vector<std::string> warnings;
   if (const auto busy = BusyReasons(rows, ThisMachine()); !busy.empty()) {
     warnings.push_back(fmt::format(
-        "The machine was busy: {}. Rates per second of processor time say more.",
+        "The machine was busy: {}. Rates per second of processor time are more reliable.",
         fmt::join(busy, "; ")));
   }
   const double worst = MaxSpread(rows);
   if (worst > within) {
     warnings.push_back(fmt::format(
-        "Not all medians are known within {:.3g} %: the worst {}. The machine is not "
-        "quiet, or --time is too short.",
+        "Not all medians are known within {:.3g} %: the least certain one {}. Stop other "
+        "programs or increase --time.",
         100 * within,
-        std::isfinite(worst) ? fmt::format("within {:.2g} %", 100 * worst)
+        std::isfinite(worst) ? fmt::format("is known within {:.2g} %", 100 * worst)
                              : "has no interval"));
   }
   return warnings;

@@ -77,7 +77,10 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
 // Lists each scene and target once: times per sample hardly depend on threads.
 std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
   std::vector<Cells> lines = {{"ns per sample", "target"}};
-  for (const StageGroup& g : StageGroups(rows[0])) lines[0].push_back(g.name);
+  for (const StageGroup& g : StageGroups(rows[0])) {
+    const std::string name = g.name;
+    lines[0].push_back(name == "lights seen" ? "visible lights" : name);
+  }
   std::set<std::string> seen;
   for (const ThroughputRow& row : rows) {
     if (!seen.insert(row.scene + " " + row.target).second) continue;

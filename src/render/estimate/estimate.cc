@@ -305,8 +305,8 @@ ErrorEstimate EstimateOfPartialImage(std::uint64_t known, std::uint64_t all) {
   ErrorEstimate out;
   out.pixels = known;
   out.why = fmt::format(
-      "{} of {} pixels have too few samples for a variance; an error takes two samples "
-      "of every pixel",
+      "{} of {} pixels have too few samples for a variance; an error estimate needs two "
+      "samples in every pixel",
       all - known, all);
   return out;
 }
@@ -349,11 +349,11 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const int more = MoreSamples(grid);
   if (grid.Stopped()) return {};
   out.why = fmt::format(
-      "rare bright samples, most of all at pixel ({}, {}), may make it {:.2g} times as "
-      "large; {}, or a strategy that finds them (`lanelight advise`)",
+      "rare bright samples, mainly at pixel ({}, {}), may make it {:.2g} times as large; "
+      "{}, or a strategy that finds them (`lanelight advise`)",
       x, y, maximum,
-      more > 0 ? fmt::format("an interval takes about {} times the samples", more)
-               : fmt::format("an interval takes more than {} times the samples",
+      more > 0 ? fmt::format("an interval needs about {} times the samples", more)
+               : fmt::format("an interval needs more than {} times the samples",
                              1 << kMaxDoublings));
   if (rmse * rmse > kMaxUpperRatio) out.rmse = AtLeast(out.rmse);
   if (times(out.relmse) > kMaxUpperRatio) out.relmse = AtLeast(out.relmse);

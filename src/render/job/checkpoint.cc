@@ -114,12 +114,16 @@ void Checkpoint::CheckSame(const StateFile& file) {
     tiles_ = file.tiles();
     return;
   }
+  if (settings_.part.count == 1) {
+    throw InputError(
+        fmt::format("'{}' is the state of a part ({} of {} pixels): add the --part that "
+                    "wrote it, or combine all parts with `lanelight merge`",
+                    file.path(), PixelsOf(file.tiles()), job_.window.pixels()));
+  }
   throw InputError(
-      fmt::format("'{}' has {} of the {} pixels of the image, and this render is for {} "
-                  "(--part {}/{})"
-                  ": the state of another part, or of parts that do not make a whole",
-                  file.path(), PixelsOf(file.tiles()), job_.window.pixels(),
-                  PixelsOf(tiles_), settings_.part.index, settings_.part.count));
+      fmt::format("'{}' is the state of another part than {}/{}: use the --part that "
+                  "wrote it",
+                  file.path(), settings_.part.index, settings_.part.count));
 }
 
 bool Checkpoint::Restore(RunState& state) {

@@ -154,11 +154,10 @@ bool Display::SendAll(const std::vector<Tile>& tiles) {
   for (const Tile& tile : tiles) {
     const auto sent = server_->Send(UpdateImagePacket(name_, tile.place, tile.rgb));
     if (sent == Connection::Sent::kAll) continue;
-    Fail(fmt::format("the display server {} {}; the render is not touched by it",
-                     endpoint_.Text(),
-                     sent == Connection::Sent::kFailed
-                         ? "went away (" + server_->Reason() + ")"
-                         : "is too slow for the last tiles, which it does not get"));
+    Fail(fmt::format(
+        "the display server {} {}; the render continues without it", endpoint_.Text(),
+        sent == Connection::Sent::kFailed ? "went away (" + server_->Reason() + ")"
+                                          : "is too slow: the last tiles were not sent"));
     return false;
   }
   return true;
@@ -180,7 +179,8 @@ void Display::Serve() {
   lock.unlock();
   if (server_->Send(CreateImagePacket(name_, window_.width(), window_.height())) !=
       Connection::Sent::kAll) {
-    return Fail(fmt::format("the display server {} does not listen", endpoint_.Text()));
+    return Fail(
+        fmt::format("the display server {} does not accept images", endpoint_.Text()));
   }
   lock.lock();
   while (true) {

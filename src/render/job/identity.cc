@@ -17,7 +17,8 @@ using Json = nlohmann::json;
 const char* Remedy(const std::string& name) {
   if (name == "scene_hash") return " (the scene or a file of it has changed)";
   if (name == "target") return " (--simd chooses it)";
-  if (name == "version") return " (another program may compute other bits)";
+  if (name == "version")
+    return " (another version of the program may compute different bits)";
   return "";
 }
 

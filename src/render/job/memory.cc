@@ -66,8 +66,8 @@ std::string OutOfMemoryText() {
   const double used = 1024.0 * double(usage.ru_maxrss) / kGiB;
   const std::uint64_t limit = AddressSpace();
   std::string text =
-      fmt::format("out of memory: the program had taken {:.2f} GiB of {:.2f} GiB", used,
-                  double(PhysicalMemory()) / kGiB);
+      fmt::format("out of memory: the program had allocated {:.2f} GiB of {:.2f} GiB",
+                  used, double(PhysicalMemory()) / kGiB);
   if (limit != ~std::uint64_t{0}) {
     text += fmt::format(", and may address {:.2f} GiB (ulimit -v)", double(limit) / kGiB);
   }

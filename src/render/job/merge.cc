@@ -125,8 +125,7 @@ void CheckTraining(const RunRecord& first, const RunRecord& other,
                  other.tables.end(), same)) {
     return;
   }
-  throw InputError("'" + path +
-                   "' was rendered with another training than the files before it");
+  throw InputError("'" + path + "' has other training data than the files before it");
 }
 
 // Reads the files one by one: two would be in memory at a time only for different seeds.
@@ -162,8 +161,9 @@ class Merger {
     Input input = {path, ParseJson(file->identity()), file->tiles()};
     if (input.tiles.empty()) throw InputError("'" + path + "' holds no pixels");
     if (!input.identity.at("seed").is_number()) {
-      throw InputError("'" + path +
-                       "' holds several seeds; merge the states of single ones");
+      throw InputError(
+          "'" + path +
+          "' is a merged state of several seeds; merge the single-seed states instead");
     }
     input.seed = input.identity.at("seed");
     CheckIdentity(path, input.identity);
@@ -253,8 +253,8 @@ RunResult ResultOf(const MergedRender& merged) {
 void WriteMergedState(MergedRender& merged, const std::string& path) {
   if (merged.seeds.size() > 1) {
     throw InputError(
-        "a state of several seeds can be neither resumed nor merged again: merge all "
-        "states at once");
+        "a merged state of several seeds cannot be resumed or merged again; merge all "
+        "single-seed states in one command");
   }
   StateContent content = ContentOf(
       merged.identity, {{"head", merged.head}, {"machines", ToJson(merged.machines)}},

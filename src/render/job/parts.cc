@@ -25,8 +25,8 @@ std::vector<PixelRect> TilesOfPart(const PixelRect& window, const Part& part,
         std::ranges::count_if(parts, [](const auto& p) { return !p.empty(); });
     const int side = std::min(kSide, min_side);
     throw InputError(fmt::format(
-        "{} parts are more than the {} tiles of {}x{} pixels that this render can be cut "
-        "into: at most {} parts, or renders with different seeds",
+        "{} parts are more than the {} tiles of {}x{} pixels that this render can be "
+        "divided into: at most {} parts, or renders with different seeds",
         part.count, tiles, side, side, tiles));
   }
   return std::move(parts[std::size_t(part.index - 1)]);

@@ -66,7 +66,7 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
         IdentityDifferences(ParseJson(own), "rank 0", ParseJson(std::string(its)), "it");
     if (differs.empty()) return;
     throw InputError(
-        fmt::format("{} would render something else:{}", group.Name(rank), differs));
+        fmt::format("{} has a different render:{}", group.Name(rank), differs));
   });
 }
 
@@ -76,7 +76,7 @@ void AgreeOnJob(const Job& job, RankGroup& group) {
                                     Checkpoint& checkpoint) {
   checkpoint.Finish();
   if (settings.path.empty() || !checkpoint.kept()) throw failure;
-  throw RankFailure(fmt::format("{}\nthe state is kept: continue with --resume '{}'",
+  throw RankFailure(fmt::format("{}\nthe state was saved: continue with --resume '{}'",
                                 failure.what(), settings.path));
 }
 

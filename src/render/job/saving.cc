@@ -43,12 +43,12 @@ void CheckNotOverwritten(const OutputPaths& outputs, const std::string& input) {
   for (const std::string& file : outputs.files) {
     if (!SameFile(file, input)) continue;
     throw WouldOverwrite("output '" + file + "' would overwrite '" + input +
-                         "', which is read: give the output another name");
+                         "', which is an input: give the output another name");
   }
   for (const std::string& folder : outputs.folders) {
     if (!LiesIn(folder, input)) continue;
     throw WouldOverwrite(
-        "'" + input + "', which is read, lies in '" + folder +
+        "'" + input + "', which is an input, lies in '" + folder +
         "', which this command writes: put it elsewhere, or give another "
         "directory");
   }
@@ -68,10 +68,11 @@ void ResultWriter::Save(std::string& path,
   path.clear();
   try {
     write(fallback);
-    problems_.push_back("the result is kept in '" + fallback + "'");
+    problems_.push_back("the result was written to '" + fallback + "'");
     path = fallback;
   } catch (const std::exception& error) {
-    problems_.push_back("it could not be kept elsewhere either: " + WithoutPrefix(error));
+    problems_.push_back("it could not be written elsewhere either: " +
+                        WithoutPrefix(error));
   }
 }
 

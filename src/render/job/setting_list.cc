@@ -44,12 +44,12 @@ std::vector<Setting> Amounts() {
                "Render for this wall time instead of --spp: 90 (seconds), 5m, 2h", "",
                "time_budget"},
               SecondsType{1e-3, 1e9}, &S::seconds, kAmountFlag | kReported),
-      Declare({"target", "X%",
-               "Stop once the error is below X percent, at 95 % confidence: the root of "
-               "the relative MSE, so that 1% is --target-relmse 0.0001. --spp and --time "
-               "then are the most it may take",
-               "", "", "target-relmse"},
-              PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
+      Declare(
+          {"target", "X%",
+           "Stop once the error (root of the relative MSE) is below X percent with 95 % "
+           "confidence; 1% is --target-relmse 0.0001; --spp and --time are then limits",
+           "", "", "target-relmse"},
+          PercentErrorType{1e-4, 1e8}, &S::target_relmse, kAmountFlag),
       Declare({"target-relmse", "X",
                "Stop once the relative MSE is below X with 95 % confidence"},
               error, &S::target_relmse, kAmountFlag | kReported),
@@ -84,15 +84,14 @@ std::vector<Setting> Contents() {
               ChangesType{}, &S::strategy, kSceneFlag),
       Declare({"sampler", "", "Sample points", "those of the strategy"},
               NamesOf<Points>(kNumPoints), &S::points, kSceneFlag | kReported),
-      Declare(
-          {"transport", "",
-           "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "
-           "where a material or a light of it has a spectrum",
-           OfScene("scene")},
-          NamesType<TransportSetting>{{{"rgb", TransportSetting::kRgb},
-                                       {"spectral", TransportSetting::kSpectral},
-                                       {"scene", TransportSetting::kByScene}}},
-          &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
+      Declare({"transport", "",
+               "Colours that paths carry: RGB or wavelengths; scene: wavelengths if a "
+               "material or light has a spectrum",
+               OfScene("scene")},
+              NamesType<TransportSetting>{{{"rgb", TransportSetting::kRgb},
+                                           {"spectral", TransportSetting::kSpectral},
+                                           {"scene", TransportSetting::kByScene}}},
+              &S::transport, kEveryFlag | kSweepKey | kEverySame | kReported),
       Declare({"max-depth", "D", "Maximum number of scattering events of a path",
                OfScene(Integrator{}.max_depth)},
               NumberType<int>{0, kMaxDepth}, &S::max_depth,
@@ -122,7 +121,7 @@ std::vector<Setting> Execution() {
   return {Declare({"wavefront", "N", "Paths in flight per thread; 0 = fit the cache"},
                   NumberType<std::uint32_t>{0, kMaxWavefront}, &S::wavefront,
                   kEveryFlag | kSweepKey),
-          Declare({"build", "", "How to build the BVH: in less time, or for faster rays",
+          Declare({"build", "", "BVH build: in less time, or for faster rays",
                    builds.Write(CompileOptions{}.build)},
                   builds, &S::build, kEveryFlag | kReported),
           Declare({"copied-triangles", "N",
@@ -136,7 +135,7 @@ std::vector<Setting> Execution() {
                    "the best available", "target"},
                   TargetType(AvailableTargets()), &S::target, kEveryFlag | kEverySame),
           Declare({"skip-unsupported", "",
-                   "Leave out unsupported parts instead of refusing the scene"},
+                   "Omit unsupported parts instead of refusing the scene"},
                   FlagType{}, &S::skip_unsupported, kEveryFlag | kSweepKey | kIdentity)};
 }
 

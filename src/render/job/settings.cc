@@ -89,8 +89,8 @@ void ApplySpectralFilm(const std::optional<TransportSetting>& requested,
       requested ? *requested == TransportSetting::kRgb : transport == Transport::kRgb;
   if (rgb) {
     throw InputError(fmt::format(
-        "the scene's Film \"spectral\" keeps wavelengths, and with {} paths carry none: "
-        "leave it out, or use Film \"rgb\"",
+        "the scene's Film \"spectral\" needs wavelengths, but {} renders RGB: remove "
+        "that setting, or use Film \"rgb\"",
         requested ? "--transport rgb" : "the \"transport\" \"rgb\" of its Integrator"));
   }
   transport = Transport::kSpectral;

@@ -26,9 +26,10 @@ StateLock::StateLock(const std::string& path,
     lock_.reset();
     file_.emplace(LinkTarget(path) + ".lock");
     if (!file_->locking()) {
-      on_problem(fmt::format(
-          "{}: this file system has no locks: make sure that no other process keeps '{}'",
-          file_->path(), path));
+      on_problem(
+          fmt::format("{}: this file system has no locks: make sure that no other "
+                      "process writes '{}'",
+                      file_->path(), path));
       unlink(file_->path().c_str());
       file_.reset();
       return;
@@ -37,9 +38,8 @@ StateLock::StateLock(const std::string& path,
     if (!lock_) {
       const std::string who = file_->Note();
       throw InputError(fmt::format(
-          "'{}' is being kept by {}: let that end or stop it, or keep this state "
-          "in another file",
-          path, who.empty() ? "another process" : who));
+          "'{}' is in use by {}: wait for it or stop it, or use another state file", path,
+          who.empty() ? "another process" : who));
     }
     // The previous owner may have removed the file just after it was opened here.
   } while (!file_->IsNamed());

@@ -35,7 +35,7 @@ bool EmitsCarried(const OwnSpectrum& spectrum) {
 std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
   for (const Strategy& s : strategies) {
     if (s.reuse != Reuse::kNone && disperses) {
-      return "reuse=block is asked for, and glass disperses";
+      return "reuse=block does not support dispersive glass";
     }
   }
   return "";

@@ -23,13 +23,12 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   }
   if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
     Refuse(
-        "reuse=block does not work with --transport spectral where glass disperses, "
-        "which leaves some paths one wavelength of three: --transport rgb renders with "
-        "it");
+        "reuse=block does not support dispersive glass with --transport spectral; use "
+        "--transport rgb");
   }
   if (s.Splits()) {
-    Refuse(std::string("reuse=block needs paths that do not split, as with roulette=") +
-           Name(s.roulette) + ": use roulette=throughput");
+    Refuse(std::string("reuse=block does not support split paths (roulette=") +
+           Name(s.roulette) + "); use roulette=throughput");
   }
   if (s.control != Control::kNone) {
     Refuse(
@@ -54,7 +53,7 @@ void NoteLights(const Checked& c) {
   const Strategy& s = c.strategy;
   if (s.light_selection != LightSelection::kPower && !c.scene.Has(Feature::kManyLights)) {
     c.Note(std::string("light-selection=") + Name(s.light_selection),
-           ": there are no two lights to choose from");
+           ": the scene has fewer than two lights");
   }
   if (s.light_points != LightPoints::kArea && !SamplesFlatLights(c.plan)) {
     c.Note(std::string("light-points=") + Name(s.light_points),
@@ -85,10 +84,10 @@ void NoteEnvironment(const Checked& c) {
   if (!c.scene.Has(Feature::kInfiniteImage)) {
     c.Note("environment=compensated", ": there is no environment image");
   } else if (s.directions != Directions::kMis) {
-    c.Note("environment=compensated",
-           std::string(" with directions=") + Name(s.directions) +
-               ": only with directions=mis do scattered rays find what light samples "
-               "leave out");
+    c.Note(
+        "environment=compensated",
+        std::string(" with directions=") + Name(s.directions) +
+            ": it needs directions=mis, so that scattered rays find the omitted light");
   }
 }
 
@@ -97,7 +96,7 @@ void NoteMedia(const Checked& c) {
   if (s.distances != Distances::kExponential &&
       !c.plan.Has(Feature::kEquiangularDistances)) {
     c.Note("distances=equiangular",
-           ": there is no homogeneous medium that scatters, or no light with a place");
+           ": there is no scattering homogeneous medium, or no light with a position");
   }
 }
 
@@ -112,11 +111,11 @@ void NotePaths(const Checked& c) {
     c.Note(std::string("reuse=") + Name(s.reuse),
            c.scene.Has(Feature::kMedia) ? ": there are media"
            : c.scene.Has(Feature::kMovingInstances)
-               ? ": shapes move, and paths of a block are of different times"
+               ? ": shapes move, and paths of a block have different times"
                : ": no path scatters a second time from a diffuse surface");
   }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
-    c.Note("decide=pilot", ": it compares nothing with reuse=block");
+    c.Note("decide=pilot", ": the trial run tries no strategies with reuse=block");
   }
 }
 

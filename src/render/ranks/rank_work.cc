@@ -280,7 +280,8 @@ void RankWork::Finish() {
     Share({Order::kLeave, {}});
     group_.AllGather(0);
   } else if (failed_) {
-    throw RankFailure("error: a rank has failed, and others do not end their tasks");
+    throw RankFailure(
+        "error: a rank has failed, and other ranks do not finish their tasks");
   }
 }
 

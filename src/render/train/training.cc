@@ -84,7 +84,7 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
   if (!shadow.empty()) {
     trained.push_back(
         {kShadowThresholdColumn,
-         "inverse worth of shadow rays, by pixel of the full image and channel",
+         "inverse weight of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
   }
   return trained;
@@ -109,7 +109,7 @@ bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name)
 void CheckSize(const char* table, std::size_t size, std::uint64_t right,
                const std::string& why) {
   if (size == right) return;
-  throw InputError(fmt::format("the state's table '{}' has {} values: {} are right, {}",
+  throw InputError(fmt::format("the state's table '{}' has {} values; expected {}: {}",
                                table, size, right, why));
 }
 
@@ -139,7 +139,7 @@ void CheckCells(const std::vector<double>& head, std::size_t size) {
   const double right = 6 * head[6] * head[7] * head[8];
   if (head[6] >= 1 && head[7] >= 1 && head[8] >= 1 && right == double(size)) return;
   throw InputError(
-      fmt::format("the state's table '{}' has {} values: {:.0f} are right, 6 for each of "
+      fmt::format("the state's table '{}' has {} values; expected {:.0f}: 6 for each of "
                   "{} x {} x {} cells",
                   kSurvive, size, right, head[6], head[7], head[8]));
 }

@@ -71,11 +71,10 @@ void RequireUvAlpha(const SceneDescription& description, const Placement& placem
       if (alpha == kNone || !textures.programs[alpha].uses_place) continue;
       throw InputError(
           placed.shape->where,
-          fmt::format(
-              "the \"alpha\" of a shape of an instance uses texture \"{}\", which "
-              "depends on places in space; supported are textures of surface "
-              "coordinates (\"mapping\" \"uv\")",
-              description.textures[alpha].name));
+          fmt::format("the \"alpha\" of a shape of an instance uses texture \"{}\", "
+                      "which depends on the position in space; use a texture of surface "
+                      "coordinates (\"mapping\" \"uv\")",
+                      description.textures[alpha].name));
     }
   }
 }
@@ -121,11 +120,10 @@ void NoteUnlitInsides(const SceneDescription& description,
     const Material& m = description.materials[i];
     if (m.inside == kNone || rows[i] < 0) continue;
     if (scene.materials.kind[static_cast<std::size_t>(rows[i])] != smooth) continue;
-    scene.notes.push_back(
-        {m.where,
-         "light of point, spot and distant lights does not get into a smooth "
-         "\"subsurface\" material; with a \"roughness\" of 0.1 it does",
-         true});
+    scene.notes.push_back({m.where,
+                           "point, spot and distant lights do not light a smooth "
+                           "\"subsurface\" material; set its \"roughness\" to 0.1",
+                           true});
   }
 }
 

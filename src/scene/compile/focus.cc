@@ -136,12 +136,12 @@ void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
     if (!(foot.distance * kMaxEmitterRange < radius)) continue;
     notes.push_back(
         {placed.shape->where,
-         fmt::format("an emitting sphere {:.2g} times larger than the camera's "
-                     "distance to it: its surface is off by up to {:.2g} of "
-                     "that distance; right up to {:.0e}, beyond that use a disk "
-                     "or a mesh for the part that is near",
-                     radius / foot.distance, radius / foot.distance * 0x1p-22,
-                     kMaxEmitterRange)});
+         fmt::format(
+             "the radius of an emitting sphere is {:.2g} times the camera's distance to "
+             "it: rounding moves its surface by up to {:.2g} of that distance; use a "
+             "disk or a mesh for the near part if the factor exceeds {:.0e}",
+             radius / foot.distance, radius / foot.distance * 0x1p-22,
+             kMaxEmitterRange)});
   }
 }
 

@@ -98,8 +98,8 @@ Cardinal CardinalOf(const Camera& camera, const std::vector<LensElement>& elemen
   LensPath ray = {{height, 0, elements.front().z - 1}, {0, 0, 1}};
   if (!TraceElements(elements, ray) || ray.d.x == 0) {
     throw InputError(camera.where,
-                     "no ray beside the axis comes through the lenses, so that they "
-                     "cannot be focused; is the aperture extremely small?");
+                     "no off-axis ray passes the lenses, so they cannot be focused; "
+                     "check whether the aperture is too small");
   }
   return {ray.o.z - ray.o.x / ray.d.x * ray.d.z,
           ray.o.z + (height - ray.o.x) / ray.d.x * ray.d.z};

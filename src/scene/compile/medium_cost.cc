@@ -84,7 +84,7 @@ void NoteDenseMedia(const SceneDescription& description, const Placement& placem
         collisions * (grid == nullptr ? kSecondsPerEvent : kSecondsPerNull);
     const char* who = grid == nullptr ? "path" : "path or shadow ray";
     const char* remedy = grid != nullptr || medium.in_material
-                             ? "a smaller \"scale\" or \"sigma_s\" takes less time"
+                             ? "use a smaller \"scale\" or \"sigma_s\" to render faster"
                              : "--max-depth limits them";
     notes.push_back(
         {medium.where,

@@ -20,8 +20,8 @@ bool IsInRange(Vec3d p) {
 void NoteSmall(const SourceLocation& where, const char* what, Index area_light,
                std::vector<Note>& notes) {
   std::string message = fmt::format(
-      "left out this {}: it is less than {:.1g} times as large as the scene, and nothing "
-      "of it would be seen",
+      "left out this {}: it is less than {:.1g} times as large as the scene, so it would "
+      "not be visible",
       what, kSmallestInScene);
   if (area_light != kNone) message += "; this area light emits nothing";
   notes.push_back({where, message});
@@ -84,14 +84,12 @@ void CheckMotion(const PlacedInstance& instance, const Placement& placement) {
 void RequireInScene(Vec3d p, const SourceLocation& where, const char* what) {
   if (IsInRange(p)) return;
   const Vec3d a = Max(p, -p);
-  throw InputError(
-      where, fmt::format("this {} lies {:.2g} times the size of the scene off; up to "
-                         "{:.2g} is supported, whose square float32 holds: bring it "
-                         "nearer{}",
-                         what, std::max({a.x, a.y, a.z}), kFarthestInScene,
-                         std::string_view(what) == "light"
-                             ? ", or use a distant or infinite light"
-                             : ""));
+  throw InputError(where, fmt::format("this {} is {:.2g} scene sizes away; up to {:.2g} "
+                                      "is supported: move it nearer{}",
+                                      what, std::max({a.x, a.y, a.z}), kFarthestInScene,
+                                      std::string_view(what) == "light"
+                                          ? ", or use a distant or infinite light"
+                                          : ""));
 }
 
 void DropTooSmallShapes(Placement& placement, std::vector<Note>& notes) {

@@ -69,10 +69,13 @@ const Directive* FindDirective(std::string_view name) {
 void CheckBlock(const ParseState& state, const Directive& directive,
                 const SourceLocation& where) {
   if (directive.block == Block::kOptions && state.in_world) {
-    throw InputError(where, "{} must stand before WorldBegin", directive.name);
+    if (directive.name == std::string_view("WorldBegin")) {
+      throw InputError(where, "a second WorldBegin; a scene has one");
+    }
+    throw InputError(where, "{} must come before WorldBegin", directive.name);
   }
   if (directive.block == Block::kWorld && !state.in_world) {
-    throw InputError(where, "{} must stand after WorldBegin", directive.name);
+    throw InputError(where, "{} must come after WorldBegin", directive.name);
   }
 }
 
@@ -95,7 +98,7 @@ NameOperand Statement::FileName() {
   const Token operand = lexer.Next();
   const SourceLocation where = lexer.Where(operand);
   if (operand.kind == TokenKind::kString) return {std::string(operand.text), where};
-  throw InputError(where, "found {} where {} needs a name in quotes", operand.Describe(),
+  throw InputError(where, "found {}, but {} needs a name in quotes", operand.Describe(),
                    token.text);
 }
 
@@ -119,7 +122,7 @@ void RunDirectives(ParseState& state) {
   for (Token token = lexer.Next(); token.kind != TokenKind::kEnd; token = lexer.Next()) {
     Statement statement{lexer, token};
     if (token.kind != TokenKind::kWord) {
-      throw InputError(statement.where(), "found {} where a directive should stand",
+      throw InputError(statement.where(), "found {}, expected a directive",
                        token.Describe());
     }
     const Directive* directive = FindDirective(token.text);

@@ -96,7 +96,8 @@ void RunObject(ParseState& state, Statement& statement) {
 void RunAccelerator(ParseState& state, Statement& statement) {
   TypedObject object = ReadObject(state, statement, {"accelerator"});
   InterpretAccelerator(object.type, object.params);
-  state.AddNote(statement.where(), "accelerator {} has no effect: there is one kind",
+  state.AddNote(statement.where(),
+                "accelerator {} has no effect: the BVH is the only accelerator",
                 Quoted(object.type));
 }
 
@@ -142,7 +143,8 @@ void RunMakeNamedMedium(ParseState& state, Statement& statement) {
   ParamSet params =
       ReadParamSet(state, statement, {"medium", AttributeTarget::kMedium}, name);
   if (name.text.empty()) {
-    throw InputError(name.where, "the empty name is that of empty space; give another");
+    throw InputError(name.where,
+                     "the empty name stands for empty space; use another name");
   }
   if (const auto it = state.media.find(name.text);
       it != state.media.end() && it->second.defined) {

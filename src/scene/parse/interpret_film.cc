@@ -43,7 +43,7 @@ void ReadCrop(ParamSet& params, Film* film) {
   const Param* pixels = Window(params, "pixelbounds", ParamType::kInteger);
   if (part == nullptr && pixels == nullptr) return;
   if (part != nullptr && pixels != nullptr) {
-    params.Warn(*pixels, "cropwindow counts instead, as in pbrt-v4");
+    params.Warn(*pixels, "cropwindow is used instead, as in pbrt-v4");
   }
   const Param& param = part != nullptr ? *part : *pixels;
   int crop[4];
@@ -120,9 +120,9 @@ void ReadSpectral(ParseState& state, ParamSet& params, Film* film) {
   const double low = edge[1], high = edge[kWavelengthBins - 1];
   if (buckets.first >= low && buckets.last <= high) return;
   state.AddNote(params.where(),
-                "film \"spectral\": paths carry {} to {} nm, with one bin each below "
-                "{:.0f} and above {:.0f} nm; buckets outside are zero, buckets that "
-                "reach outside are means of the part inside",
+                "film \"spectral\": paths carry {} to {} nm, and one bin each covers all "
+                "below {:.0f} and all above {:.0f} nm. Buckets outside are zero; a "
+                "bucket partly outside is the mean of its part inside",
                 kFirstCarriedNm, kLastCarriedNm, low, high);
 }
 

@@ -70,7 +70,7 @@ void ReadSpot(ParseState& state, ParamSet& params, Light* light) {
     light->cone_delta = light->cone_angle - begins;
     state.AddWarning(params.where(),
                      "conedeltaangle of the spot light is larger than its coneangle; {} "
-                     "counts, as in pbrt-v4",
+                     "is used, as in pbrt-v4",
                      light->cone_delta);
   }
   double scale = params.Float("scale", 1, kNotNegative);

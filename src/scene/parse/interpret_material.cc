@@ -86,7 +86,9 @@ void ReadCoat(ParseState& state, ParamSet& params, const std::string& prefix,
   material->coat_albedo =
       TexturedColor(state, params, "albedo", {0, 0, 0}, SpectrumUse::kAlbedo);
   material->coat_max_depth = params.Integer("maxdepth", 10, {1, 10000});
-  params.Ignore("nsamples", "each path takes one walk, and more paths are less noise");
+  params.Ignore(
+      "nsamples",
+      "each path takes one random walk; increase the samples per pixel instead");
 }
 
 void ReadCoatedDiffuse(ParseState& state, ParamSet& params, Material* material) {
@@ -172,15 +174,16 @@ void ReadSubsurface(ParseState& state, ParamSet& params, Material* material) {
   material->interface_eta = DielectricEta(state, params, "eta", 1.33);
   ReadOwnRoughness(state, params, "", material);
   material->inside = InterpretInside(state, params, material->interface_eta);
-  state.AddNoteOnce(params.where(),
-                    "material \"subsurface\": paths walk at random in a medium behind "
-                    "its surface, which must be closed; pbrt-v4 has a tabulated profile");
+  state.AddNoteOnce(
+      params.where(),
+      "material \"subsurface\" is rendered by random walks in a medium behind its "
+      "surface, which must be closed; pbrt-v4 uses a tabulated profile");
 }
 
 void ReadMeasured(ParseState& state, ParamSet& params, Material* material) {
   const NamedFile file = NeedFile(state, params, "filename");
   if (!state.options.allow_files) {
-    params.Fail(*file.param, "files may not be read here");
+    params.Fail(*file.param, "reading files is disabled here");
   }
   auto& read = state.measured[file.path];
   try {
@@ -213,7 +216,7 @@ const std::map<std::string, MaterialType> kMaterials = {
 // Reads bump and normal maps. Some materials have no normal that these could change.
 void ReadBumps(ParseState& state, ParamSet& params, Material* material) {
   static constexpr std::pair<MaterialKind, const char*> kWithout[] = {
-      {MaterialKind::kMix, "the bump and normal maps of the mixed materials count"},
+      {MaterialKind::kMix, "the bump and normal maps of the mixed materials are used"},
       {MaterialKind::kInterface, "an interface has no surface of its own"},
       {MaterialKind::kHair, "hair has no bump or normal maps"}};
   for (const auto& [kind, why] : kWithout) {

@@ -80,7 +80,7 @@ void ReadNanoVdb(ParseState& state, ParamSet& params, Medium* medium) {
   const auto [file, path] = NeedFile(state, params, "filename");
   if (!state.options.allow_files) {
     throw InputError(file->where,
-                     "found the NanoVDB file {}, but files may not be read here",
+                     "found the NanoVDB file {}, but reading files is disabled here",
                      Quoted(file->strings[0]));
   }
   const std::string density = params.String("gridname", "density");

@@ -71,7 +71,7 @@ void InterpretSampler(ParseState& state, const std::string& type, ParamSet& para
   const int seed = params.Integer("seed", -1, {0, std::numeric_limits<int>::max()});
   if (seed >= 0) sampler.seed = static_cast<std::uint64_t>(seed);
   if (type != "independent" && type != "stratified") {
-    params.Ignore("randomization", "the points are always randomised");
+    params.Ignore("randomization", "the sample sequence is always randomised");
   }
   params.CheckAllUsed();
   state.scene.sampler = sampler;
@@ -103,14 +103,14 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
     state.scene.integrator.regularize = params.Bool("regularize", false);
   }
   for (const char* name : ignored) {
-    params.Ignore(name, "the path integrator here does not have it");
+    params.Ignore(name, "the path integrator has no such option");
   }
   params.CheckAllUsed();
 }
 
 void InterpretAccelerator(const std::string& type, ParamSet& params) {
   for (const char* name : Lookup(kAccelerators, type, params.where(), "accelerator")) {
-    params.Ignore(name, "there is one kind of tree");
+    params.Ignore(name, "the BVH is the only accelerator");
   }
   params.CheckAllUsed();
 }

@@ -198,10 +198,9 @@ const TextureType& FindType(const std::string& name, bool is_float,
   };
   if (found != kTextureTypes.end() && fits(found->second)) return found->second;
   if (name == "ptex") {
-    throw InputError(
-        where,
-        "texture \"ptex\" is not supported: textures per face (Ptex files) are not in "
-        "this renderer; an image with surface coordinates can stand for one");
+    throw InputError(where,
+                     "texture \"ptex\" is not supported: this renderer has no per-face "
+                     "textures (Ptex files); use an image with surface coordinates");
   }
   std::vector<std::string> names;
   for (const auto& [other, type] : kTextureTypes) {

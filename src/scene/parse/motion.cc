@@ -81,7 +81,7 @@ EndTransform EndOf(const Transform& start, const Transform& end,
   if (!HaveMotion(start, end)) {
     throw InputError(where,
                      "one of the transforms at the start and at the end mirrors, the "
-                     "other does not: in between lies one that flattens space");
+                     "other does not: a transform in between flattens space");
   }
   return std::make_shared<const Transform>(end);
 }

@@ -78,7 +78,7 @@ void RequireSlotsDefined(ParseState& state) {
     if (IsUsed(state.scene, slot.second.index)) {
       medium = first(medium, slot);
     } else {
-      state.AddWarning(slot.second.where, "medium {} is not defined; nothing is in it",
+      state.AddWarning(slot.second.where, "medium {} is not defined; vacuum is used",
                        Quoted(slot.first));
     }
   }

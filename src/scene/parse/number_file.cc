@@ -44,7 +44,7 @@ class NumberText {
   double Number() {
     const char* begin = cursor_;
     if (!StartsIt(*begin)) {
-      Fail(begin, "found {} where a number should stand; text goes behind #",
+      Fail(begin, "found {}, expected a number; comments start with #",
            Quoted({begin, 1}));
     }
     while (!AtEnd() && ContinuesIt(*cursor_)) ++cursor_;

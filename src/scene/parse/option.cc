@@ -56,9 +56,9 @@ constexpr OptionInfo kOptions[] = {
     {"string", "msereferenceimage", nullptr, "`lanelight compare` does it"},
     {"string", "msereferenceout", nullptr, "`lanelight compare` does it"},
     {"bool", "pixelstats", nullptr, "`lanelight profile` does it"},
-    {"string", "rendercoordsys", nullptr, "the program chooses its own"},
+    {"string", "rendercoordsys", nullptr, "lanelight chooses its own value"},
     {"bool", "stats", nullptr, "`--json` writes them"},
-    {"bool", "wavefront", nullptr, "everything is a wavefront here"}};
+    {"bool", "wavefront", nullptr, "lanelight always renders wavefronts"}};
 
 [[noreturn]] void Misfit(const OptionStatement& option, std::string_view takes) {
   throw InputError(option.value_where, "found {} as the value of option {}; it takes {}",
@@ -102,7 +102,7 @@ OptionStatement ReadOption(Statement& statement) {
   const Token close = statement.lexer.Next();
   if (close.kind != TokenKind::kClose) {
     throw InputError(statement.lexer.Where(close),
-                     "found {} where option {} needs ] after one value", close.Describe(),
+                     "found {}, but option {} needs ] after one value", close.Describe(),
                      Quoted(option.name));
   }
   return option;

@@ -135,7 +135,7 @@ std::size_t ParamSet::ChoiceOf(std::string_view name,
   if (param == nullptr) return 0;
   auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
   if (it == choices.end() && unknown != nullptr) {
-    Warn(*param, fmt::format("unknown value {}; {} counts, as in pbrt-v4",
+    Warn(*param, fmt::format("unknown value {}; {} is used, as in pbrt-v4",
                              Quoted(param->strings[0]), Quoted(unknown)));
     it = std::find(choices.begin(), choices.end(), unknown);
   }

@@ -39,10 +39,9 @@ void ReadDeclaration(const Lexer& lexer, const Token& token, Param* param) {
   const auto name_end = text.find_first_of(kBlank, std::min(name_begin, text.size()));
   const auto rest = text.find_first_not_of(kBlank, std::min(name_end, text.size()));
   if (name_begin == text.npos || rest != text.npos) {
-    throw InputError(
-        param->where,
-        "found {} where a parameter \"type name\" or a directive should stand",
-        Quoted(text));
+    throw InputError(param->where,
+                     "found {}, expected a parameter \"type name\" or a directive",
+                     Quoted(text));
   }
   const std::string_view type = text.substr(type_begin, type_end - type_begin);
   param->name = text.substr(name_begin, name_end - name_begin);
@@ -152,7 +151,7 @@ void Replace(ParamList& params, const Param& param, std::vector<Note>* notes) {
         Quoted(param.name), ParamTypeName(earlier->type), ParamTypeName(param.type));
   }
   notes->push_back({param.where,
-                    fmt::format("parameter \"{} {}\" is given twice; this one counts",
+                    fmt::format("parameter \"{} {}\" is given twice; this one is used",
                                 ParamTypeName(param.type), param.name),
                     false, true});
   params.erase(earlier);

@@ -59,7 +59,8 @@ void DisplaceMesh(ParseState& state, const MeshRequest& request, Shape* shape) {
   const std::vector<Texture>& textures = state.scene.textures;
   const std::string problem = HeightTexture::Problem(textures, request.displacement);
   if (!problem.empty()) {
-    return state.AddImageNote(request.where, "this mesh is not displaced: " + problem);
+    return state.AddImageNote(request.where,
+                              "this mesh is rendered without displacement: " + problem);
   }
   if (shape->mesh->uvs.empty()) {
     throw InputError(request.where,

@@ -97,7 +97,7 @@ NamedFile NeedFile(const ParseState& state, ParamSet& params, std::string_view n
 std::string ReadSceneFile(const ParseState& state, const std::string& path,
                           const SourceLocation& where, std::string_view kind) {
   if (!state.options.allow_files) {
-    throw InputError(where, "found {} {}, but files may not be read here", kind,
+    throw InputError(where, "found {} {}, but reading files is disabled here", kind,
                      Quoted(path));
   }
   return ReadWholeFile(path, where, kind);

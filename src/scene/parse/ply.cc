@@ -74,7 +74,7 @@ class BodyReader {
         element.count > std::numeric_limits<std::uint32_t>::max() ||
         element.count > reader_.Left(element.min_bytes())) {
       Fail(
-          "the PLY header promises {} of element {}, more than the rest of the file can "
+          "the PLY header declares {} of element {}, more than the rest of the file can "
           "hold",
           element.count, Quoted(element.name));
     }

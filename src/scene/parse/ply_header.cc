@@ -102,7 +102,7 @@ PlyType ParseType(const HeaderReader& reader, std::string_view name) {
 PlyFormat ParseFormat(const HeaderReader& reader,
                       const std::vector<std::string_view>& words) {
   if (words.size() != 3 || words[0] != "format") {
-    reader.Fail("found {} where the PLY format line should stand", Quoted(words[0]));
+    reader.Fail("found {}, expected the PLY format line", Quoted(words[0]));
   }
   if (words[2] != "1.0") {
     reader.Fail("PLY version {} is not supported; 1.0 is", Quoted(words[2]));

@@ -70,7 +70,7 @@ std::vector<std::string> PlyNotes(const PlyMesh& ply, const std::string& path) {
   add(ply.bent_quads, "{} quads of {} are not flat; each becomes two triangles");
   add(ply.bad_normals,
       "{} vertices of {} have normals that are not finite; the normals of their faces "
-      "count there");
+      "are used there");
   add(ply.bad_uvs,
       "{} vertices of {} have texture coordinates that are not finite; they count as (0, "
       "0)");

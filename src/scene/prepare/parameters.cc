@@ -130,8 +130,9 @@ std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
     if (spp == 0) {
       text += fmt::format(", {} randomisations", kReplicates);
     } else if (units < 2 * kReplicates) {
-      text += fmt::format(", not stratified (that takes {} samples): as independent",
-                          2 * kReplicates * (pairs ? 2 : 1));
+      text += fmt::format(
+          ", not stratified (needs {} samples per pixel), so the same as independent",
+          2 * kReplicates * (pairs ? 2 : 1));
     } else {
       text += SizeText(strategy, units);
     }

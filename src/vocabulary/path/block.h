@@ -77,16 +77,15 @@ inline FieldSet GlossyVertexFields() {
 
 // Columns of each sample of a task, beside those of its first vertex: X(type, name,
 // meaning). Vectors are in the scene's space.
-#define LANELIGHT_REUSE_COLUMNS(X)                                                  \
-  X(u32, state, "ReuseState when the path ended")                                   \
-  LANELIGHT_RGB(X, f32, before,                                                     \
-                "radiance gathered up to the second vertex, its emission included") \
-  X(f32, x, "the second vertex")                                                    \
-  X(f32, y, "the second vertex")                                                    \
-  X(f32, z, "the second vertex")                                                    \
-  X(f32, p_error, "offset along its normal that clears its rounding error")         \
-  LANELIGHT_XYZ(X, f32, ng,                                                         \
-                "geometric normal there, on the side that the path has come from")  \
+#define LANELIGHT_REUSE_COLUMNS(X)                                                      \
+  X(u32, state, "ReuseState when the path ended")                                       \
+  LANELIGHT_RGB(X, f32, before,                                                         \
+                "radiance gathered up to the second vertex, its emission included")     \
+  X(f32, x, "the second vertex")                                                        \
+  X(f32, y, "the second vertex")                                                        \
+  X(f32, z, "the second vertex")                                                        \
+  X(f32, p_error, "offset along the normal that exceeds the rounding error")            \
+  LANELIGHT_XYZ(X, f32, ng, "geometric normal there, on the side of the incoming path") \
   LANELIGHT_XYZ(X, f32, ns, "shading normal there, on the same side")
 
 struct ReuseColumns {
@@ -98,17 +97,20 @@ struct ReuseColumns {
 // Columns of second vertices that are glossy. Colours are radiance that the path itself
 // gets, until kernels/reuse/own_light.cc; then they are without what the material makes
 // of light from there.
-#define LANELIGHT_GLOSSY_COLUMNS(X)                                                      \
-  LANELIGHT_XYZ(X, f32, light, "direction of the light sample, unit, scene")             \
-  LANELIGHT_XYZ(X, f32, next, "direction in which the path goes on, unit, scene")        \
-  LANELIGHT_RGB(X, f32, lit, "radiance of the light sample")                             \
-  LANELIGHT_RGB(X, f32, hit,                                                             \
-                "radiance of that and of lights that the path hits next; "               \
-                "then of these alone")                                                   \
-  LANELIGHT_RGB(X, f32, far,                                                             \
-                "of all further ones, times the density of its own direction")           \
-  LANELIGHT_RGB(X, f32, beta, "throughput up to the second vertex, with what led to it") \
-  X(f32, sent, "brightest channel of what it has for others, as its path gets it")
+#define LANELIGHT_GLOSSY_COLUMNS(X)                                                     \
+  LANELIGHT_XYZ(X, f32, light, "direction of the light sample, unit, scene")            \
+  LANELIGHT_XYZ(X, f32, next, "direction of the next ray of the path, unit, scene")     \
+  LANELIGHT_RGB(X, f32, lit, "radiance of the light sample")                            \
+  LANELIGHT_RGB(X, f32, hit,                                                            \
+                "radiance of the light sample and of lights that the next ray hits; "   \
+                "later of the latter alone")                                            \
+  LANELIGHT_RGB(                                                                        \
+      X, f32, far,                                                                      \
+      "radiance of all later vertices, times the density of the next ray's direction")  \
+  LANELIGHT_RGB(X, f32, beta,                                                           \
+                "throughput up to the second vertex, its own sampling weight included") \
+  X(f32, sent,                                                                          \
+    "brightest channel of the radiance that can be reused, as its own path receives it")
 
 struct GlossyColumns {
 #define X(type, name, meaning) type* name = nullptr;
@@ -128,7 +130,7 @@ struct KeptColumns {
 #define LANELIGHT_PAIR_COLUMNS(X)                                                \
   LANELIGHT_RGB(X, f32, f,                                                       \
                 "throughput to the camera: of the prefix of i, and from j to i") \
-  X(f32, pdf_area, "density with which i would have found j")                    \
+  X(f32, pdf_area, "density with which i would have sampled j")                  \
   X(f32, visible, "1 or 0")
 
 struct PairColumns {

@@ -15,92 +15,94 @@
 namespace lanelight {
 
 // Features of scenes and options. X(bit name, what it means when set)
-#define LANELIGHT_COMMON_FEATURES(X)                                         \
-  X(kTriangles, "triangle meshes")                                           \
-  X(kSpheres, "spheres")                                                     \
-  X(kDisks, "disks")                                                         \
-  X(kPlanes, "infinite planes")                                              \
-  X(kLargeSpheres, "spheres much larger than the camera's distance to them") \
-  X(kCurves, "curves")                                                       \
-  X(kInstances, "object instances")                                          \
-  X(kMotion, "shapes that move while the shutter is open")                   \
-  X(kMovingInstances, "object instances that move")                          \
-  X(kMovingCamera, "a camera that moves")                                    \
-  X(kVertexNormals, "interpolated vertex normals")                           \
-  X(kUv, "textures that need surface coordinates")                           \
-  X(kTangents, "anisotropic materials, which need tangents")                 \
-  X(kTextures, "textured material parameters")                               \
-  X(kTexturedRoughness, "textured roughness")                                \
-  X(kTexturedColor1, "a textured second colour parameter")                   \
-  X(kTexturedCoat, "textured layers of a coat")                              \
-  X(kTexturedCoatMedium, "a textured medium in a coat")                      \
-  X(kTexturePlaces, "textures that depend on where a point is")              \
-  X(kTextureFootprints, "textures filtered over the footprint of a pixel")   \
-  X(kBumps, "displacement textures, shaded as bumps")                        \
-  X(kNormalMaps, "normal maps")                                              \
-  X(kSpectral, "paths that carry wavelengths (transport=spectral)")          \
-  X(kPlainSpectra, "colours by wavelength, none of them textured")           \
-  X(kSpectralColor1, "a second colour parameter by wavelength")              \
-  X(kDispersion, "glass whose index depends on the wavelength")              \
-  X(kForcedDiffuse, "surfaces that scatter evenly, whatever their material") \
-  X(kRegularizes, "surfaces that are rougher behind a rough bounce")         \
-  X(kAlpha, "alpha cut-outs")                                                \
-  X(kMix, "mix materials")                                                   \
-  X(kRefraction, "a refracting interface, whose eta roulette must know")     \
-  X(kOtherEvents, "events beside surfaces, such as points in a medium")      \
-  X(kMedia, "participating media")                                           \
-  X(kMediumGrids, "media whose density varies")                              \
-  X(kMediumEmission, "media that emit light")                                \
-  X(kMediumChanges, "surfaces that have media beside them")                  \
-  X(kInterfaces, "surfaces that only bound a medium")                        \
-  X(kSubsurface, "insides of materials, in which events are not counted")    \
-  X(kSubsurfaceTextures, "insides of materials whose albedo is textured")    \
-  X(kOpaqueShadows, "shadow rays that any surface stops")                    \
-  X(kLights, "light that is sampled")                                        \
-  X(kManyLights, "more than one light")                                      \
-  X(kTriangleLights, "emitting triangles")                                   \
-  X(kRectangleLights, "emitting rectangles (two triangles each)")            \
-  X(kSphereLights, "emitting spheres")                                       \
-  X(kDiskLights, "emitting disks")                                           \
-  X(kPointLights, "point lights")                                            \
-  X(kSpotLights, "spot lights")                                              \
-  X(kDistantLights, "distant lights")                                        \
-  X(kImageLights, "point lights with an image of their directions")          \
-  X(kEmissionImages, "emitting shapes with an image")                        \
-  X(kEmissionCuts, "emitting shapes that alpha cuts")                        \
-  X(kUnseenLights, "emitting shapes that rays pass through")                 \
-  X(kPortals, "an environment seen through a portal")                        \
-  X(kInfiniteConstant, "constant environment")                               \
-  X(kInfiniteImage, "environment image")                                     \
-  X(kAreaLights, "emitting shapes")                                          \
-  X(kInfiniteLights, "an environment")                                       \
-  X(kMis, "light that BSDF sampling can hit (multiple importance sampling)") \
-  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")        \
-  X(kPerspective, "a perspective camera")                                    \
-  X(kOrthographic, "an orthographic camera")                                 \
-  X(kSphericalCamera, "a spherical camera")                                  \
-  X(kRealisticCamera, "a camera with a lens system")                         \
-  X(kLens, "a thin lens")                                                    \
-  X(kFiltered, "a pixel filter other than the box")                          \
-  X(kSignedFilter, "a pixel filter with negative lobes")                     \
-  X(kAov, "auxiliary output (--aov)")                                        \
-  X(kGbuffer, "auxiliary output of where first hits are (--gbuffer)")        \
-  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")          \
-  X(kSampledHittableLights, "light samples of shapes and environments")      \
-  X(kLightTable, "light-selection=power or uniform")                         \
-  X(kLightTree, "light-selection=tree")                                      \
-  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")       \
-  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")           \
-  X(kPathValues, "values of paths, from a training pass")                    \
-  X(kRecordsPaths, "a training pass that records what paths find")           \
-  X(kSolidAngleLights, "light-points=solid-angle")                           \
-  X(kProjectedLights, "light-points=projected")                              \
-  X(kProjectedHits, "light-points=projected, and hits weighed against it")   \
-  X(kLightCandidates, "further candidates for each light sample")            \
-  X(kReuse, "path reuse in pixel blocks (reuse=block)")                      \
-  X(kReuseGlossy, "glossy surfaces whose light is reused")                   \
-  X(kDecides, "a strategy chosen by a trial run")                            \
-  X(kRecordsSinglePaths, "a training pass that records what single paths bring")
+#define LANELIGHT_COMMON_FEATURES(X)                                          \
+  X(kTriangles, "triangle meshes")                                            \
+  X(kSpheres, "spheres")                                                      \
+  X(kDisks, "disks")                                                          \
+  X(kPlanes, "infinite planes")                                               \
+  X(kLargeSpheres, "spheres much larger than the camera's distance to them")  \
+  X(kCurves, "curves")                                                        \
+  X(kInstances, "object instances")                                           \
+  X(kMotion, "shapes that move while the shutter is open")                    \
+  X(kMovingInstances, "object instances that move")                           \
+  X(kMovingCamera, "a camera that moves")                                     \
+  X(kVertexNormals, "interpolated vertex normals")                            \
+  X(kUv, "textures that need surface coordinates")                            \
+  X(kTangents, "anisotropic materials, which need tangents")                  \
+  X(kTextures, "textured material parameters")                                \
+  X(kTexturedRoughness, "textured roughness")                                 \
+  X(kTexturedColor1, "a textured second colour parameter")                    \
+  X(kTexturedCoat, "textured layers of a coat")                               \
+  X(kTexturedCoatMedium, "a textured medium in a coat")                       \
+  X(kTexturePlaces, "textures that depend on the position")                   \
+  X(kTextureFootprints, "textures filtered over the footprint of a pixel")    \
+  X(kBumps, "displacement textures, shaded as bumps")                         \
+  X(kNormalMaps, "normal maps")                                               \
+  X(kSpectral, "paths that carry wavelengths (transport=spectral)")           \
+  X(kPlainSpectra, "spectral colours without textures")                       \
+  X(kSpectralColor1, "a spectral second colour parameter")                    \
+  X(kDispersion, "glass whose index depends on the wavelength")               \
+  X(kForcedDiffuse, "one scattering model for all surfaces (--scattering)")   \
+  X(kRegularizes, "regularization: rougher surfaces after a rough bounce")    \
+  X(kAlpha, "alpha cut-outs")                                                 \
+  X(kMix, "mix materials")                                                    \
+  X(kRefraction, "a refracting interface, whose eta roulette uses")           \
+  X(kOtherEvents, "events away from surfaces, such as points in a medium")    \
+  X(kMedia, "participating media")                                            \
+  X(kMediumGrids, "media whose density varies")                               \
+  X(kMediumEmission, "media that emit light")                                 \
+  X(kMediumChanges, "surfaces next to media")                                 \
+  X(kInterfaces, "interfaces (surfaces that only bound a medium)")            \
+  X(kSubsurface, "subsurface scattering")                                     \
+  X(kSubsurfaceTextures, "subsurface scattering with a textured albedo")      \
+  X(kOpaqueShadows, "shadow rays that any surface stops")                     \
+  X(kLights, "sampled lights")                                                \
+  X(kManyLights, "more than one light")                                       \
+  X(kTriangleLights, "emitting triangles")                                    \
+  X(kRectangleLights, "emitting rectangles (two triangles each)")             \
+  X(kSphereLights, "emitting spheres")                                        \
+  X(kDiskLights, "emitting disks")                                            \
+  X(kPointLights, "point lights")                                             \
+  X(kSpotLights, "spot lights")                                               \
+  X(kDistantLights, "distant lights")                                         \
+  X(kImageLights, "point lights with an image of their directions")           \
+  X(kEmissionImages, "emitting shapes with an image")                         \
+  X(kEmissionCuts, "emitting shapes with alpha cut-outs")                     \
+  X(kUnseenLights, "emitting shapes that rays pass through")                  \
+  X(kPortals, "an environment seen through a portal")                         \
+  X(kInfiniteConstant, "constant environment")                                \
+  X(kInfiniteImage, "environment image")                                      \
+  X(kAreaLights, "emitting shapes")                                           \
+  X(kInfiniteLights, "an environment")                                        \
+  X(kMis, "light that BSDF sampling can hit (multiple importance sampling)")  \
+  X(kScatters, "paths of more than zero bounces (maximum depth > 0)")         \
+  X(kPerspective, "a perspective camera")                                     \
+  X(kOrthographic, "an orthographic camera")                                  \
+  X(kSphericalCamera, "a spherical camera")                                   \
+  X(kRealisticCamera, "a camera with a lens system")                          \
+  X(kLens, "a thin lens")                                                     \
+  X(kFiltered, "a pixel filter other than the box")                           \
+  X(kSignedFilter, "a pixel filter with negative lobes")                      \
+  X(kAov, "auxiliary output (--aov)")                                         \
+  X(kGbuffer, "auxiliary output of first-hit positions (--gbuffer)")          \
+  X(kSpectralFilm, "a film that keeps spectra (Film \"spectral\")")           \
+  X(kSampledHittableLights, "light samples of shapes and environments")       \
+  X(kLightTable, "light-selection=power or uniform")                          \
+  X(kLightTree, "light-selection=tree")                                       \
+  X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
+  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
+  X(kPathValues, "path values from a training pass")                          \
+  X(kRecordsPaths, "a training pass that records the radiance of paths")      \
+  X(kSolidAngleLights, "light-points=solid-angle")                            \
+  X(kProjectedLights, "light-points=projected")                               \
+  X(kProjectedHits, "light-points=projected, with hits weighted by it (MIS)") \
+  X(kLightCandidates, "further candidates for each light sample")             \
+  X(kReuse, "path reuse in pixel blocks (reuse=block)")                       \
+  X(kReuseGlossy, "path reuse on glossy surfaces")                            \
+  X(kDecides, "a strategy chosen by a trial run")                             \
+  X(kRecordsSinglePaths,                                                      \
+    "a training pass that records the contributions of single "               \
+    "paths")
 
 // Choices of strategies that have a stage or kernel of their own, and kinds of materials.
 #define LANELIGHT_OWN_FEATURE_STAGE(name, meaning) X(name, meaning)

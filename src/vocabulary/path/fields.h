@@ -53,34 +53,34 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(u32, sample, ({}), kPath, (), "sample index of the pixel: second coordinate")       \
   X(u32, output, ({}), kPath, (), "slot of the sample in the task's sample buffer")     \
   X(u32, depth, ({}), kPath, (), "scattering events so far")                            \
-  X(u32, branch, ({kSplitting}), kPath, (), "which copy of its sample the path is, 0 = the first") \
-  X(u32, budget, ({kSplitting}), kPath, (), "copies that the path may still become, itself included") \
+  X(u32, branch, ({kSplitting}), kPath, (), "index of this split path in its sample, 0 = the first") \
+  X(u32, budget, ({kSplitting}), kPath, (), "maximum number of split paths, itself included") \
   /* ray: origin and unit direction, scene units */                                       \
   LANELIGHT_XYZ(X, f32, o, ({}), kRay, (), "ray origin")                                \
   LANELIGHT_XYZ(X, f32, d, ({}), kPath, (), "ray direction, unit")                      \
   /* transport */                                                                         \
   LANELIGHT_RGB(X, f32, beta, ({}), kPath, (1.0f), "throughput")                          \
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
-  X(f32, wavelength, ({kSpectral}), kPath, (), "number that chose the wavelengths of the path; below 0, or -0: glass has left one (src/scene/compiled/spectra.h)") \
-  X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular, and surfaces are rougher from there on") \
+  X(f32, wavelength, ({kSpectral}), kPath, (), "random number that selected the wavelengths of the path; sign bit set: dispersive glass has left only one (src/scene/compiled/spectra.h)") \
+  X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular; later surfaces are rougher") \
   X(f32, bsdf_pdf, ({kMis, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
-  LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal where the ray starts, on the side that the path came from") \
+  LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal at the ray origin, on the side of the incoming path") \
   X(f32, eta_scale, ({kRefraction, kReuse}), kPath, (1.0f), "product of eta^2 of refractions: undone by roulette") \
-  X(u32, reuse, ({kReuse}), kPath, (0u), "how far the path has come: ReuseState (src/vocabulary/path/block.h)") \
+  X(u32, reuse, ({kReuse}), kPath, (0u), "progress of the path: ReuseState (src/vocabulary/path/block.h)") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
   LANELIGHT_2(X, f32, u_lens, ({kLens}), kCamera, (), "position on the lens")           \
   X(f32, weight, ({kSignedFilter, kRealisticCamera}), kPath, (), "weight of the sample: of filter and lens system") \
-  X(f32, time, ({kMotion}), kPath, (), "time of all that the path meets, from 0 where the shutter opens to 1 where it closes") \
+  X(f32, time, ({kMotion}), kPath, (), "time of the path, from 0 (shutter opens) to 1 (shutter closes)") \
   /* hit */                                                                               \
   X(f32, t, ({}), kRay, (std::numeric_limits<float>::infinity()), "hit distance, +inf = miss") \
-  X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/scene/geometry/geometry.h); of the last one, where the ray starts, until there is a new one") \
+  X(u32, prim, ({}), f.Has(Feature::kTriangles) ? kPath : kSurface, (kNoPrimitive), "primitive id of the hit (src/scene/geometry/geometry.h); before the ray is intersected, the primitive where it starts") \
   X(f32, b1, ({kTriangles, kCurves}), kHit, (), "barycentric weight of vertex 1; of a curve: its parameter, 0 to 1") \
   X(f32, b2, ({kTriangles}), kHit, (), "barycentric weight of vertex 2")                \
   X(u32, inst, ({kInstances}), kHit, (), "instance of the hit, 0xffffffff = world")     \
   /* surface at the hit */                                                                \
   LANELIGHT_XYZ(X, f32, p, ({kScatters, kAov}), kSurface, (), "hit point")              \
-  X(f32, p_error, ({kScatters, kAov}), kSurface, (), "offset along ng that clears the rounding error of p") \
+  X(f32, p_error, ({kScatters, kAov}), kSurface, (), "offset along ng that exceeds the rounding error of p") \
   LANELIGHT_XYZ(X, f32, ng, ({kScatters, kAov}), kSurface, (), "geometric normal, unit, emitting side") \
   LANELIGHT_XYZ(X, f32, ns, ({kVertexNormals, kBumps, kNormalMaps}), kSurface, (), "shading normal, unit")   \
   LANELIGHT_XYZ(X, f32, tg, ({kTangents, kBumps, kNormalMaps, kTextureFootprints}), kSurface, (), "dp/du, not normalised")       \
@@ -109,28 +109,28 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* media (src/scene/compiled/media.h) */                                                      \
   X(u32, medium, ({kMedia}), kPath, (), "medium that the ray is in; 0xffffffff = none")  \
   LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
-  X(u32, walked, ({kSubsurface}), kPath, (0u), "events inside of materials, which the maximum depth leaves out") \
-  LANELIGHT_RGB(X, f32, inside, ({kSubsurfaceTextures}), kPath, (0.0f), "albedo of the inside that the path is in, by the texture where it went in") \
-  X(f32, passed, ({kInterfaces}), kPath, (0.0f), "distance from where the ray was scattered to its origin, through interfaces") \
-  X(u32, crossings, ({kInterfaces}), kPath, (0u), "interfaces that the path went through") \
-  LANELIGHT_RGB(X, f32, odds, ({kMedia}), kPath, (1.0f), "density of the path, had all of it been sampled for this channel, over the mean of the channels") \
-  LANELIGHT_XYZ(X, f32, sh_o, ({kInterfaces}), kBounce, (), "origin of the rest of a shadow ray") \
-  LANELIGHT_XYZ(X, f32, sh_n, ({kInterfaces}), kBounce, (), "normal where it meets a surface") \
+  X(u32, walked, ({kSubsurface}), kPath, (0u), "events inside materials, which the maximum depth does not count") \
+  LANELIGHT_RGB(X, f32, inside, ({kSubsurfaceTextures}), kPath, (0.0f), "albedo of the medium inside the current material, from the texture at the entry point") \
+  X(f32, passed, ({kInterfaces}), kPath, (0.0f), "distance from the last scattering event to the ray origin, through interfaces") \
+  X(u32, crossings, ({kInterfaces}), kPath, (0u), "interfaces that the path has crossed") \
+  LANELIGHT_RGB(X, f32, odds, ({kMedia}), kPath, (1.0f), "density of the path if sampled for this channel only, divided by the mean over the channels") \
+  LANELIGHT_XYZ(X, f32, sh_o, ({kInterfaces}), kBounce, (), "origin of the remaining shadow ray") \
+  LANELIGHT_XYZ(X, f32, sh_n, ({kInterfaces}), kBounce, (), "geometric normal at the surface that it hits") \
   LANELIGHT_XYZ(X, f32, sh_ns, ({kInterfaces}), kBounce, (), "shading normal there")       \
-  LANELIGHT_XYZ(X, f32, sh_p, ({kInterfaces}), kBounce, (), "point where it does")         \
-  X(f32, sh_p_error, ({kInterfaces}), kBounce, (), "offset that clears its rounding error") \
-  X(f32, sh_left, ({kInterfaces}), kBounce, (), "length of the rest")                     \
+  LANELIGHT_XYZ(X, f32, sh_p, ({kInterfaces}), kBounce, (), "point of that hit")         \
+  X(f32, sh_p_error, ({kInterfaces}), kBounce, (), "offset that exceeds its rounding error") \
+  X(f32, sh_left, ({kInterfaces}), kBounce, (), "length of the remaining shadow ray")                     \
   X(f32, sh_t, ({kInterfaces}), kBounce, (), "distance of the surface")                   \
   X(u32, sh_prim, ({kInterfaces}), kBounce, (), "primitive of the surface")               \
   X(u32, sh_material, ({kInterfaces}), kBounce, (), "its material")                       \
-  X(u32, sh_medium, ({kInterfaces}), kBounce, (), "medium that the rest starts in")       \
+  X(u32, sh_medium, ({kInterfaces}), kBounce, (), "medium at the origin of the remaining shadow ray")       \
   /* light sample */                                                                      \
   X(u32, ls_light, ({kManyLights}), kBounce, (), "selected light")                      \
   LANELIGHT_XYZ(X, f32, ls, ({kLights}), kBounce, (), "unit direction to the light")    \
-  X(f32, ls_distance, ({kLights}), kBounce, (), "length of the shadow ray, already short of the light") \
+  X(f32, ls_distance, ({kLights}), kBounce, (), "length of the shadow ray; ends just before the light") \
   LANELIGHT_RGB(X, f32, ls, ({kLights}), kBounce, (), "radiance / pdf of the light sample (selection included); 0 = no light") \
   X(f32, ls_pdf, ({kLights}), kBounce, (), "pdf_sa of that direction, selection included; 0 = delta light") \
-  X(f32, light_pmf, ({kLightTree}), kBounce, (), "probability of selecting the light that was hit, then of the one selected") \
+  X(f32, light_pmf, ({kLightTree}), kBounce, (), "probability of selecting the light that was hit, later of the selected light") \
   /* the light sample kept of several candidates */                                       \
   LANELIGHT_XYZ(X, f32, kept, ({kLightCandidates}), kBounce, (), "its direction")         \
   X(f32, kept_distance, ({kLightCandidates}), kBounce, (), "its distance")                \
@@ -139,7 +139,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(u32, kept_light, ({kLightCandidates}), kBounce, (), "its light")                      \
   X(f32, candidate_weight, ({kLightCandidates}), kBounce, (), "luminance that it would add unshadowed") \
   X(f32, candidate_weight_sum, ({kLightCandidates}), kBounce, (), "the same luminance, summed over the candidates so far") \
-  X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the candidate kept and the next") \
+  X(f32, u_candidate, ({kLightCandidates}), kBounce, (), "choice between the kept candidate and the next one") \
   /* shadow ray */                                                                        \
   LANELIGHT_RGB(X, f32, sh, ({kLights}), kBounce, (), "radiance the shadow ray carries if unoccluded") \
   /* control variates */                                                                  \
@@ -156,8 +156,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, risk_2, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, constant part")       \
   /* training pass with splitting: what the path would be without (kernels/roulette/single_path_records.cc) */ \
   X(f32, copy_weight, ({kRecordsSinglePaths}), kPath, (1.0f), "product of 1/r of its decisions so far") \
-  X(f32, decided_at, ({kRecordsSinglePaths}), kPath, (-1.0f), "brightness of the throughput before the last decision; below 0 once it has survived it") \
-  X(f32, single_gathered, ({kRecordsSinglePaths}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of copies") \
+  X(f32, decided_at, ({kRecordsSinglePaths}), kPath, (-1.0f), "brightness of the throughput before the last decision; negative after it survived") \
+  X(f32, single_gathered, ({kRecordsSinglePaths}), kPath, (0.0f), "brightness gathered up to its last decision, without weights of split paths") \
   X(f32, single_l, ({kRecordsSinglePaths}), kGathered, (0.0f), "brightness of the gathered radiance at that time") \
   /* auxiliary output: first hit */                                                       \
   LANELIGHT_RGB(X, f32, aov_albedo, ({kAov}), kPath, (0.0f), "albedo")                    \

@@ -18,13 +18,13 @@ inline constexpr int kRecordedVertices = 4;
 #define LANELIGHT_SAMPLE_PLANES(X)                                                        \
   X(Color, 3, ({}), true, "radiance, red, green, blue")                                   \
   X(Aov, 7, ({kAov}), false, "of the first hit: albedo, shading normal, depth")           \
-  X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: whether there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
-  X(Radiance, 3, ({kSpectralFilm}), true, "before the film makes a colour of it: at the long, the middle and the short wavelength of the path, weighed") \
-  X(Triple, 1, ({kSpectralFilm}), false, "of bins that these wavelengths are of") \
-  X(Numbers, 4, ({kRegressionControl}), false, "that drove a path (dimensions.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
-  X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "cell, throughput, gathered of each vertex; gathered at the end; depth; the three sums of the risk") \
-  X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; what its square would be with roulette on the throughput instead of splitting") \
-  X(Weight, 1, ({kReuse}), false, "weight of the sample, which its colour does not have in it until its block has been connected")
+  X(Gbuffer, 14, ({kGbuffer}), false, "of the first hit: 1 if there is one, point, geometric normal, shading normal, u, v, dz/dx, dz/dy") \
+  X(Radiance, 3, ({kSpectralFilm}), true, "weighted radiance at the long, middle and short wavelength of the path, before the film converts it to a colour") \
+  X(Triple, 1, ({kSpectralFilm}), false, "index of the wavelength bins of the path") \
+  X(Numbers, 4, ({kRegressionControl}), false, "random numbers of a path (dimensions.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
+  X(Record, 3 * kRecordedVertices + 5, ({kRecordsPaths}), false, "of each vertex: cell, throughput, radiance gathered; then radiance at the end, depth, three risk sums") \
+  X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; its square as if roulette on the throughput had replaced splitting") \
+  X(Weight, 1, ({kReuse}), false, "weight of the sample; applied to its colour once its block has been connected")
 // clang-format on
 
 enum class PlaneGroup : std::uint8_t {

@@ -17,22 +17,22 @@ enum class StageScope : std::uint8_t {
 };
 
 /// The roles of stages: X(name, meaning)
-#define LANELIGHT_STAGE_ROLES(X)                            \
-  X(Camera, "starts paths and their camera rays")           \
-  X(Sampling, "sample points")                              \
-  X(Intersect, "closest hits")                              \
-  X(Media, "events in media, and their interfaces")         \
-  X(Sort, "sorts paths into queues")                        \
-  X(Emission, "light that rays hit")                        \
-  X(Surface, "point and normals of hits")                   \
-  X(Texture, "textures and spectra of materials")           \
-  X(Light, "samples of lights")                             \
-  X(Resample, "candidates of light samples")                \
-  X(Shade, "scattering")                                    \
-  X(Shadow, "drops shadow rays that are blocked, and dims") \
-  X(Roulette, "Russian roulette and splitting")             \
-  X(Record, "records for training and path reuse")          \
-  X(Accumulate, "adds light to samples, and ends them")     \
+#define LANELIGHT_STAGE_ROLES(X)                          \
+  X(Camera, "starts paths and their camera rays")         \
+  X(Sampling, "sample points")                            \
+  X(Intersect, "closest hits")                            \
+  X(Media, "events in media, and their interfaces")       \
+  X(Sort, "sorts paths into queues")                      \
+  X(Emission, "light that rays hit")                      \
+  X(Surface, "point and normals of hits")                 \
+  X(Texture, "textures and spectra of materials")         \
+  X(Light, "samples of lights")                           \
+  X(Resample, "candidates of light samples")              \
+  X(Shade, "scattering")                                  \
+  X(Shadow, "removes or attenuates occluded shadow rays") \
+  X(Roulette, "Russian roulette and splitting")           \
+  X(Record, "records for training and path reuse")        \
+  X(Accumulate, "adds light to samples, and ends them")   \
   X(Block, "path reuse of pixel blocks")
 
 enum class StageRole : std::uint8_t {

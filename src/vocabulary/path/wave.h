@@ -23,19 +23,19 @@ struct Block;  // src/vocabulary/path/block.h
 // Queues hold path slots. Stages append and read; the driver
 // (src/render/wave/phase_driver.h) clears all but kFree, and kActive, which it takes from
 // kScattered, before a wave. X(name, meaning)
-#define LANELIGHT_QUEUES(X)                                   \
-  X(kFree, "slots without a path")                            \
-  X(kCamera, "paths that need a camera ray")                  \
-  X(kActive, "paths with a ray to intersect")                 \
-  X(kMiss, "paths whose ray left the scene")                  \
-  X(kHit, "paths whose ray hit something")                    \
-  X(kSurface, "hits that will scatter")                       \
-  X(kVertex, "all that will scatter: surfaces and others")    \
-  X(kLit, "surfaces that connect to a light")                 \
-  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*") \
-  X(kScattered, "paths with a new ray after shading")         \
-  X(kPassed, "paths that go through an interface")            \
-  X(kDone, "paths whose radiance is complete")                \
+#define LANELIGHT_QUEUES(X)                                        \
+  X(kFree, "slots without a path")                                 \
+  X(kCamera, "paths that need a camera ray")                       \
+  X(kActive, "paths with a ray to intersect")                      \
+  X(kMiss, "paths whose ray left the scene")                       \
+  X(kHit, "paths whose ray hit something")                         \
+  X(kSurface, "hits that will scatter")                            \
+  X(kVertex, "paths that will scatter: at surfaces and elsewhere") \
+  X(kLit, "surfaces that connect to a light")                      \
+  X(kShadow, "paths with a shadow ray in ls_* carrying sh_*")      \
+  X(kScattered, "paths with a new ray after shading")              \
+  X(kPassed, "paths that go through an interface")                 \
+  X(kDone, "paths whose radiance is complete")                     \
   X(kScratch, "filtered sub-queue, valid inside one stage call")
 
 enum class QueueId : std::uint8_t {

@@ -32,7 +32,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "f / p, p = 1 / (2 pi); specular lobes are followed as they are", "paper 3.5.1")      \
   X(T, K, Bsdf, PLAIN, ({}), "bsdf", "", "scattered directions distributed like the material (importance)", \
     "f / p, p ~ BSDF cos; GGX by visible normals", "paper 3.5.2; Heitz 2018")             \
-  X(T, K, Light, PLAIN, ({kSampledHittableLights}), "light", "", "light reaches a surface by points sampled on the lights only", \
+  X(T, K, Light, PLAIN, ({kSampledHittableLights}), "light", "", "light sampling only", \
     "f(x, y) V(x, y) Le / p(y)", "Shirley, Wang and Zimmerman 1996")                      \
   X(T, K, Mis, PLAIN, ({kSampledHittableLights}), "mis", "[:power|:balance]", "both, weighted by the power or balance heuristic (default)", \
     "sum_i w_i f / p_i, w_i = p_i^e / sum_j p_j^e, e = 2 or 1", "Veach and Guibas 1995")
@@ -54,14 +54,14 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "u = frac(i (1, z) / N + shift)", "Cranley and Patterson 1976; Sloan and Joe 1994")
 
 #define LANELIGHT_PAIRS(X, T, K)                                                                \
-  X(T, K, None, PLAIN, ({}), "none", "", "samples are drawn one by one (default)", "1/N sum f(u)", "") \
+  X(T, K, None, PLAIN, ({}), "none", "", "no antithetic samples (default)", "1/N sum f(u)", "") \
   X(T, K, Antithetic, STAGE, ({}), "antithetic", "[:all|:pixel|:light|:bsdf|:first-bounce]", \
     "samples 2k and 2k+1 share their numbers, the second reflected",                      \
     "1/(2N) sum (f(u) + f(1 - u)); azimuths u + 1/2", "paper eq. 6; Hammersley and Morton 1956")
 
 #define LANELIGHT_CONTROLS(X, T, K)                                                             \
   X(T, K, None, PLAIN, ({}), "none", "", "no control variate (default)", "1/N sum f", "") \
-  X(T, K, Regression, STAGE, ({}), "regression", "", "h = quadratic polynomial in the numbers of the first scattered direction, linear in the first choices of lobes, fitted to the other half of the samples", \
+  X(T, K, Regression, STAGE, ({}), "regression", "", "h = polynomial in the first random numbers of a path (quadratic in the direction, linear in the choice of lobe), fitted to the other half of the samples", \
     "1/N sum (f - c sum_j b_j phi_j(u)), E[phi_j] = 0, b_j = Cov(f, phi_j) / Var(phi_j)", "paper eq. 7; Salaun et al. 2022")
 
 #define LANELIGHT_ROULETTES(X, T, K)                                                            \
@@ -78,14 +78,14 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
     "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
 
 #define LANELIGHT_LIGHT_SELECTIONS(X, T, K)                                                     \
-  X(T, K, Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light alike", "p = 1 / n", "") \
+  X(T, K, Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light with the same probability", "p = 1 / n", "") \
   X(T, K, Power, PLAIN, ({kLightTable}), "power", "", "lights in proportion to their power (default)", \
     "p ~ power, by an alias table", "Walker 1977; Vose 1991")                             \
   X(T, K, Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
     "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018")
 
 #define LANELIGHT_VISIBLE_LIGHTS(X, T, K)                                                          \
-  X(T, K, Paths, PLAIN, ({}), "paths", "", "light that the camera sees itself by the camera rays of the paths", \
+  X(T, K, Paths, PLAIN, ({}), "paths", "", "directly visible lights by the camera rays of the paths", \
     "1/N sum Le(x_i)", "")                                                                \
   X(T, K, Apart, PLAIN, ({}), "apart", "", "the same, but by " LANELIGHT_TEXT(LANELIGHT_VISIBLE_LIGHT_RAYS) " further camera rays per path in pixels at edges of lights (default)", \
     "1/N sum (f_i - Le(x_i)) + 1/(M N) sum Le(y_j), M = " LANELIGHT_TEXT(LANELIGHT_VISIBLE_LIGHT_RAYS), "splitting: Arvo and Kirk 1990")
@@ -100,41 +100,41 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 
 #define LANELIGHT_LIGHT_CANDIDATE_CHOICES(X, T, K)                                              \
   X(T, K, Single, PLAIN, ({}), "single", "", "every light sample is used (default)", "f / p", "") \
-  X(T, K, Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by what it would add unshadowed", \
+  X(T, K, Resampled, PLAIN, ({kLightCandidates}), "resampled", "[:M]", "one of M = " LANELIGHT_TEXT(LANELIGHT_LIGHT_CANDIDATES) " light samples, by its unshadowed contribution", \
     "f(y) / h(y) 1/M sum h(x_i) / p(x_i), h = f without visibility", "Talbot, Cline and Egbert 2005")
 
 #define LANELIGHT_ENVIRONMENT_CHOICES(X, T, K)                                                  \
   X(T, K, Plain, PLAIN, ({}), "plain", "", "environment images sampled in proportion to their radiance (default)", \
     "p ~ L", "")                                                                          \
-  X(T, K, Compensated, PLAIN, ({}), "compensated", "", "the same less its mean, with directions=mis: what is dim is left to the material", \
+  X(T, K, Compensated, PLAIN, ({}), "compensated", "", "in proportion to radiance minus its mean; BSDF sampling covers the dim parts (needs directions=mis)", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
 
 #define LANELIGHT_SHADOW_ROULETTES(X, T, K)                                                     \
   X(T, K, None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
-  X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays are traced with a probability that falls with what they can still add", \
-    "f V / s or 0, s = min(1, max(FLOOR = 0.1, what it adds / what the pixel is worth))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
+  X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays that can add less are traced with a lower probability", \
+    "f V / s or 0, s = min(1, max(FLOOR = 0.1, contribution / expected pixel value))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
 #define LANELIGHT_DISTANCES(X, T, K)                                                            \
-  X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to what reaches them (default)", \
+  X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to the transmittance (default)", \
     "f / p, p = sigma_t T(d)", "Raab, Seibert and Keller 2008")                           \
   X(T, K, Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
     "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
 
 #define LANELIGHT_REUSES(X, T, K)                                                               \
-  X(T, K, None, PLAIN, ({}), "none", "", "a path serves its own pixel (default)", "f L / p", "") \
-  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile serve all their first ones", \
+  X(T, K, None, PLAIN, ({}), "none", "", "no path reuse (default)", "f L / p", "") \
+  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
 #define LANELIGHT_DECISIONS(X, T, K)                                                            \
-  X(T, K, None, PLAIN, ({}), "none", "", "the strategy is as its other keys say (default where a strategy is named, and of short renders)", "one strategy", "")       \
-  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses roulette and reuse, where a change of them is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples on, where no strategy is named)", \
+  X(T, K, None, PLAIN, ({}), "none", "", "the strategy is used as given (default for short renders, and if a strategy is named)", "one strategy", "")       \
+  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses another roulette or reuse if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 
 // The layouts of reuse=block: X(name, text, meaning)
 #define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
   X(Random, "random", "at random from the tile, anew for each sample (default)")       \
-  X(Compact, "compact", "a rectangle that lies elsewhere in the tile for each sample") \
+  X(Compact, "compact", "a rectangle at another position in the tile for each sample") \
   X(Apart, "apart", "a rectangle of every second pixel")
 
 // Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)

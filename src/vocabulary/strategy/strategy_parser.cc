@@ -84,7 +84,7 @@ class Parser {
               const char* const (&names)[kSize], Choice& choice) const {
     const auto* name = std::find(names, names + kSize, found);
     if (name == names + kSize) {
-      Unknown(fmt::format("value of \"{}\"", key), found, {names, names + kSize});
+      Unknown(fmt::format("value of {}=:", key), found, {names, names + kSize});
     }
     choice = static_cast<Choice>(name - names);
   }

@@ -118,7 +118,7 @@ TEST_CASE("measured files: errors say where and what", "[image][measured]") {
   using Catch::Contains;
   const std::string good = reference::MeasuredFile(SmallModel());
   CHECK_THAT(ErrorOfFile("PK\3\4"),
-             Contains("\"x.bsdf\": byte 0: does not begin as tensor files do"));
+             Contains("\"x.bsdf\": byte 0: does not start with \"tensor_file\""));
   CHECK_THAT(ErrorOfFile(good.substr(0, 15)), Contains("the file ends within"));
   std::string version = good;
   version[12] = 2;

@@ -63,11 +63,11 @@ TEST_CASE("a state truncated at any byte is refused", "[state]") {
   for (std::size_t size = bytes.size(); size-- > 0;) {
     REQUIRE(truncate(path.c_str(), static_cast<off_t>(size)) == 0);
     const std::string error = ErrorOf(path);
-    if (error.find(size > 0 ? "torn" : "empty") != error.npos) continue;
+    if (error.find(size > 0 ? "truncated" : "empty") != error.npos) continue;
     FAIL_CHECK(size << " bytes: " << error);
   }
   folder.Write("state", bytes + '\0');
-  CHECK_THAT(ErrorOf(path), Contains("torn"));
+  CHECK_THAT(ErrorOf(path), Contains("truncated"));
 }
 
 // All content has one hash, which any bit of a byte changes; the seal has fields.
@@ -104,14 +104,14 @@ TEST_CASE("a file that is not a state is reported as such", "[state]") {
              Contains("absent") && Contains("No such file"));
   CHECK_THAT(ErrorOf(folder.Write("empty", "")), Contains("is empty"));
   CHECK_THAT(ErrorOf(folder.Write("text", std::string(2000, 'x'))),
-             Contains("is not a state file"));
+             Contains("not a state file"));
   CHECK_THAT(ErrorOf(folder.File("")), Contains("is a directory"));
   REQUIRE(mkfifo(folder.File("pipe").c_str(), 0600) == 0);
   CHECK_THAT(ErrorOf(folder.File("pipe")), Contains("a FIFO"));
   CHECK_THAT(ErrorOf("/dev/zero"), Contains("a device"));
   const std::string foreign = folder.File("foreign.h5");
   H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK_THAT(ErrorOf(foreign), Contains("is not a state file"));
+  CHECK_THAT(ErrorOf(foreign), Contains("not a state file"));
 }
 
 TEST_CASE("a sealed file with missing content is an input error", "[state]") {
@@ -144,7 +144,7 @@ TEST_CASE("a state that claims more than it stores is refused", "[state]") {
   std::string bytes = ReadWholeFile(path);
   Seal(bytes.data(), bytes.size(), kStateSchema);
   CHECK_THAT(ErrorOf(folder.Write("claims", bytes)),
-             Contains("identity claims 1000000001 bytes"));
+             Contains("identity should have 1000000001 bytes"));
 }
 
 TEST_CASE("rows that do not expand are an error of their file", "[state]") {

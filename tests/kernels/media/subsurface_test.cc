@@ -203,7 +203,7 @@ TEST_CASE("subsurface: lights that cannot enter are noted", "[media][subsurface]
   CHECK(notes(0, false).empty());
   CHECK(notes(0.3, true).empty());
   REQUIRE(notes(0, true).size() == 1);
-  CHECK_THAT(notes(0, true)[0].message, Catch::Contains("does not get into a smooth"));
+  CHECK_THAT(notes(0, true)[0].message, Catch::Contains("do not light a smooth"));
 }
 
 TEST_CASE("subsurface: columns exist only in scenes with it", "[media][plan]") {

@@ -131,10 +131,10 @@ TEST_CASE("refused requests are reported, and rendering continues", "[live]") {
   REQUIRE(page.UntilSpp(1, 4));
   const nlohmann::json slots = page.Last("state")["slots"];
   CHECK_THAT(slots[0]["refused"].get<std::string>(),
-             Catch::Contains("reuse=block needs"));
+             Catch::Contains("reuse=block does not support"));
   page.Send(R"({"do": "exr", "slot": 0})");
   CHECK(page.Until([&] {
-    return page.Last("refused")["text"].get<std::string>().find("no whole picture") !=
+    return page.Last("refused")["text"].get<std::string>().find("no complete image") !=
            std::string::npos;
   }));
 }

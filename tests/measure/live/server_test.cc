@@ -177,7 +177,7 @@ TEST_CASE("the server listens on 127.0.0.1 only and reports used ports", "[live]
   // Another address of this machine's loopback.
   CHECK(Connect(INADDR_LOOPBACK + 1, server.port) < 0);
   CHECK_THROWS_WITH(Server(server.live_scene(), "", server.port),
-                    Catch::Contains("cannot be had"));
+                    Catch::Contains("cannot use port"));
 }
 
 TEST_CASE("pages receive a close message", "[live]") {

@@ -79,7 +79,7 @@ Json CompleteScene(std::vector<ReportImage>& images) {
                           {"stated", 0.95}};
   scene["bias"] = {{"tests", 6}, {"failed", 1}, {"level", 0.05}};
   scene["verdict"] =
-      "Sobol points and multiple importance sampling give the least error for the time: "
+      "Sobol points and multiple importance sampling are the most efficient strategy: "
       "at 64 samples per pixel they are several times as efficient as plain path "
       "tracing, "
       "and no strategy that ran is distinguishable from them except those below rank 2.";

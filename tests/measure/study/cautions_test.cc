@@ -91,7 +91,7 @@ TEST_CASE("a machine whose load exceeds its cores gets a caution", "[study]") {
   s.analysis.machines[0].load = 7.25;
   const auto texts = s.Texts();
   REQUIRE(texts.size() == 1);
-  CHECK_THAT(texts[0], Contains("7.25, exceeds its 2 cores"));
+  CHECK_THAT(texts[0], Contains("load 7.25, 2 cores"));
 }
 
 }  // namespace lanelight

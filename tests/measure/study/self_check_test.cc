@@ -64,7 +64,7 @@ TEST_CASE("a strategy with too narrow intervals is reported with its pixels", "[
   CHECK(f.inside == 9);
   CHECK(f.total == 24);
   CHECK(f.worst_share == Approx(0.24));
-  CHECK_THAT(text, Contains("Those of narrow held in 9 of 24") && Contains("(31, 5)") &&
+  CHECK_THAT(text, Contains("For narrow, 9 of 24") && Contains("(31, 5)") &&
                        Contains("24 %") && !Contains("good") && !Contains("other"));
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("strategies with valid intervals are not reported", "[study]") {
   for (int k = 0; k < 30; ++k) {
     s.Add("s" + std::to_string(k), 8, [&](int i) { return k != 5 || i > 0; });
   }
-  CHECK_THAT(s.Text(), Contains("99.6 %") && Contains("of 240 renders of 8 seeds"));
+  CHECK_THAT(s.Text(), Contains("99.6 %") && Contains("of 240 renders (8 seeds"));
   CHECK(s.analysis.self_failures.empty());
 }
 

@@ -192,8 +192,8 @@ seed = 7
 
 TEST_CASE("sweep: mistakes are named with their place and a remedy", "[sweep]") {
   const std::vector<Broken> kBroken = {
-      {"[grid\n", "1:", {"not TOML"}},
-      {"[grid]\nscene = 'a.pbrt'\nscene = 'b.pbrt'\n", "3:9", {"not TOML", "scene"}},
+      {"[grid\n", "1:", {"invalid TOML"}},
+      {"[grid]\nscene = 'a.pbrt'\nscene = 'b.pbrt'\n", "3:9", {"invalid TOML", "scene"}},
       {"", "1:1", {"no [grid]"}},
       {"grid = 3", "1:8", {"grid is the integer 3", "[grid] on a line"}},
       {"[gird]\nscene = 'a.pbrt'", "1:2", {"unknown table \"gird\"", "mean \"grid\""}},

@@ -148,7 +148,7 @@ TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   CHECK((RenderKept(r) == RenderKept(plain)));
   // Half of it is no render to go on with.
   r.checkpoint.from = l;
-  CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("384 of the 768 pixels"));
+  CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("384 of 768 pixels"));
 }
 
 TEST_CASE("merge: the machines of all parts are named", "[merge]") {
@@ -237,7 +237,7 @@ TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   refused(missing, "nothing");
   const std::string text = ReadWholeFile(r.checkpoint.path);
   folder.Write("a", text.substr(0, text.size() / 2));
-  refused(r, "torn");
+  refused(r, "truncated");
 }
 
 }  // namespace lanelight

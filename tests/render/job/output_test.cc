@@ -129,7 +129,7 @@ TEST_CASE("outputs never overwrite inputs, even through links", "[render]") {
   // A folder takes in what lies in it, itself there or not.
   for (const char* folder : {"", "sub/up", "sub/..", "."}) {
     CHECK_THROWS_WITH(CheckOutputPaths({{}, {directory / folder}}, {input}),
-                      Contains("in.png', which is read, lies in"));
+                      Contains("in.png', which is an input, lies in"));
   }
   CHECK_NOTHROW(CheckOutputPaths({{}, {directory / "sub", directory / "in"}}, {input}));
 }

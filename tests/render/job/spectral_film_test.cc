@@ -238,7 +238,7 @@ TEST_CASE("spectral film: it selects spectral transport", "[render][spectral][bu
     CHECK(job.loaded->transport_why == "the film keeps spectra");
   }
   CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", TransportSetting::kRgb); }),
-             Catch::Contains("Film \"spectral\" keeps wavelengths") &&
+             Catch::Contains("Film \"spectral\" needs wavelengths") &&
                  Catch::Contains("--transport rgb"));
   const std::string says = SpectralText(
       "", kOneEnvironment, "Integrator \"path\" \"string transport\" \"rgb\"");

@@ -26,7 +26,7 @@ TEST_CASE("a checkpoint has one writer, and its lock file is removed",
   {
     const StateLock lock(state, kNoProblem);
     CHECK_THROWS_WITH(StateLock(state, kNoProblem),
-                      Catch::Contains(state) && Catch::Contains("is being kept by") &&
+                      Catch::Contains(state) && Catch::Contains("is in use by") &&
                           Catch::Contains(fmt::format("process {} on ", getpid())));
     const StateLock other(folder.File("t"), kNoProblem);
     CHECK(folder.Count() == 2);

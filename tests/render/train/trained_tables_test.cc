@@ -70,20 +70,21 @@ TEST_CASE("a trained table of the wrong size is refused with both sizes", "[stat
       const std::size_t size = good[i].values.size();
       CHECK_THAT(ErrorOf(bad, kPixels),
                  Contains("table '" + good[i].name + "' has " +
-                          std::to_string(bad[i].values.size()) +
-                          " values: " + std::to_string(size) + " are right"));
+                          std::to_string(bad[i].values.size()) + " values; expected " +
+                          std::to_string(size) + ":"));
     }
   }
   CHECK(ErrorOf(good, kPixels) == "");
   // Tables of another image.
-  CHECK_THAT(ErrorOf(good, 7), Contains("'path_values_inverse' has 18 values: 21 are"));
+  CHECK_THAT(ErrorOf(good, 7),
+             Contains("'path_values_inverse' has 18 values; expected 21:"));
 }
 
 TEST_CASE("an empty per-pixel table next to cells is refused", "[state]") {
   std::vector<TrainedTable> bad = ExportTraining(SmallTables());
   bad[3].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),
-             Contains("'path_values_inverse' has 0 values: 18 are right, 3 for each of "
+             Contains("'path_values_inverse' has 0 values; expected 18: 3 for each of "
                       "the 6 pixels of the full image"));
 }
 

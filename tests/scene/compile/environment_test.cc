@@ -172,7 +172,7 @@ TEST_CASE("compile: invalid environment images are refused", "[scene][compile]")
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), image),
                     Catch::Contains("pixel (1, 0)"));
   CHECK_THROWS_WITH(CompileEnvironment(Infinite(), MakeImage(2, 2, {"X", "Y", "Z"})),
-                    Catch::Contains("its channels (X, Y, Z) are no colour"));
+                    Catch::Contains("its channels (X, Y, Z) are not a colour image"));
   SceneDescription d = SquareScene();
   d.lights = {Infinite()};
   d.lights[0].image_path = "/nowhere/sky.exr";

@@ -90,7 +90,7 @@ TEST_CASE("focus: emitting spheres, and those at a distance, are ordinary", "[co
   const auto scene = CompileScene(d);
   CHECK(scene.geometry.large_spheres.empty());
   REQUIRE(scene.notes.size() == 1);
-  CHECK(scene.notes[0].message.find("1e+06 times larger") != std::string::npos);
+  CHECK(scene.notes[0].message.find("is 1e+06 times the") != std::string::npos);
 
   d.shapes[0] = SphereAt({0, 0, -1e4}, 1e4);
   d.shapes[0].area_light = 0;

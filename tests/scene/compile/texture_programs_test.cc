@@ -74,8 +74,9 @@ TEST_CASE("unreadable textures are errors with location and file", "[texture]") 
                                               Catch::Contains("No such file"));
   t.path = folder.File("depth.exr");
   WriteExr(t.path, 1, 1, {{"X", {1}}, {"Z", {1}}});
-  CHECK_THROWS_WITH(CompileTextures({t}),
-                    Catch::Contains("depth.exr: its channels (X, Z) are no colour"));
+  CHECK_THROWS_WITH(
+      CompileTextures({t}),
+      Catch::Contains("depth.exr: its channels (X, Z) are not a colour image"));
 }
 
 TEST_CASE("non-finite texels are replaced, with a note", "[texture]") {

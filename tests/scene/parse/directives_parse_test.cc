@@ -267,7 +267,7 @@ TEST_CASE("without access to files nothing is opened", "[parse]") {
                            "Shape \"plymesh\" \"string filename\" \"a.ply\"",
                            "LightSource \"point\" \"spectrum I\" \"a.spd\""}) {
     CAPTURE(text);
-    CHECK(WorldError(text).find("files may not be read here") != std::string::npos);
+    CHECK(WorldError(text).find("reading files is disabled here") != std::string::npos);
   }
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("windows of the film are sorted, clamped or ignored as in pbrt-v4", "[
       {"\"integer pixelbounds\" [ 4 99 0 4 ]", "is clamped", {4, 8, 0, 4}},
       {"\"integer pixelbounds\" [ 4 2 0 4 ]", "", {2, 4, 0, 4}},
       {"\"float cropwindow\" [ 0 1 0 0.5 ] \"integer pixelbounds\" [ 0 1 0 1 ]",
-       "cropwindow counts",
+       "cropwindow is used",
        {0, 8, 0, 4}},
       {"\"integer pixelbounds\" [ 0 4 ]", "is ignored", {0, 0, 0, 0}},
       {"\"float cropwindow\" [ 0 1 0 ]", "is ignored", {0, 0, 0, 0}}};
@@ -301,10 +301,10 @@ TEST_CASE("windows of the film are sorted, clamped or ignored as in pbrt-v4", "[
 }
 
 TEST_CASE("values that pbrt-v4 replaces give warnings", "[parse]") {
-  const auto warned = [](const std::string& text, const std::string& counts) {
+  const auto warned = [](const std::string& text, const std::string& used) {
     const SceneDescription scene = ParseWorld(text);
     CAPTURE(text);
-    CHECK(HasWarning(scene, counts + " counts, as in pbrt-v4"));
+    CHECK(HasWarning(scene, used + " is used, as in pbrt-v4"));
     return scene;
   };
   const std::string points = "\"point3 P\" [ 0 0 0  1 0 0  2 0 0  3 0 0 ]";

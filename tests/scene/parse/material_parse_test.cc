@@ -159,7 +159,7 @@ TEST_CASE("mix, interface, named materials", "[parse]") {
   const Material& mapped = scene.materials[scene.shapes[4].material];
   CHECK(mapped.normal_map.ends_with("n.png"));
   CHECK(HasNote(scene, "the normal map counts"));
-  CHECK(HasNote(scene, "the bump and normal maps of the mixed materials count"));
+  CHECK(HasNote(scene, "the bump and normal maps of the mixed materials are used"));
 }
 
 TEST_CASE("textures", "[parse]") {
@@ -299,7 +299,7 @@ TEST_CASE("invalid measured materials are refused", "[parse]") {
   const std::string material = "Material \"measured\" ";
   const std::string named = material + "\"string filename\" \"no.bsdf\"";
   CHECK_THAT(WorldError(material), Contains("has no \"string filename\""));
-  CHECK_THAT(WorldError(named), Contains("files may not be read here"));
+  CHECK_THAT(WorldError(named), Contains("reading files is disabled here"));
   CHECK_THROWS_WITH(ParseSceneText("WorldBegin " + named, "test.pbrt", "."),
                     Contains("test.pbrt:1:") && Contains("no.bsdf"));
 }

@@ -75,7 +75,7 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(Points::kSobol, 8) == "sobol, 4 randomisations of 2 points");
   CHECK(TextOf(Points::kSobol, 0) == "sobol, 4 randomisations");
   CHECK(TextOf(Points::kCmj, 7) ==
-        "cmj, not stratified (that takes 8 samples): as independent");
+        "cmj, not stratified (needs 8 samples per pixel), so the same as independent");
   CHECK(TextOf(Points::kSobol, 100) ==
         "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
   CHECK(TextOf(Points::kSobol, 9) ==
@@ -91,7 +91,7 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
         "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
   CHECK(TextOf(Points::kHalton, 15, true) ==
         "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
-  CHECK(TextOf(Points::kHalton, 14, true).find("takes 16 samples") != std::string::npos);
+  CHECK(TextOf(Points::kHalton, 14, true).find("needs 16 samples") != std::string::npos);
 }
 
 }  // namespace lanelight::test

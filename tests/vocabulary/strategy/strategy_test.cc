@@ -105,7 +105,7 @@ TEST_CASE("unknown words are reported with valid ones", "[strategy]") {
       {"decide=pilot:", "\"pilot\" of decide takes no argument"},
       {"c=best", "is not a number"},
       {"c=nan", "is not a number"},
-      {"points=", "unknown value of \"points\" \"\""},
+      {"points=", "unknown value of points=: \"\""},
   };
   for (const auto& [text, message] : cases) {
     INFO(text);

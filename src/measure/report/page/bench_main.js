@@ -1,5 +1,5 @@
 "use strict";
-// The page of a benchmark: how fast one machine renders.
+// Page of a benchmark: how fast one machine renders.
 
 const targetNames = [...new Set(study.rows.map((row) => row.target))];
 const threadCounts = [...new Set(study.rows.map((row) => row.threads))];
@@ -30,7 +30,7 @@ function benchHeadline() {
   const scenes = new Set(study.rows.map((row) => row.scene)).size;
   const of = scenes > 1 ? ` (geometric mean of ${scenes} scenes)` : "";
   const more = most > least ? `, ${rateOn(most)}` : "";
-  return `${rateOn(least)}${more}${of}, ${target}.`;
+  return `This machine renders ${rateOn(least)}${more}${of}, with ${instructionSet(target)}.`;
 }
 
 function benchTable() {
@@ -38,8 +38,8 @@ function benchTable() {
   const efficiency = ({ parallel_efficiency: interval }) =>
     twoLines(intervalTexts(interval || { value: null }));
   return plainTable("All rows",
-    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s", "Efficiency",
-      "Rays / s", "Bytes / path", "Samples per pixel", "Repeats"],
+    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s",
+      "Parallel efficiency", "Rays / s", "Bytes / path", "Samples per pixel", "Repeats"],
     study.rows.map((row) => [
       row.scene,
       row.target,
@@ -60,15 +60,15 @@ function benchSections(lines) {
   const parallel =
     threadCounts.length > 1 && study.rows.some((row) => row.parallel_efficiency)
       ? [strategyLegend(view, "Lines shown"), efficiencyFigure(view, lines)]
-      : el("p", "Needs rows of one thread and of more: --threads 1,2,4,8");
+      : el("p", "Needs rows with 1 thread and with more: use --threads 1,2,4,8.");
   return [
     section("rates", "Samples per second", rateRows(lines),
-      el("p.hint", "Medians of the repeats with their " +
-        `${fmtShortPercent(study.confidence)} intervals, by order statistics.`)),
-    section("threads", "Efficiency against threads", parallel),
-    section("groups", "Where the time of a sample goes",
-      el("p.lead", "All threads together, of the last repeat: one " +
-        "measurement, without an interval."),
+      el("p.hint", "Median of the repeats and its " +
+        `${fmtShortPercent(study.confidence)} confidence interval (order statistics).`)),
+    section("threads", "Parallel efficiency against thread count", parallel),
+    section("groups", "Processor time per sample, by stage",
+      el("p.lead", "Sum over all threads in the last repeat. This is a single " +
+        "measurement, so it has no interval."),
       groupBars(view)),
     section("rows", "All rows", benchTable()),
   ];
@@ -86,8 +86,8 @@ function startBench() {
   });
   const wide = { class: "wide" };
   showContent(
-    firstSection("How fast this machine renders",
-      el("p.lead.headline", lines.length > 0 ? benchHeadline() : "Nothing was measured."),
+    firstSection("Rendering speed of this machine",
+      el("p.lead.headline", lines.length > 0 ? benchHeadline() : "No row was measured."),
       el("dl.facts",
         fact("Machine", study.machine.text, null, wide),
         fact("Program", study.program, null, wide)),

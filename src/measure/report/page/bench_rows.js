@@ -53,10 +53,10 @@ function efficiencyFigure(view, lines) {
   whenVisible(view, figure, () =>
     logPlot(view, host, {
       lines: lines.map(efficiencyPoints),
-      label: "Efficiency against threads",
+      label: "Parallel efficiency against thread count",
       xAxis: { label: "threads", ticks: binaryTicks, format: fmtCount },
       yAxis: {
-        label: "rate / (threads × rate of one)",
+        label: "rate / (threads × rate of 1 thread)",
         ticks: decadeTicks,
         format: errorTick,
       },
@@ -64,14 +64,14 @@ function efficiencyFigure(view, lines) {
       describe: (line, point) => noteOf(
         line.name,
         threadsText(point.x),
-        `efficiency ${joined(intervalTexts(point.interval))}`,
+        `parallel efficiency ${joined(intervalTexts(point.interval))}`,
       ),
     }),
   );
   return figure;
 }
 
-const REST = "all else";
+const REST = "other stages";
 
 // One bar for each line, of its fewest threads: where the time of a sample goes is the same
 // on several, but for the machine.

@@ -1,5 +1,5 @@
 "use strict";
-// What renders say of their own error against what it is.
+// Errors that renders estimate against their true errors.
 
 function calibrationLines(view, ratio) {
   return levelLines(view, (level) => calibrationPoint(level, ratio));
@@ -28,25 +28,25 @@ function describeCalibration(line, { level }) {
   return noteOf(
     line.name,
     `${fmtCount(level.spp)} spp`,
-    `true ${joined(intervalTexts(level.relmse))}`,
-    `estimated ${joined(intervalTexts(level.self.relmse))}`,
-    `interval held in ${level.self.inside} of ${level.self.total} renders`,
-    level.self.refused > 0 && `${level.self.refused} renders stated none`,
+    `true relative MSE ${joined(intervalTexts(level.relmse))}`,
+    `estimated relative MSE ${joined(intervalTexts(level.self.relmse))}`,
+    `interval contains the true error in ${level.self.inside} of ${level.self.total} renders`,
+    level.self.refused > 0 && `${level.self.refused} renders without an interval`,
   );
 }
 
-// Their samples could not tell how large it is.
+// Renders whose samples are too few for an interval.
 function refusedText({ refused, total }) {
-  if (!(refused > 0)) return "No render stated an interval of its own error.";
+  if (!(refused > 0)) return "No render printed a confidence interval for its own error.";
   return (
-    `${fmtCount(refused)} of ${fmtCount(refused + total)} renders stated no interval: ` +
-    "rare bright samples may be missing from them, and their own samples cannot tell."
+    `${fmtCount(refused)} of ${fmtCount(refused + total)} renders printed no interval, ` +
+    "because they may have missed rare bright samples."
   );
 }
 
 function calibrationNumber(calibration) {
   if (!calibration) {
-    return el("p", "No render had an estimate of its own error.");
+    return el("p", "No render estimated its own error.");
   }
   if (!known(valueOf(calibration.share))) return el("p", refusedText(calibration));
   const stated = known(calibration.stated)
@@ -57,9 +57,8 @@ function calibrationNumber(calibration) {
     el("div.number", value),
     bounds && el("div.bounds", bounds),
     el("p",
-      `of the ${fmtCount(calibration.total)} renders that stated an interval have their ` +
-        `true relative MSE in it (${fmtCount(calibration.inside)} renders). ` +
-        `Stated confidence: ${stated}.`,
+      `of ${fmtCount(calibration.total)} renders (${fmtCount(calibration.inside)}) have ` +
+        `their true relative MSE inside their own ${stated} confidence interval.`,
     ),
     calibration.refused > 0 && el("p", refusedText(calibration)),
     whiskerRow(calibration),
@@ -81,10 +80,10 @@ function whiskerRow(calibration) {
 }
 
 function calibrationPlot(view, host, ratio) {
-  const x = { label: "true relative MSE", ticks: decadeTicks, format: errorTick };
+  const x = { label: "true relative MSE (against the reference)", ticks: decadeTicks, format: errorTick };
   const y = {
     ...x,
-    label: ratio ? "estimated / true" : "estimated by the render itself",
+    label: ratio ? "estimated / true relative MSE" : "estimated relative MSE",
   };
   return logPlot(view, host, {
     lines: calibrationLines(view, ratio),
@@ -94,16 +93,16 @@ function calibrationPlot(view, host, ratio) {
     guides: (frame) => truthGuide(frame, ratio),
     xAxis: x,
     yAxis: y,
-    label: "Relative MSE that renders estimate of themselves against the true one",
+    label: "Relative MSE estimated by the renders against the true relative MSE",
   });
 }
 
 function calibrationSection(view) {
-  const title = "Does a render know its own error?";
+  const title = "Accuracy of the renders' own error estimates";
   const number = calibrationNumber(view.scene.calibration);
   if (calibrationLines(view, false).length === 0)
     return section("calibration", title, number);
-  const { host, figure } = plotFigure("calibration", "Estimated against true error");
+  const { host, figure } = plotFigure("calibration", "Estimated against true relative MSE");
   let end = () => {};
   const draw = (kind) => {
     end();
@@ -119,8 +118,8 @@ function calibrationSection(view) {
       el("div.calibration-text",
         number,
         el("p.hint",
-          "On the line the estimate is right; below it, the render " +
-            "thinks itself better than it is. The strategies shown are those chosen above.",
+          "On the line, the estimate equals the true error; below it, the render " +
+            "underestimates its error. The plot shows the strategies selected above.",
         ),
       ),
     ),

@@ -67,7 +67,7 @@ function comparatorSection(view, choices, kinds) {
   const title = "Compare images";
   if (!choices.some((choice) => choice.there)) {
     return section("compare", title,
-      missingPicture("This report holds no images of the scene."),
+      missingPicture("This report contains no images of the scene."),
     );
   }
   const comparison = makeComparison(view, choices, kinds);
@@ -97,8 +97,8 @@ function comparatorSection(view, choices, kinds) {
   return section("compare", title,
     comparison.box,
     el("p.hint",
-      "Scroll or pinch to zoom, drag to move; with the keyboard, " +
-        "arrows, + and −, 0 for all of it. Both images always show the same part.",
+      "Scroll or pinch to zoom; drag to move. Keys: arrows move, " +
+        "+ and − zoom, 0 shows the whole image. Both images show the same region.",
     ),
   );
 }

@@ -27,9 +27,9 @@ function differenceKinds() {
     mapKind("relative", "Relative error", "√ of mean (A − B)² / (B² + 0.01)", {
       percent: true,
     }),
-    mapKind("absolute", "Squared error, its root", "√ of mean (A − B)²"),
+    mapKind("absolute", "RMSE", "√ of mean (A − B)²"),
     mapKind("flip-hdr", "FLIP, all exposures", "FLIP at all exposures", { most: 1 }),
-    mapKind("flip-ldr", "FLIP, on screen", "FLIP as the screen shows them", { most: 1 }),
+    mapKind("flip-ldr", "FLIP, displayed range", "FLIP of the displayed (clamped) images", { most: 1 }),
   ];
   return kinds.filter((kind) => study.comparisons.some((c) => c.maps[kind.key]));
 }
@@ -49,27 +49,27 @@ function verdictFacts(c) {
     fact("Relative error", fmtPercent(Math.sqrt(c.relmse)), `relative MSE ${fmt(c.relmse)}`),
     flip && fact("FLIP", fmt(flip.mean), `largest ${fmt(flip.max)}`),
     fact("PSNR", known(c.psnr) ? `${fmt(c.psnr)} dB` : "no difference"),
-    fact("Beyond noise?", { agree: "no", differ: "yes" }[verdict] || "cannot tell",
+    fact("Significant difference", { agree: "no", differ: "yes" }[verdict] || "unknown",
       known(p) ? `p ${p < 1e-12 ? "" : "= "}${pText(p)}` : why),
   );
 }
 
 function verdictSection() {
-  return firstSection(`Against ${study.reference.name}`,
+  return firstSection(`Difference from ${study.reference.name}`,
     study.comparisons.map((c) => [
       el("p.verdict", `${c.verdict}.`),
       c.invalid_test + c.invalid_reference > 0 &&
         warningBox(null, [
           `${fmtCount(c.invalid_test)} values of the image and ` +
-            `${fmtCount(c.invalid_reference)} of the reference are no numbers; they are ` +
-            "left out of all means, and shown in magenta.",
+            `${fmtCount(c.invalid_reference)} of the reference are not finite numbers. All ` +
+            "means exclude them; the images show them in magenta.",
         ]),
       verdictFacts(c),
     ]),
     study.report_scale > 1 &&
       el("p.hint",
-        `The pictures of this page are smaller by ${study.report_scale}, so that a browser ` +
-          "can hold them; the numbers are of all pixels.",
+        `The images on this page are scaled down by a factor of ${study.report_scale}. The ` +
+          "numbers use all pixels.",
       ),
   );
 }

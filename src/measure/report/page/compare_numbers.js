@@ -18,24 +18,24 @@ function flipRows(key, title) {
 
 const COMPARISON_ROWS = [
   ["Relative MSE", (c) => fmt(c.relmse)],
-  ["its root", (c) => fmtPercent(Math.sqrt(c.relmse))],
-  ["without the worst 0.1 %", (c) => fmt(c.relmse_trimmed)],
-  ["after filters of 2, 4, 8 pixels", (c) => c.relmse_filtered.map((x) => fmt(x)).join(", ")],
+  ["Square root of the relative MSE", (c) => fmtPercent(Math.sqrt(c.relmse))],
+  ["Relative MSE without the worst 0.1 % of the pixels", (c) => fmt(c.relmse_trimmed)],
+  ["Relative MSE after box filters of 2, 4, 8 pixels", (c) => c.relmse_filtered.map((x) => fmt(x)).join(", ")],
   ["MSE", (c) => fmt(c.mse)],
   ["RMSE", (c) => fmt(c.rmse)],
   ["Mean absolute error", (c) => fmt(c.mae)],
   ["Mean absolute percentage error", (c) => fmtPercent(c.mape)],
   ["PSNR", (c) => (known(c.psnr) ? `${fmt(c.psnr)} dB` : UNKNOWN)],
-  ["Mean against the reference's", (c) => c.mean_ratio.map((x) => fmt(x, 5)).join(", ")],
+  ["Mean / mean of the reference (R, G, B)", (c) => c.mean_ratio.map((x) => fmt(x, 5)).join(", ")],
   ["Invalid values", (c) => fmtCount(c.invalid_test)],
   ...flipRows("hdr", "FLIP at all exposures"),
-  ...flipRows("ldr", "FLIP on screen"),
+  ...flipRows("ldr", "FLIP of the displayed range"),
   [
-    "Differ by more than 2 standard errors (noise alone: 4.55 %)",
+    "Pixels that differ by more than 2 standard errors (4.55 % expected from noise)",
     (c) => (c.z.available && c.z.count > 0 ? fmtPercent(c.z.beyond_2) : UNKNOWN),
   ],
-  ["Agreement", (c) => c.agreement.verdict],
-  ["p of the test", (c) => pText(c.agreement.p)],
+  ["Test result", (c) => c.agreement.verdict],
+  ["p-value of the test", (c) => pText(c.agreement.p)],
 ];
 
 // Beyond that, distributions are not what they are taken for.
@@ -50,14 +50,14 @@ function numbersSection() {
   );
   return section("numbers", "Numbers",
     plainTable("Numbers",
-      ["measure", ...comparisons.map((c) => c.test)],
+      ["Measure", ...comparisons.map((c) => c.test)],
       rows.map(([name, text]) => [name, ...comparisons.map(text)]),
     ),
     el("p.hint",
-      "Relative MSE: mean of (a − b)² / (b² + 0.01). FLIP: 0 looks alike, 1 as different as " +
-        "can be, to somebody who flips between the images; quartiles are weighted by the " +
-        "error itself. All are of these very pixels and no estimates, so they have no " +
-        "interval.",
+      "Relative MSE: mean of (a − b)² / (b² + 0.01). FLIP estimates the difference that a " +
+        "viewer perceives when flipping between the images: 0 is identical, 1 is the " +
+        "maximum. FLIP medians and quartiles are weighted by the error. These numbers " +
+        "describe the given pixels and are not estimates, so they have no intervals.",
     ),
   );
 }

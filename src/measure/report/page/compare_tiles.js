@@ -1,7 +1,7 @@
 "use strict";
 // The tiles that differ most, magnified; and those that differ by more than noise.
 
-// The tile with half of itself around it, in the page's pixels.
+// Returns the tile with a margin of half its size, in pixels of the page.
 function cropAround(tile, image) {
   const scale = study.report_scale || 1;
   const side = Math.max(tile.width, tile.height) / scale;
@@ -42,10 +42,10 @@ function worstTile(view, comparison, tile, show) {
     ),
     el("figcaption",
       el("b", fmtPercent(tile.share)),
-      ` of the error, at ${at} (${tile.width} × ${tile.height}). `,
+      ` of the total error, at pixel ${at} (${tile.width} × ${tile.height} pixels). `,
       el("button.link",
         { onclick: () => show(comparison.image, study.reference.image, place) },
-        "Show it above",
+        "Show in the viewer above",
       ),
     ),
   );
@@ -63,7 +63,7 @@ function tilesOf(view, comparison, show) {
           : comparison.worst_tiles.map((tile) => worstTile(view, comparison, tile, show)),
       ),
       agreement.verdict === "cannot tell"
-        ? missingPicture(`Whether noise explains it: ${agreement.text}.`)
+        ? missingPicture(`No test: ${agreement.text}.`)
         : el("div.tile-test",
             tilePicture(
               view,
@@ -71,19 +71,19 @@ function tilesOf(view, comparison, show) {
               findImage(study.reference.image),
             ),
             rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
-            el("p.hint", `${agreement.text}.`),
-            agreement.doubt && el("p.hint", `${agreement.doubt}.`),
+            el("p.hint", `${capitalised(agreement.text)}.`),
+            agreement.doubt && el("p.hint", `${capitalised(agreement.doubt)}.`),
           ),
     ),
   );
 }
 
 function tilesSection(view, show) {
-  return section("tiles", "Where they differ",
+  return section("tiles", "Tiles with the largest error",
     el("p.lead",
-      "The tiles that add most to the relative MSE: the image, the reference, and their " +
-        "signed relative difference; and the test whether a tile's mean equals the " +
-        "reference's, with those outlined that differ by more than noise.",
+      "Left: the tiles with the largest share of the relative MSE, as image, reference and " +
+        "signed relative difference. Right: z-score of each tile's mean against the " +
+        "reference; tiles that differ by more than noise are outlined.",
     ),
     study.comparisons.map((comparison) => tilesOf(view, comparison, show)),
   );

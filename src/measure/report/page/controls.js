@@ -83,7 +83,7 @@ function differenceMenu(comparison, retitle) {
     comparison.changed.set("kind");
   };
   const options = comparison.kinds.map((kind) => [kind.key, kind.label]);
-  const box = menu("Of", { "data-control": "difference" }, options, comparison.kind.key, choose);
+  const box = menu("Difference", { "data-control": "difference" }, options, comparison.kind.key, choose);
   box.hidden = true;
   comparison.changed.listen(() => {
     box.hidden = comparison.mode !== "difference";
@@ -94,7 +94,7 @@ function differenceMenu(comparison, retitle) {
 function flipButton(comparison) {
   const button = el("button.button",
     { "data-flip": "", hidden: true, onclick: () => comparison.panes[0].flip() },
-    "Show the other",
+    "Show the other image",
   );
   comparison.changed.listen(() => {
     button.hidden = comparison.mode !== "flip";
@@ -120,8 +120,8 @@ function zoomButtons(comparison) {
   return el("div.choices.zooms", { role: "group", "aria-label": "Zoom" },
     button("−", "Zoom out", (_, p) => ({ zoom: p.zoom / 1.5 })),
     button("+", "Zoom in", (_, p) => ({ zoom: p.zoom * 1.5 })),
-    button("Fit", "Show all of it", () => ({ zoom: 1 })),
-    button("1:1", "One pixel for a pixel", (pane) => ({
+    button("Fit", "Show the whole image", () => ({ zoom: 1 })),
+    button("1:1", "One image pixel per screen pixel", (pane) => ({
       zoom: 1 / fitScale(pane, comparison.size),
     })),
     comparison.zoomText,

@@ -34,7 +34,7 @@ function describePoint(measure, line, { level }) {
     line.name,
     `${fmtCount(level.spp)} spp, ${fmtSeconds(valueOf(level.cpu_seconds))}`,
     `${MEASURES[measure].label} ${joined(intervalTexts(level[measure]))}`,
-    level.reference_limited && "limited by the reference's own error",
+    level.reference_limited && "limited by the error of the reference",
   );
 }
 
@@ -42,7 +42,7 @@ function curvePlot(view, host, measure, xAxis, xOf, more = {}) {
   const { label, power } = MEASURES[measure];
   return logPlot(view, host, {
     lines: curveLines(view, measure, xOf),
-    label: `${label} against ${xAxis.label}, a line for each strategy`,
+    label: `${label} against ${xAxis.label}, one line per strategy`,
     xAxis,
     yAxis: { label, ticks: decadeTicks, format: errorTick },
     ghosts: true,
@@ -58,7 +58,7 @@ function curvePlot(view, host, measure, xAxis, xOf, more = {}) {
 function curvesSection(view) {
   const title = "Error against time and samples";
   if (curveLines(view, "relmse", (level) => level.spp).length === 0) {
-    return section("curves", title, el("p", "No strategy has an error to draw."));
+    return section("curves", title, el("p", "No strategy has a measured error."));
   }
   const time = plotFigure("seconds", "Error against time");
   const samples = plotFigure("spp", "Error against samples");
@@ -87,9 +87,9 @@ function curvesSection(view) {
     el("div.plots", time.figure, samples.figure),
     el("p.hint",
       "Lower and further left is better. Bands are confidence " +
-        "intervals; hollow markers are limited by the reference's own error. Point at a marker " +
-        "for its values, drag to zoom, double-click to reset it; double-click a strategy " +
-        "to see it alone. Those that are not chosen stay as thin grey lines.",
+        "intervals; hollow markers are limited by the error of the reference. Point at a marker " +
+        "for its values, drag to zoom, double-click to reset the zoom. Double-click a strategy " +
+        "to show only that one; unselected strategies are thin grey lines.",
     ),
   );
 }

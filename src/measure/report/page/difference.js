@@ -33,7 +33,7 @@ function sizesEqual(a, b) {
 // end of its range, if it has one.
 const SIGNED_DIFFERENCE = {
   key: "difference",
-  label: "Signed, relative",
+  label: "Signed relative difference",
   title: "(A − B) / √(B² + 0.01)",
   signed: true,
   percent: true,

@@ -2,12 +2,12 @@
 // The founding paper's figures for this scene.
 
 const FIGURE_TITLES = {
-  2: ["Uniform sampling", "Directions are drawn uniformly over the hemisphere."],
-  3: ["Importance sampling", "Directions follow the scattering function."],
-  4: ["Stratified sampling", "The samples of a pixel are spread over strata."],
-  5: ["Antithetic variates", "Samples come in pairs that err in opposite directions."],
-  6: ["Control variates", "A similar integrand whose integral is known is subtracted."],
-  7: ["Russian roulette", "Paths that carry little are ended at random, without bias."],
+  2: ["Uniform sampling", "Scattered directions are uniform over the hemisphere."],
+  3: ["Importance sampling", "Scattered directions follow the BSDF."],
+  4: ["Stratified sampling", "Each stratum of the sample space gets one sample."],
+  5: ["Antithetic variates", "Samples come in pairs with negatively correlated errors."],
+  6: ["Control variates", "A similar function with a known integral is subtracted from the integrand."],
+  7: ["Russian roulette", "Paths with a low throughput end at random; the estimate stays unbiased."],
 };
 
 function figureBox(number, title, body, caption) {
@@ -20,7 +20,7 @@ function figureBox(number, title, body, caption) {
 function diffuseFigure(view) {
   const models = view.scene.diffuse || [];
   if (models.length === 0) {
-    const why = "Not rendered: the scene has no diffuse surfaces.";
+    const why = "Not rendered, because the scene has no diffuse surface.";
     return figureBox(1, "Diffuse models", missingPicture(why), null);
   }
   const cells = models.map((model) => {
@@ -29,7 +29,7 @@ function diffuseFigure(view) {
     return el("div",
       image
         ? tonedPicture(view, image, `The scene with the diffuse model ${model.model}`)
-        : missingPicture("This image is not in the report."),
+        : missingPicture("This report does not contain the image."),
       el("div.under",
         el("b", model.model),
         ` ${model.meaning || ""}`,
@@ -37,7 +37,7 @@ function diffuseFigure(view) {
       ),
     );
   });
-  const caption = "The same scene with each model of diffuse scattering.";
+  const caption = "The scene rendered with each diffuse scattering model.";
   return figureBox(1, "Diffuse models", el("div.models", cells), caption);
 }
 
@@ -48,7 +48,7 @@ function strategyFigure(view, number, { strategy, level, image }, shown, inset, 
   if (!image) {
     const why = statusWord(strategy)
       ? whyMissing(strategy)
-      : "This image is not in the report.";
+      : "This report does not contain the image.";
     return figureBox(number, title, missingPicture(why), [strategy.name, ". ", meaning]);
   }
   const main = tonedPicture(view, image, `${strategy.name}, one repetition`, {
@@ -73,7 +73,7 @@ function insetColumn(view, image, shown, inset) {
       .filter(([, source]) => sizesEqual(source, image))
       .map(([name, source]) =>
         el("div",
-          tonedPicture(view, source, `Magnified part: ${name}`, { crop: inset }),
+          tonedPicture(view, source, `Magnified region: ${name}`, { crop: inset }),
           el("div.inset-name", name),
         ),
       ),
@@ -94,7 +94,7 @@ function figureCaption(view, strategy, level, meaning, compare) {
   const reference = view.scene.reference?.image;
   return [
     meaning,
-    ` ${strategy.name}: ${numbers || "no numbers"}. `,
+    ` ${strategy.name}: ${numbers || "not measured"}. `,
     compare && hasImage(reference) &&
       el("button.link", { onclick: () => compare(strategy.images.one, reference) },
         "Compare",
@@ -108,11 +108,11 @@ function convergenceFigure(view, strategies) {
   const title = "Convergence";
   if (measured.length === 0) {
     return figureBox(8, title,
-                     missingPicture("An order needs at least two sample counts."), null);
+                     missingPicture("A convergence order needs at least two sample counts."), null);
   }
   const shown = makeSignal(new Set(measured.map((s) => s.index)));
   const own = { ...view, ran: measured, shown, focus: makeSignal(null) };
-  const { host, figure } = plotFigure("convergence", "RMSE against samples");
+  const { host, figure } = plotFigure("convergence", "RMSE against samples per pixel");
   const counts = { label: "samples per pixel", ticks: binaryTicks, format: fmtCount };
   const byIndex = new Map(measured.map((s) => [s.index, s]));
   const beside = {
@@ -126,8 +126,8 @@ function convergenceFigure(view, strategies) {
   return figureBox(
     8, title,
     el("div.convergence", figure, orderRows(measured)),
-    "Beside the curves the fitted slope of log RMSE over log samples. The line at −½ is " +
-      "where independent samples fall; further left converges faster.",
+    "Right: the fitted slope of log RMSE over log samples. Independent samples have a slope " +
+      "of −½ (line); a more negative slope converges faster.",
   );
 }
 
@@ -145,10 +145,10 @@ function orderRows(strategies) {
           ...size,
           style: s.style,
           marks: [-0.5],
-          label: `Order of ${s.name}`,
+          label: `Convergence order of ${s.name}`,
         }),
       ),
-      el("div.order-value", joined(intervalTexts(s.order))),
+      el("div.order-value", twoLines(intervalTexts(s.order))),
     ]),
   );
 }
@@ -198,14 +198,14 @@ function paperStrategies(view) {
 function figuresSection(view, compare) {
   const { hosts, controls } = sampledFigures(view, compare);
   const absent = Object.keys(FIGURE_TITLES).filter((key) => !hosts.has(Number(key)));
-  return section("figures", "The paper's figures on this scene",
+  return section("figures", "Figures of the founding paper, on this scene",
     (view.scene.diffuse || []).length > 0 && diffuseFigure(view),
     controls,
     el("div.paper-grid", [...hosts.values()]),
     convergenceFigure(view, paperStrategies(view)),
     absent.length > 0 &&
       el("p.hint",
-        "Not among the strategies of this study: ",
+        "This study did not measure the strategies of: ",
         absent
           .map((number) => `figure ${number} (${FIGURE_TITLES[number][0].toLowerCase()})`)
           .join(", "),

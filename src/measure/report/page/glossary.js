@@ -7,36 +7,36 @@ const TERMS = {
       "+ 0.01, averaged over pixels, channels and repetitions. The reference's own error is " +
       "subtracted.",
   Trimmed:
-    "The same without the worst 1 % of the pixels of each render. Where it is much " +
-      "smaller, a few bright pixels make the error.",
+    "Relative MSE without the worst 1 % of the pixels of each render. If it is much " +
+      "smaller than the relative MSE, a few bright pixels dominate the error.",
   RMSE: "Root of the mean squared difference, in the image's own units.",
-  MAPE: "Mean of the absolute difference relative to the reference.",
+  MAPE: "Mean absolute percentage error: mean of |image − reference| / reference.",
   "Variance and bias²":
-    "The two parts of the relative MSE: what changes from repetition to " +
-      "repetition, and what stays. Bias² is estimated and can be below zero by chance.",
+    "The two parts of the relative MSE: variance differs between repetitions, " +
+      "bias² does not. Bias² is an estimate and can be negative by chance.",
   "Bias and p":
-    "Mean of the image less that of the reference, relative to it; p is the " +
-      "chance of a difference at least this large if there were none (Welch's test).",
+    "Bias: (mean of the image − mean of the reference) / mean of the reference. p: " +
+      "probability of a bias at least this large by chance (Welch's test).",
   Efficiency:
     "1 / (relative MSE × processor seconds), relative to the baseline. It does " +
-      "not depend on the sample count as long as the error falls like 1 / samples; where " +
-      "a budget sets the counts, how sure these are is in the interval.",
+      "not depend on the sample count while the relative MSE falls as 1 / samples. With " +
+      "--budget, the interval includes the uncertainty of the sample counts.",
   Rank:
-    "The places that a strategy may have, given the intervals. Overlapping ranges are " +
-      "not distinguishable by this study.",
+    "Range of ranks that the intervals allow. Strategies with overlapping ranges are " +
+      "not significantly different in this study.",
   Order:
-    "Slope of log RMSE over log samples: −0.5 for independent samples, lower where " +
-      "well-spread samples pay.",
+    "Slope of log RMSE over log samples: −0.5 for independent samples, more negative " +
+      "where a low-discrepancy sampler converges faster.",
   "To the target":
-    "Samples and time until the relative MSE is the target's, between the " +
-      "levels that were measured; beyond them it is marked as extrapolated.",
+    "Samples and processor time needed to reach the target relative MSE. Values " +
+      "beyond the measured sample counts are marked as extrapolated (*).",
   Coverage:
-    "How often the interval that a render states of its own error held the true " +
-      "error. It should be near the stated confidence.",
+    "Percentage of renders whose own confidence interval contains the true error. " +
+      "It should be near the stated confidence level.",
   "Heavy tails":
-    "Rare bright samples carry most of the error, so that a few renders may " +
-      "miss them all: errors look smaller than they are and intervals may not hold.",
+    "Rare bright samples cause most of the error, and a few renders may miss " +
+      "them. The measured error is then too small and the intervals are unreliable.",
   "Processor time":
-    "Summed over threads, median of the repetitions, without loading and " +
-      "building. Runs were interleaved, so that a slow phase of the machine hits all alike.",
+    "Sum over threads, median of the repetitions, excluding scene loading and " +
+      "BVH build. Runs are interleaved, so a slow phase of the machine affects all equally.",
 };

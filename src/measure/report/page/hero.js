@@ -1,5 +1,5 @@
 "use strict";
-// The first thing to see: who wins, by how much, and the picture that shows it.
+// Headline: the most efficient strategy, its gain, and a plot of both strategies.
 
 const MOST_RIVALS = 3; // that the headline names
 
@@ -27,26 +27,41 @@ function gainOver(view, { winner, other }) {
   return other.efficiency.value > 0 ? inverted(other.efficiency) : null;
 }
 
-// Those that are not certainly behind.
+// Strategies whose intervals allow them to be the most efficient.
 function rivalsOf(view, winner) {
   return view.ranked.filter((s) => s !== winner && s.rank && s.rank[0] === 1);
 }
 
-function heroSentence(view, { winner }) {
+// "1.4× [1.3, 1.5] lower relative MSE than NAME at equal processor time".
+function gainText(view, pair) {
+  const gain = gainOver(view, pair);
+  if (!gain) return null;
+  return [
+    `${joined(intervalTexts(gain, 1, "×"))} lower relative MSE than `,
+    el("b", { title: fullName(pair.other) }, shortName(pair.other.name)),
+    " at equal processor time",
+  ];
+}
+
+function heroSentence(view, pair) {
+  const { winner } = pair;
+  const gain = gainText(view, pair);
+  const amount = gain ? [": ", gain] : "";
   const name = el("b", { title: fullName(winner) }, shortName(winner.name));
   const level = winner.level.repetitions;
   if (!winner.rank || level < 3) {
     const times = level === 1 ? "1 repetition" : `${level} repetitions`;
-    const advice = "use 3 or more to test that.";
-    return [name, ` has the least error for the time, after ${times}; ${advice}`];
+    const advice = "use 3 or more repetitions for intervals.";
+    return [name, ` was the most efficient in ${times}`, amount, `; ${advice}`];
   }
   const rivals = rivalsOf(view, winner);
-  if (rivals.length === 0) return [name, " gives the least error for the time."];
+  if (rivals.length === 0) return [name, " is the most efficient", amount, "."];
   const who =
-    rivals.length > MOST_RIVALS ? `${rivals.length} others are` : `${someNames(rivals)} ${
-      rivals.length === 1 ? "is" : "are"
-    }`;
-  return [name, ` is ahead, but ${who} not certainly behind.`];
+    rivals.length > MOST_RIVALS ? `${rivals.length} others` : someNames(rivals);
+  return [
+    name, " has the highest efficiency", amount,
+    `; ${who} may be equally efficient (all pairs tested together).`,
+  ];
 }
 
 function heroNumber(value, bounds, caption) {
@@ -62,9 +77,9 @@ function gainNumber(view, pair) {
   if (!gain) return null;
   const { value, bounds } = intervalTexts(gain);
   return heroNumber(`${value}×`, bounds, [
-    "as efficient as ",
+    "the efficiency of ",
     el("b", shortName(pair.other.name)),
-    pair.other === view.baseline ? ", the baseline" : ", the next",
+    pair.other === view.baseline ? " (baseline)" : " (second)",
   ]);
 }
 
@@ -76,9 +91,9 @@ function targetNumber(view, { winner, other }) {
   const target = fmtShort(view.scene.target_relmse);
   const guess = (t) => (t.extrapolated ? " (extrapolated)" : "");
   return heroNumber(value, bounds, [
-    `of processor time to a relative MSE of ${target}${guess(mine)}`,
+    `of processor time to reach a relative MSE of ${target}${guess(mine)}`,
     theirs && valueOf(theirs.seconds) !== null &&
-      `; ${shortName(other.name)} takes ${joined(secondsTexts(theirs.seconds))}` +
+      `; ${shortName(other.name)} needs ${joined(secondsTexts(theirs.seconds))}` +
         guess(theirs),
   ]);
 }
@@ -96,7 +111,7 @@ function heroPlot(view, { winner, other }) {
   const { host, figure } = plotFigure("hero", "Relative MSE against processor time");
   figure.firstChild.append(
     el("span.hero-legend", strong.map((s) => strategyLabel(s)),
-      view.ran.length > strong.length && el("span.bounds", "grey: the others"),
+      view.ran.length > strong.length && el("span.bounds", "grey: other strategies"),
     ),
   );
   const axis = {
@@ -124,7 +139,7 @@ function hero(view) {
     ),
     scene.verdict &&
       el("details.notes",
-        el("summary", "In words, with all intervals"),
+        el("summary", "Full result as text, with all intervals"),
         el("p.lead", scene.verdict),
       ),
   ];

@@ -28,7 +28,7 @@ function histogramFigure(view, name, title, lines, { at, range, bins, axis }) {
       lines: lines.map((line) => ({ ...line, steps: true, points: points(line) })),
       label: title,
       xAxis: axis,
-      yAxis: { label: "share of the pixels", ticks: decadeTicks, format: fmtShortPercent },
+      yAxis: { label: "fraction of pixels", ticks: decadeTicks, format: fmtShortPercent },
       scales: (some) => {
         const shares = some.flatMap((line) => line.points.map((p) => p.y));
         const y = { from: 0, to: 1.05 * Math.max(...shares, 1e-9), log: false };
@@ -36,7 +36,7 @@ function histogramFigure(view, name, title, lines, { at, range, bins, axis }) {
       },
       describe: (line, { y, low, high }) => noteOf(
         line.name,
-        `${fmtPercent(y)} in ${axis.format(low)} to ${axis.format(high)}`,
+        `${fmtPercent(y)} of the pixels from ${axis.format(low)} to ${axis.format(high)}`,
       ),
     }),
   );
@@ -46,11 +46,11 @@ function histogramFigure(view, name, title, lines, { at, range, bins, axis }) {
 function luminanceHistogram(view, lines) {
   const stops = (x) => `2${x < 0 ? "⁻" : ""}${superscript(Math.round(x))}`;
   return histogramFigure(view, "luminance",
-    "Luminance of the pixels; black ones are in the first bin", lines, {
+    "Distribution of luminance (black pixels are in the first bin)", lines, {
       at: (image, i) => Math.log2(luminanceAt(image, i)),
       range: { from: -12, to: 12, log: false },
       bins: 96,
-      axis: { label: "luminance", ticks: () => [-12, -8, -4, 0, 4, 8, 12], format: stops },
+      axis: { label: "luminance (image units)", ticks: () => [-12, -8, -4, 0, 4, 8, 12], format: stops },
     });
 }
 
@@ -59,12 +59,12 @@ function differenceHistogram(view, lines) {
   const at = (image, i) => channelAt(image, i, 0);
   const top = scaleTop(lines.map(({ image }) => image), at);
   return histogramFigure(view, "difference",
-    "Signed relative difference of the pixels; beyond the ends in the last bins", lines, {
+    "Distribution of the signed relative difference (outliers are in the end bins)", lines, {
       at,
       range: { from: -top, to: top, log: false },
       bins: 81,
       axis: {
-        label: "relative difference", ticks: roundTicks,
+        label: "signed relative difference", ticks: roundTicks,
         format: (x) => (x > 0 ? "+" : "") + fmtShortPercent(x),
       },
     });

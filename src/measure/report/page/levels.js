@@ -6,9 +6,9 @@ const LEVEL_COLUMNS = [
   ["Repetitions", (l) => fmtCount(l.repetitions)],
   ["Relative MSE", (l) => twoLines(intervalTexts(l.relmse))],
   ["Trimmed", (l) => twoLines(intervalTexts(l.relmse_trimmed))],
-  ["After 2 × 2", (l) => twoLines(intervalTexts(l.relmse_2))],
-  ["After 4 × 4", (l) => twoLines(intervalTexts(l.relmse_4))],
-  ["After 8 × 8", (l) => twoLines(intervalTexts(l.relmse_8))],
+  ["Rel. MSE, 2 × 2 filter", (l) => twoLines(intervalTexts(l.relmse_2))],
+  ["4 × 4 filter", (l) => twoLines(intervalTexts(l.relmse_4))],
+  ["8 × 8 filter", (l) => twoLines(intervalTexts(l.relmse_8))],
   ["RMSE", (l) => twoLines(intervalTexts(l.rmse))],
   ["MAPE", (l) => twoLines(percentTexts(l.mape))],
   ["Processor time", (l) => twoLines(secondsTexts(l.cpu_seconds))],
@@ -17,20 +17,20 @@ const LEVEL_COLUMNS = [
   ["p", (l) => fmtP(l.bias_p)],
   ["Variance", (l) => twoLines(intervalTexts(l.variance))],
   ["Bias²", (l) => twoLines(intervalTexts(l.bias2))],
-  ["Mean", (l) => (l.mean || []).map((x) => fmt(x, 4)).join("  ") || UNKNOWN],
-  ["Worst 0.1 %", (l) => fmtPercent(l.worst_share)],
-  ["Self-estimate", (l) => (l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN)],
-  ["Held", (l) => (l.self && known(l.self.total) ? joined(heldTexts(l.self)) : UNKNOWN)],
+  ["Mean R G B", (l) => (l.mean || []).map((x) => fmt(x, 4)).join("  ") || UNKNOWN],
+  ["Error share of worst 0.1 %", (l) => fmtPercent(l.worst_share)],
+  ["Estimated relative MSE", (l) => (l.self ? twoLines(intervalTexts(l.self.relmse)) : UNKNOWN)],
+  ["Coverage", (l) => (l.self && known(l.self.total) ? joined(heldTexts(l.self)) : UNKNOWN)],
   ["Rays / sample", (l) => fmt(l.rays_per_sample)],
   ["Path length", (l) => fmt(l.path_length)],
-  ["Reference's share", (l) => fmtPercent(l.reference_share)],
+  ["Reference noise share", (l) => fmtPercent(l.reference_share)],
   ["Invalid", (l) => fmtCount(l.invalid)],
 ];
 
 function heldTexts({ inside, total, refused }) {
   return {
     value: `${inside} of ${total}`,
-    bounds: refused > 0 ? `(${refused} stated none)` : "",
+    bounds: refused > 0 ? `(${refused} without)` : "",
   };
 }
 
@@ -56,7 +56,7 @@ function levelsDetails(strategy) {
 
 function levelsSection(view) {
   return section("data", "All numbers",
-    el("p.lead", "The same as in study.json; single repetitions are in study.csv."),
+    el("p.lead", "The numbers of study.json. study.csv contains each repetition."),
     leadingRows(view, view.strategies, levelsDetails),
   );
 }

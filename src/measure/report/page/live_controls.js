@@ -22,7 +22,7 @@ function viewBar(page) {
     page.viewer.redraw();
   };
   split.node.hidden = true;
-  const views = choiceButtons("Which picture", VIEWS, look.view, (view) => {
+  const views = choiceButtons("Image shown", VIEWS, look.view, (view) => {
     look.view = view;
     follow();
   });
@@ -33,8 +33,8 @@ function viewBar(page) {
     }
     follow();
   };
-  const tools = choiceButtons("What the mouse moves",
-    [["camera", "Move camera"], ["pan", "Move picture"]],
+  const tools = choiceButtons("Drag moves",
+    [["camera", "Move camera"], ["pan", "Pan image"]],
     page.tool,
     (tool) => {
       page.tool = tool;
@@ -46,7 +46,7 @@ function viewBar(page) {
   const pause = el("button#pause.button", "Pause");
   pause.addEventListener("click", () => {
     page.paused = !page.paused;
-    pause.textContent = page.paused ? "Go on" : "Pause";
+    pause.textContent = page.paused ? "Resume" : "Pause";
     page.socket.send({ do: "pause", on: page.paused });
   });
   return el("div.live-bar", views, tools, pause, split.node);
@@ -73,10 +73,10 @@ function pictureBox(page, canvas) {
 
 function layerMenu(page) {
   const layers = page.hello.layers.map(({ name, meaning }) => [name, meaning]);
-  layers.splice(3, 0, [SAMPLES, "samples of the pixel"]);
+  layers.splice(3, 0, [SAMPLES, "samples per pixel"]);
   const names = {
-    colour: "Picture", error: "Standard error", relative: "Relative error",
-    samples: "Samples", rays: "Cost: rays per sample", depth: "Depth of paths",
+    colour: "Image", error: "Standard error", relative: "Relative error",
+    samples: "Samples per pixel", rays: "Rays per sample", depth: "Path length",
   };
   const legend = el("div#legend", { hidden: true });
   page.drawLegend = () => drawLegend(page, legend, layers);
@@ -98,13 +98,13 @@ function drawLegend(page, legend, layers) {
   const meaning = layers.find(([name]) => name === layer)[1];
   const note = (text) => el("span.note", `${meaning}${text}`);
   const range = page.range();
-  if (!range) return legend.replaceChildren(note(": not known yet"));
+  if (!range) return legend.replaceChildren(note(": no data yet"));
   const [low, high] = range;
   legend.replaceChildren(
     el("span", fmt(low, 2)),
     el("span.ramp", { "aria-hidden": "true" }),
     el("span", fmt(high, 2)),
-    note(", logarithmic; grey: not known yet"),
+    note(", logarithmic scale; grey: no data yet"),
   );
 }
 
@@ -138,11 +138,11 @@ function cameraBar(page) {
     id: "lens", min: 0, max: 0.2, step: 0.001, value: eye.lens / size,
     text: (x) => fmt(x * size), onInput: (x) => change({ lens: x * size }),
   });
-  const focus = slider("Focus at", {
+  const focus = slider("Focus distance", {
     id: "focus", min: -4, max: 4, step: 0.02, value: stops(eye.focus),
     text: (x) => fmt(size * 2 ** x), onInput: (x) => change({ focus: size * 2 ** x }),
   });
-  const home = el("button#home.button", "Camera of the scene");
+  const home = el("button#home.button", "Reset camera");
   home.addEventListener("click", () => page.onHome());
   page.showEye = (now) => {
     fov.set(now.fov);

@@ -43,8 +43,8 @@ const page = {
 
 function build(hello) {
   const canvas = el("canvas#picture", { tabindex: 0, "data-tool": "camera", "aria-label":
-      "The picture. Arrows turn the camera, with shift they move it, plus and minus go " +
-      "nearer and away, 0 goes back" });
+      "Rendered image. Arrow keys turn the camera, with shift they move it, plus and minus " +
+      "zoom, 0 resets" });
   const readout = el("div#readout");
   page.screen = new Screen(canvas);
   page.screen.reset(page.size);
@@ -54,24 +54,24 @@ function build(hello) {
   page.stages = new Stages();
   page.score = el("div#score", { hidden: true });
   page.plot = el("div#error-plot", { hidden: true });
-  const viewer = el("section#viewer", { "aria-label": "Picture" },
+  const viewer = el("section#viewer", { "aria-label": "Image" },
     viewBar(page), pictureBox(page, canvas), readout, toneBar(page), cameraBar(page));
   const side = el("div.live-side",
-    section("compare", "Compare", page.cards.map((card) => card.node), paceButtons(page),
+    section("compare", "Compare strategies A and B", page.cards.map((card) => card.node), paceButtons(page),
       page.score, page.plot),
-    section("figures", "The paper, figure by figure", presetButtons(page, page.cards)),
-    section("take", "Take it away", saveBar(page)),
-    section("stages", "Where the time goes", page.stages.node));
+    section("figures", "Comparisons from the founding paper", presetButtons(page, page.cards)),
+    section("take", "Save and copy", saveBar(page)),
+    section("stages", "Processor time by stage", page.stages.node));
   document.getElementById("content").replaceChildren(el("div.live", viewer, side));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
-  linkSections([["viewer", "Picture"], ["compare", "Compare"],
+  linkSections([["viewer", "Image"], ["compare", "Compare"],
     ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);
   const name = hello.scene.split("/").slice(-2).join("/");
   document.getElementById("scenes").append(el("span.tab", name));
   document.title = `${name} – Lanelight live`;
   document.getElementById("bottom").textContent =
-    `${hello.version}, ${hello.threads} threads, ${hello.target}; the scene was read in ` +
-    `${fmtSeconds(hello.load_seconds)} and built in ${fmtSeconds(hello.build_seconds)}.`;
+    `${hello.version}, ${hello.threads} threads, ${hello.target}. Scene loading took ` +
+    `${fmtSeconds(hello.load_seconds)}, the BVH build ${fmtSeconds(hello.build_seconds)}.`;
 }
 
 function explain(message) {
@@ -89,7 +89,7 @@ const handlers = {
     try {
       build(hello);
     } catch (error) {
-      explain(`The picture cannot be shown: ${error.message}. It is drawn with WebGL 2.`);
+      explain(`The image cannot be shown: ${error.message}. This page needs WebGL 2.`);
       page.socket.end();
       return;
     }
@@ -121,8 +121,8 @@ const handlers = {
   closed(said) {
     document.body.classList.add("closed");
     const text = said
-      ? "Goodbye: the program has ended. What is seen here stays until the page is closed."
-      : "The connection has ended. Is the program still running? Reload the page to try again.";
+      ? "lanelight has exited. The last image stays here until you close the page."
+      : "The connection was lost. Check that `lanelight live` is running, then reload the page.";
     document.body.append(el("div#closed", { role: "alert" }, text));
   },
 };

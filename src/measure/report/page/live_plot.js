@@ -18,19 +18,19 @@ function drawErrorPlot(node, { slots, pace }) {
   if (node.hidden) return;
   const { node: drawing } = drawPlot({ width: 460, height: 280 }, {
     lines,
-    label: "Relative mean squared error against cost",
+    label: "Relative MSE against cost",
     scales: logScales({}),
     xAxis: {
       label: pace === "time" ? "processor time" : "samples per pixel",
       ticks: decadeTicks,
       format: pace === "time" ? secondsTick : (x) => fmtShort(x),
     },
-    yAxis: { label: "relative MSE", quiet: true, ticks: decadeTicks, format: errorTick },
+    yAxis: { label: "relative MSE", ticks: decadeTicks, format: errorTick },
   });
   node.replaceChildren(
     drawing,
     el("p.note",
-      "Relative MSE with 95 % intervals; a lower end alone where samples cannot tell the ",
-      "upper one. In plain Monte Carlo it falls as 1 / cost."),
+      "Relative MSE with 95 % confidence intervals. A bar without an upper end means that the ",
+      "samples are too few for an upper limit. Plain Monte Carlo falls as 1 / cost."),
   );
 }

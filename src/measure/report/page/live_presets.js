@@ -22,14 +22,14 @@ function presetButtons(page, cards) {
       { title, "data-preset": `${a} ${b}`, onclick: () => both(a, b) }, label);
   const figures = page.hello.strategies.presets.filter((p) => FIGURES[p.name]);
   return el("div.presets",
-    el("p.note", "First, what choosing directions well is worth:"),
+    el("p.note", "Importance sampling of directions:"),
     el("div.choices",
-      button("Uniform | importance", "A: uniform directions; B: as the material scatters",
+      button("Uniform | importance", "A: directions uniform over the hemisphere; B: directions follow the BSDF",
         "paper-uniform", "paper-importance"),
-      button("Importance | default", "B: what this program does if nothing is asked for",
+      button("Importance | default", "A: BSDF sampling only; B: default strategy of lanelight",
         "paper-importance", "default")),
     el("p.note",
-      "Then the paper's figures: A is its common base (paper-plain), B changes one thing:"),
+      "Figures of the paper: A is the baseline (paper-plain), B changes one choice:"),
     el("div.choices",
       figures.map((p, i) =>
         button(`${i + 1}. ${FIGURES[p.name]}`, p.meaning, "paper-plain", p.name))),

@@ -9,7 +9,7 @@ class Readout {
 
   clear() {
     this.node.replaceChildren(
-      el("span.note", "Point at the picture for the numbers of a pixel."),
+      el("span.note", "Point at the image to see the values of a pixel."),
     );
   }
 

@@ -18,12 +18,12 @@ function saveBar(page) {
   const show = async (what, content) => {
     text.hidden = false;
     const done = await copyText(content, text);
-    said.textContent = done ? `${what} is copied.` : `${what} is selected, to be copied.`;
+    said.textContent = done ? `${what} was copied.` : `${what} is selected: press Ctrl+C to copy it.`;
   };
   page.takeCameraText = ({ text: content }) => show("The camera", content);
   page.takeFile = (head, buffer, at) => {
     saveFile(head.name, new Blob([new Uint8Array(buffer, at)]));
-    said.textContent = `${head.name} is saved.`;
+    said.textContent = `${head.name} was saved.`;
   };
   page.say = (message) => {
     said.textContent = message;
@@ -32,23 +32,23 @@ function saveBar(page) {
   const png = () => {
     page.viewer.draw();
     page.viewer.canvas.toBlob((blob) => saveFile(`${page.stem}.png`, blob), "image/png");
-    said.textContent = `${page.stem}.png is saved: the picture as it is seen.`;
+    said.textContent = `${page.stem}.png was saved, as displayed.`;
   };
   const command = () => {
     const slot = page.state && page.state.slots[page.look.view === "b" ? 1 : 0];
-    if (!slot || !slot.command) return page.say("Nothing has been rendered yet.");
+    if (!slot || !slot.command) return page.say("There is no image yet.");
     const moved = page.state.moved
-      ? "# the camera has been moved: put its lines into the scene file first\n" : "";
+      ? "# the camera was moved: copy it into the scene file first\n" : "";
     show("The command", moved + slot.command);
   };
   const button = (id, label, onclick) =>
     el("button.button", { id, onclick }, label);
   return el(
-    "div.save", el("div.choices", button("save-png", "Save PNG as seen", png),
+    "div.save", el("div.choices", button("save-png", "Save PNG as displayed", png),
       button("save-exr-a", "Save EXR of A", exr(0)),
       button("save-exr-b", "Save EXR of B", exr(1)),
-      button("copy-command", "Copy the command", command),
-      button("copy-camera", "Copy the camera as pbrt",
+      button("copy-command", "Copy render command", command),
+      button("copy-camera", "Copy camera (pbrt)",
         () => page.socket.send({ do: "camera-text" }))),
     said, text,
   );

@@ -25,7 +25,7 @@ class Screen {
   // Throws Error where WebGL 2 is missing.
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: false });
-    if (!gl) throw new Error("this browser has no WebGL 2, or it is switched off");
+    if (!gl) throw new Error("WebGL 2 is missing or disabled in this browser");
     Object.assign(this, { canvas, gl, program: makeProgram(gl), slots: [] });
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 2);
     this.ramp = floatTexture(gl, gl.NEAREST);

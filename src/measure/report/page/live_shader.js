@@ -69,7 +69,7 @@ function compileShader(gl, type, text) {
   gl.shaderSource(shader, text);
   gl.compileShader(shader);
   if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) {
-    throw new Error(gl.getShaderInfoLog(shader) || "the graphics driver is gone");
+    throw new Error(gl.getShaderInfoLog(shader) || "the graphics driver does not respond");
   }
   return shader;
 }
@@ -81,7 +81,7 @@ function makeProgram(gl) {
   gl.attachShader(program, compileShader(gl, gl.FRAGMENT_SHADER, FRAGMENT_SHADER));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
-    throw new Error(gl.getProgramInfoLog(program) || "the graphics driver is gone");
+    throw new Error(gl.getProgramInfoLog(program) || "the graphics driver does not respond");
   }
   const place = (name) => gl.getUniformLocation(program, name);
   return {

@@ -6,7 +6,7 @@ const MOST_BARS = 12;
 function stageRow(stage, total, most) {
   const share = stage.seconds / total;
   return el(
-    "div.live-stage", el("span.live-stage-name", stage.name.replaceAll("_", " ")),
+    "div.live-stage", el("span.live-stage-name", stageTitle(stage.name).replaceAll("_", " ")),
     el("span.live-stage-bar", el("span", { style: { width: `${(100 * share) / most}%` } })),
     el("span.live-stage-share", fmtPercent(share, 2)),
     el("span.live-stage-filled",
@@ -23,19 +23,19 @@ function drawStages(node, slot) {
   node.replaceChildren();
   appendAll(node, [
     el("p", el("b", `${fmt(slot.rays / slot.seconds / 1e6)} Mray/s`),
-      ` and ${fmt(slot.samples / slot.seconds / 1e6)} million samples a second of `,
-      "processor time, all of the program's threads together"),
+      ` and ${fmt(slot.samples / slot.seconds / 1e6)} Msamples/s, per second of processor `,
+      "time (sum over all threads)"),
     stages.slice(0, MOST_BARS).map((stage) => stageRow(stage, total, most)),
     rest > 0 &&
       el("p.note",
-        `${stages.length - MOST_BARS} more stages take ${fmtPercent(rest / total, 2)}`),
+        `${stages.length - MOST_BARS} more stages: ${fmtPercent(rest / total, 2)}`),
   ]);
 }
 
 function drawOmitted(node, slot) {
   node.replaceChildren(
     ...slot.omitted.map(({ name, reason }) =>
-      el("div", el("b", name.replaceAll("_", " ")), ` ${reason}`)),
+      el("div", el("b", stageTitle(name).replaceAll("_", " ")), ` ${reason}`)),
   );
 }
 
@@ -46,7 +46,7 @@ class Stages {
     this.columns = [0, 1].map((slot) =>
       el("div.live-stages-column",
         el("h3", swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.bars[slot],
-        el("details", el("summary", "Left out, and why"), this.omitted[slot])));
+        el("details", el("summary", "Omitted stages, with reasons"), this.omitted[slot])));
     this.node = el("div.live-stages", this.columns);
     this.plans = ["", ""];
   }

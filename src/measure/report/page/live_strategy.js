@@ -24,7 +24,7 @@ class StrategyCard {
       el("div.card-head",
         el("label.menu", el("span", swatch(STYLES[slot]), ` ${"AB"[slot]}`), this.select),
         slot === 1 && this.offButton()),
-      el("details", el("summary", "Choose by axes"), this.axes),
+      el("details", el("summary", "Choose each key"), this.axes),
       this.status,
     );
     this.fill();
@@ -47,9 +47,9 @@ class StrategyCard {
     const names = [...this.texts.keys()];
     const own = this.name !== "" && !this.texts.has(this.name);
     this.select.replaceChildren(
-      ...(this.slot === 1 ? [el("option", { value: "" }, "nothing")] : []),
+      ...(this.slot === 1 ? [el("option", { value: "" }, "none")] : []),
       ...names.map((name) => el("option", { value: name }, name)),
-      ...(own ? [el("option", { value: this.name }, "chosen by axes")] : []),
+      ...(own ? [el("option", { value: this.name }, "custom")] : []),
     );
     this.select.value = this.name;
     this.fillAxes(this.texts.get(this.name) || this.name || this.texts.get("default"));
@@ -89,19 +89,19 @@ class StrategyCard {
       return;
     }
     if (state.name === "" || state.spp === undefined) {
-      this.status.replaceChildren(state.name === "" ? "" : "Begins …");
+      this.status.replaceChildren(state.name === "" ? "" : "Starting …");
       return;
     }
     const look = state.looks[state.looks.length - 1];
     const error = look
       ? joined(intervalTexts({ value: look.relmse, low: look.low, high: look.high }))
-      : "not yet: it is estimated from 8 samples per pixel on";
+      : "available from 8 samples per pixel";
     this.status.replaceChildren(
       el("dl.facts.live-facts", fact("Samples per pixel", fmtCount(state.spp)),
         fact("Processor time", fmtSeconds(state.seconds)),
         fact("Relative MSE", error,
           look && look.why, { class: "wide", "data-fact": "relmse" }),
-        state.training && fact("Learned", state.training, null, { class: "wide" }),
+        state.training && fact("Training", state.training, null, { class: "wide" }),
         state.invalid > 0 && fact("Invalid samples", fmtCount(state.invalid)),
         fact("Notes", state.notes.join("; "), null, { class: "wide" })),
     );

@@ -26,7 +26,7 @@ function parseHash() {
   try {
     wanted = decodeURIComponent(name);
   } catch {
-    // An address that somebody mangled: the first scene.
+    // Malformed address: shows the first scene.
   }
   const index = study.scenes.findIndex((scene) => scene.name === wanted);
   return { index: Math.max(0, index), part };
@@ -48,7 +48,7 @@ function fillNavigation(scene) {
 
 function errorScene({ name, error, path }) {
   return firstSection(name,
-    warningBox("This scene could not be studied", [error]),
+    warningBox("The study of this scene failed", [error]),
     path && el("p.full-text", path),
   );
 }

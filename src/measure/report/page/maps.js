@@ -1,5 +1,5 @@
 "use strict";
-// Where in the image each strategy errs: noise, bias, and tiles that fail the test.
+// Maps of noise, bias and test results over the image, for each strategy.
 
 function relativeDeviation(variance, reference, i) {
   let sum = 0;
@@ -44,8 +44,8 @@ function imageMap(view, { title, key, table, signed, valueAt }) {
 
 function noMapText(strategy) {
   return strategy.level && strategy.level.repetitions < 2
-    ? "Needs two repetitions."
-    : "This image is not in the report.";
+    ? "Needs 2 repetitions or more."
+    : "This report does not contain the image.";
 }
 
 const TILE_TOP = 5; // |z| at the ends of the colour scale
@@ -53,11 +53,11 @@ const TILE_TOP = 5; // |z| at the ends of the colour scale
 function tileMap(view) {
   const reference = findImage(view.scene.reference?.image);
   const cell = (s) => {
-    if (!s.tiles) return missingPicture("Needs two repetitions.");
+    if (!s.tiles) return missingPicture("Needs 2 repetitions or more.");
     return tilePicture(view, s, reference);
   };
   return {
-    title: "Equality by tile",
+    title: "Test of the mean, by tile",
     legend: rampLegend(DIVERGING_TABLE, [`z ${MINUS}${TILE_TOP}`, "0", `+${TILE_TOP}`]),
     cell,
   };
@@ -90,22 +90,22 @@ function tilePicture(view, s, reference) {
   };
   const pixels = () =>
     rampPixels(width, height, DIVERGING_TABLE, (i) => 0.5 + (0.5 * zAt(i)) / TILE_TOP);
-  const label = `Equality test of ${s.name} by tile, ${failed.size} failed`;
+  const label = `Test of the mean of ${s.name} by tile: ${failed.size} failed`;
   return el("div",
     picture(view, label, { width, height }, pixels, { overlay }),
     el("div.inset-name",
       failed.size === 0
-        ? "no tile fails"
-        : `${failed.size} of ${columns * rows} tiles fail`,
+        ? "no tile differs"
+        : `${failed.size} of ${columns * rows} tiles differ`,
     ),
   );
 }
 
 function mapsSection(view) {
-  if (view.ran.length === 0) return section("maps", "Maps", el("p", "No strategy ran."));
+  if (view.ran.length === 0) return section("maps", "Error maps", el("p", "No strategy ran."));
   const maps = [
     imageMap(view, {
-      title: "Relative deviation",
+      title: "Standard deviation",
       key: "variance",
       table: SEQUENTIAL_TABLE,
       signed: false,
@@ -126,11 +126,11 @@ function mapsSection(view) {
       maps.map((map) => el("div.map-cell", map.cell(s))),
     ),
   );
-  return section("maps", "Maps",
+  return section("maps", "Error maps",
     el("p.lead",
-      "Standard deviation of one render and bias of the mean of all " +
-        "repetitions, both relative to the reference and on one scale for all strategies; and " +
-        "the test that a tile's mean equals the reference's, with failed tiles outlined.",
+      "Per pixel and relative to the reference: standard deviation of one render, and bias " +
+        "of the mean of all repetitions. All strategies share one colour scale. By tile: " +
+        "z-score of the mean against the reference; significantly different tiles are outlined.",
     ),
     el("div.maps",
       el("div.map-row.map-head",

@@ -36,7 +36,7 @@ function firstSection(title, ...children) {
   );
 }
 
-// What to beware of: texts, or elements of a list.
+// Box of warnings: texts, or elements of a list.
 function warningBox(title, texts) {
   if (texts.length === 0) return null;
   return el("div.warnings", { role: "note" },

@@ -1,7 +1,7 @@
 "use strict";
 // The comparator's panes: what they paint, and what they take from pointer and keys.
 
-const MISSING_IMAGE = "This image is not in the report.";
+const MISSING_IMAGE = "This report does not contain the image.";
 
 // Draws the visible part of source; clip: [from, to] as shares of the pane's width.
 function paintPane(comparison, canvas, source, [from, to]) {

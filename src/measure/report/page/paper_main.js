@@ -8,12 +8,12 @@ function paperNumber(view, number, strategies) {
       (a, b) => (valueOf(a.order) ?? 0) - (valueOf(b.order) ?? 0))[0];
     if (!steepest || valueOf(steepest.order) === null) return null;
     const { value, bounds } = intervalTexts(steepest.order);
-    return heroNumber(value, bounds, ["is the steepest slope, of ", el("b", steepest.name)]);
+    return heroNumber(value, bounds, ["is the steepest convergence slope, of ", el("b", steepest.name)]);
   }
   const s = strategyOfFigure(view, number);
   if (!s || valueOf(s.efficiency) === null) return null;
   const { value, bounds } = intervalTexts(s.efficiency);
-  return heroNumber(`${value}×`, bounds, ["as efficient as ", el("b", view.baseline.name)]);
+  return heroNumber(`${value}×`, bounds, ["the efficiency of ", el("b", view.baseline.name), " (baseline)"]);
 }
 
 function paperPart(number, title, big, found, figure) {
@@ -23,7 +23,7 @@ function paperPart(number, title, big, found, figure) {
       el("div",
         el("p.equation", equation),
         el("p", says),
-        el("p.found", found || "Nothing was found of it in this study."),
+        el("p.found", found || "This study did not measure it."),
         big,
       ),
       figure,
@@ -31,22 +31,36 @@ function paperPart(number, title, big, found, figure) {
   );
 }
 
+// The most efficient strategy of the paper, and its gain over the baseline.
+function paperHeadline(view) {
+  const { baseline } = view;
+  const measured = paperStrategies(view).filter((s) => valueOf(s.efficiency) !== null);
+  if (!baseline || measured.length === 0) return "No strategy of the paper has been measured.";
+  const best = measured.reduce((a, b) => (b.efficiency.value > a.efficiency.value ? b : a));
+  if (best === baseline) return [el("b", best.name), " is the most efficient strategy."];
+  return [
+    "Of the paper's strategies, ", el("b", best.name), " is the most efficient: ",
+    `${joined(intervalTexts(best.efficiency, 1, "×"))} lower relative MSE than `,
+    el("b", baseline.name), ` at equal processor time (${confidenceText()} interval).`,
+  ];
+}
+
 function paperIntroduction(view) {
   const { bias } = view.scene;
-  return firstSection("A paper on path tracing, on one page",
+  return firstSection("Figures of the founding paper, rendered and measured again",
     el("p.verdict",
-      "S. Maughan's Path Tracing Renderer Using Monte Carlo Methods, each figure rendered anew ",
-       "and measured, on the scene ", el("b", view.scene.name), "."),
+      paperHeadline(view)),
+    el("p.lead",
+      "S. Maughan, Path Tracing Renderer Using Monte Carlo Methods. All figures show the scene ", el("b", view.scene.name), "."),
     el("p.equation", "L(x, ω) = Lₑ(x, ω) + ∫ f(x, ω, ω′) L(x′, −ω′) cos θ′ dω′"),
     el("p.lead",
-      "Light that leaves a point is what it emits and what it scatters of all that arrives " +
-       "(Kajiya 1986). A path is one sample of that integral, nested; the figures are ways to " +
-       "draw it. All are compared with one baseline, which changes nothing but the one thing " +
-       "that a figure is about."),
+      "The radiance that leaves a point is the emitted radiance plus the scattered part of the " +
+       "incoming radiance (Kajiya 1986). A path is one sample of this nested integral. Each " +
+       "figure changes one sampling choice of the same baseline."),
     bias && known(bias.tests) &&
       el("p.lead",
-        `Bias: of ${bias.tests} tests that a strategy's mean image is the reference's, ` +
-         `${bias.failed} failed (probability of any false alarm: ${fmtShort(bias.level)}).`),
+        `Bias: ${bias.failed} of ${bias.tests} strategies have a mean image that differs ` +
+         `significantly from the reference (false-alarm rate ${fmtShort(bias.level)}).`),
     factsList(view),
   );
 }
@@ -58,7 +72,7 @@ function paperSections(view) {
   const figureOf = (number) => {
     if (number === 1) return diffuseFigure(view);
     if (number === 8) return convergenceFigure(view, strategies);
-    return hosts.get(number) || missingPicture("This study does not have its strategy.");
+    return hosts.get(number) || missingPicture("This study did not measure the strategy of this figure.");
   };
   const found = (number) =>
     number === 1 ? foundOfModels(view)
@@ -78,7 +92,7 @@ function start() {
     title: `${scene.name} – Lanelight paper`,
     footer:
       "Written by lanelight study --paper. This page holds all its numbers and images and " +
-      "needs no network; report.html beside it has more.",
+      "needs no network; report.html in the same directory has more.",
     sections: numbers.map((key) => [`part-${key}`, `Figure ${key}`]),
   });
   const view = makeView(scene);

@@ -4,12 +4,12 @@
 // options: {lines, xAxis, yAxis, label, scales(lines): {x, y} that hold them, ghosts: lines
 // that are not shown stay, thin and grey; under(frame), guides(frame),
 // over(frame, lines): what else is drawn}
-// axis: {label, ticks(scale, most), format(value), quiet: without its label}
+// axis: {label, ticks(scale, most), format(value)}
 // line: {index, name, style, bars, steps: it has no markers, points: [{x, y, low, high,
 // hollow, bad, limit}]}, x ascending; limit: where a point would be bad.
 
-function plotFrame({ width, height }, { x, y }, named) {
-  const left = named ? 80 : 58,
+function plotFrame({ width, height }, { x, y }) {
+  const left = 80,
     right = width - 12,
     top = 10,
     bottom = height - 44;
@@ -43,9 +43,8 @@ function plotAxes(frame, { xAxis, yAxis }) {
       ];
     }),
     text({ class: "axis-name", x: across, y: bottom + 38 }, xAxis.label),
-    !yAxis.quiet &&
-      text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` },
-        yAxis.label),
+    text({ class: "axis-name", transform: `translate(16 ${down}) rotate(-90)` },
+      yAxis.label),
   ];
 }
 
@@ -100,7 +99,7 @@ function plotCurve(frame, line) {
 // {node, frame, lines}: a drawing of the lines that are shown. scales: other ones.
 function drawPlot(size, options, lines = options.lines, scales = null) {
   const some = lines.some((line) => line.points.length > 0) ? lines : options.lines;
-  const frame = plotFrame(size, scales || options.scales(some), !options.yAxis.quiet);
+  const frame = plotFrame(size, scales || options.scales(some));
   const { left: x, top: y } = frame;
   const box = { x, y, width: frame.right - x, height: frame.bottom - y };
   const others = options.ghosts ? options.lines.filter((line) => !lines.includes(line)) : [];

@@ -36,7 +36,7 @@ function strategyLegend(view, label = "Strategies shown") {
 function filterBox(view, listed, buttons) {
   const box = el("input.filter", {
     type: "search", "data-control": "filter", placeholder: "Filter, e.g. points=",
-    "aria-label": "Show the strategies that contain",
+    "aria-label": "Show strategies whose text contains",
   });
   box.addEventListener("input", () => {
     const wanted = box.value.trim().toLowerCase();

@@ -1,5 +1,5 @@
 "use strict";
-// The ranking: efficiency and everything that it rests on, one row for each strategy.
+// Ranking table: efficiency and the numbers behind it, one row for each strategy.
 
 function rankingSection(view) {
   const baseline = view.baseline ? view.baseline.name : null;
@@ -7,9 +7,9 @@ function rankingSection(view) {
     el("p.lead",
       "Efficiency is 1 / (relative MSE × seconds of processor time)",
       baseline ? [", relative to ", el("b", baseline)] : null,
-      ": at twice the efficiency, the same image takes half the time. Small print: " +
+      ". Twice the efficiency means the same error in half the time. Brackets: " +
         `${confidenceText() ? `${confidenceText()} ` : ""}confidence intervals. ` +
-        "A rank range such as 2–4 says that the order within it could be chance.",
+        "A rank range such as 2–4 means that the order of these ranks is not significant.",
     ),
     rankingTables(view),
   );
@@ -56,7 +56,7 @@ function otherRows(view, count) {
   const twins = view.ran.map((s) => [s, twinsOf(view, s).map((twin) => twin.name)]);
   const same = twins.filter(([, names]) => names.length > 0);
   const others = view.strategies.filter((s) => !view.ran.includes(s) && s.status !== "same");
-  const once = "The same on this scene, and rendered once: ";
+  const once = "Identical on this scene, rendered once: ";
   return [
     ...same.map(([s, names]) => otherRow("=", s, once + names.join(", "), count)),
     ...others.map((s) => otherRow(UNKNOWN, s, whyMissing(s), count)),
@@ -78,6 +78,6 @@ function rivals(view, s) {
 
 function rankCell(view, s) {
   const others = rivals(view, s);
-  const title = `Not distinguishable from ${others.map((o) => o.name).join(", ")}`;
+  const title = `Not significantly different from ${others.map((o) => o.name).join(", ")}`;
   return el("span.rank", { title: others.length > 0 && title }, rankText(s.rank));
 }

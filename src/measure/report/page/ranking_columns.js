@@ -20,8 +20,9 @@ function targetColumn(view, key, title, texts) {
   const target = view.scene.target_relmse;
   const of = (s) => s.to_target && s.to_target[key];
   return intervalColumn(`target-${key}`, title, of, texts, {
-    unit: known(target) ? `to ${fmtShort(target)}` : null,
-    hint: "To reach the target's relative MSE; * extrapolated: no render got there",
+    unit: "to the target",
+    hint: `Needed to reach the target relative MSE${known(target) ? ` of ${fmtShort(target)}` : ""}; ` +
+      "*: extrapolated beyond the measured sample counts",
     cell: (s) => {
       if (!s.to_target) return UNKNOWN;
       const { value, bounds } = texts(of(s));
@@ -60,7 +61,7 @@ function efficiencyColumns(view, scale) {
 
 function coverageTexts(self) {
   if (!self || !known(self.total)) return { value: UNKNOWN, bounds: "" };
-  const refused = self.refused > 0 ? `${self.refused} without` : "";
+  const refused = self.refused > 0 ? `${self.refused} without interval` : "";
   if (self.total === 0) return { value: UNKNOWN, bounds: refused };
   return {
     value: fmtPercent(self.inside / self.total, 2),
@@ -102,7 +103,7 @@ function coverageColumn() {
     key: "self",
     title: "Coverage",
     unit: "self-estimate",
-    hint: "How often the interval that a render states of itself held its true error",
+    hint: "Percentage of renders whose own confidence interval contains the true error",
     cell: (s) => twoLines(coverageTexts(self(s))),
     sort: (s) => (self(s) && self(s).total ? self(s).inside / self(s).total : null),
   };
@@ -110,7 +111,7 @@ function coverageColumn() {
 
 function rankingColumns(view, scale) {
   const spp = new Set(view.ran.map((s) => s.at_spp).filter(known));
-  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the most spp";
+  const at = spp.size === 1 ? `at ${fmtCount([...spp][0])} spp` : "at the largest spp";
   const signed = (interval) => percentTexts(interval, true);
   const level = (...column) => levelColumn(view, ...column);
   return [
@@ -119,10 +120,10 @@ function rankingColumns(view, scale) {
     }),
     textColumn("name", "Strategy", nameCell, { rowHead: true, sort: (s) => s.name }),
     ...efficiencyColumns(view, scale),
-    level("relmse", "Relative MSE", at, "Squared error over squared reference + 0.01"),
+    level("relmse", "Relative MSE", at, "Mean of squared error / (squared reference + 0.01)"),
     level("relmse_trimmed", "Trimmed", "relative MSE",
       "Relative MSE without the worst 1 % of the pixels"),
-    level("cpu_seconds", "Time", "processor", "Median of one render", commonTime,
+    level("cpu_seconds", "Time", "processor", "Median processor time of one render", commonTime,
       secondsTexts),
     intervalColumn("order", "Order", (s) => s.order, intervalTexts, {
       unit: "of convergence",
@@ -130,13 +131,13 @@ function rankingColumns(view, scale) {
     }),
     targetColumn(view, "spp", "Samples", wholeTexts),
     targetColumn(view, "seconds", "Time", secondsTexts),
-    level("bias", "Bias", "of the mean", "Mean of the image against the reference", null,
+    level("bias", "Bias", "of the mean", "Mean of the image relative to the reference", null,
       signed),
     levelNumber("bias_p", "p", "Welch's test that the means are equal", fmtP),
-    level("variance", "Variance", null, "Part of the relative MSE"),
-    level("bias2", "Bias²", null, "Part of the relative MSE; can be negative by chance"),
+    level("variance", "Variance", null, "Variance part of the relative MSE"),
+    level("bias2", "Bias²", null, "Bias² part of the relative MSE; an estimate, can be negative by chance"),
     coverageColumn(),
-    levelNumber("rays_per_sample", "Rays", "of all kinds, per sample", fmt),
+    levelNumber("rays_per_sample", "Rays", "per sample", fmt),
     levelNumber("path_length", "Path", "Scattering rays per sample", fmt),
   ];
 }

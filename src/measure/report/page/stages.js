@@ -1,5 +1,5 @@
 "use strict";
-// Where the time went: one bar for each strategy, cut into the stages of the wavefront.
+// Processor time: one bar for each strategy, divided into the stages of the wavefront.
 
 const SMALL_STAGE = 0.015;
 
@@ -21,12 +21,12 @@ function stageColor(index) {
 function stageTip(strategy, stage) {
   const line = (name, text) => text !== UNKNOWN && `${name} ${text}`;
   return noteOf(
-    `${stage.name}: ${fmtPercent(stage.share)}`,
+    `${stageTitle(stage.name)}: ${fmtPercent(stage.share)}`,
     strategy.name,
     line("time", fmtSeconds(stage.seconds)),
-    line("per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
+    line("time per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
     line("items", fmtCount(stage.items)),
-    line("lanes full", fmtPercent(stage.occupancy)),
+    line("SIMD lanes used", fmtPercent(stage.occupancy)),
   );
 }
 
@@ -44,7 +44,7 @@ function stageBar(strategy, names, length = 1) {
     stages.map((stage) => {
       const share = stage.share / total;
       const index = rank.get(stage.name);
-      const text = `${stage.name} ${fmtPercent(stage.share)}`;
+      const text = `${stageTitle(stage.name)} ${fmtPercent(stage.share)}`;
       return withTip(
         el("div.bar-part",
           {
@@ -74,16 +74,24 @@ function stageSeconds(strategy) {
   );
 }
 
+// Names the first of many stages only; each part of a bar has a tooltip.
+function restText(names) {
+  const shown = names.length > 4 ? names.slice(0, 3) : names;
+  const more = names.length > shown.length ? `, and ${names.length - shown.length} more` : "";
+  return `other (${shown.join(", ")}${more})`;
+}
+
 function stageLegend(names) {
-  const rest = names.length > COLOR_COUNT;
+  const rest = names.slice(COLOR_COUNT);
   const entry = (text, index) =>
     el("li",
       el("span.patch", { style: { "background-color": stageColor(index) } }),
       text,
     );
   return el("ul.stage-legend",
-    names.slice(0, COLOR_COUNT).map(entry),
-    rest ? entry(`other (${names.slice(COLOR_COUNT).join(", ")})`, COLOR_COUNT) : null,
+    names.slice(0, COLOR_COUNT).map((name, i) => entry(stageTitle(name), i)),
+    rest.length > 1 && entry(restText(rest.map(stageTitle)), COLOR_COUNT),
+    rest.length === 1 && entry(stageTitle(rest[0]), COLOR_COUNT),
   );
 }
 
@@ -116,17 +124,17 @@ function costRows(view, bars, names) {
 function stagesSection(view) {
   const names = stageNames(view);
   if (names.length === 0) {
-    return section("stages", "Where the time went",
+    return section("stages", "Processor time by stage",
       el("p", "No stage times were recorded."),
     );
   }
   const rows = leadingRows(view, view.ranked, (s) =>
     stageRow(s, fmtSeconds(stageSeconds(s)), stageBar(s, names)),
   );
-  return section("stages", "Where the time went",
+  return section("stages", "Processor time by stage",
     el("p.lead",
-      "Share of each stage in the processor time, at the largest " +
-        "count, all repetitions together.",
+      "Percentage of the processor time in each stage, at the largest " +
+        "sample count, over all repetitions.",
     ),
     stageLegend(names),
     el("div.stage-rows", rows),

@@ -88,5 +88,5 @@ function whyMissing(strategy) {
   const word = statusWord(strategy);
   if (!word) return strategy.message || "There is no result.";
   const reason = strategy.message || "no reason given";
-  return `${word[0].toUpperCase()}${word.slice(1)}: ${reason}`;
+  return `${capitalised(word)}: ${reason}`;
 }

@@ -1,21 +1,21 @@
 "use strict";
-// What stands around the plots of a map: what it is about, its curves, the way to others.
+// Facts of a map and the menu that chooses another one.
 
 function factList(aCase, target) {
   const breaks = nearestBreaks(aCase, target);
   const rows = [
-    ["Extreme", aCase.extreme],
-    ["Must be true", `${aCase.must} (${aCase.truth})`],
-    ["Promised", promiseText(aCase)],
+    ["Parameter", aCase.extreme],
+    ["Expected result", `${aCase.must} (${aCase.truth})`],
+    ["Supported range", promiseText(aCase)],
     [
-      "First breaks",
+      "First failures",
       breaks.length > 0
         ? breaks.map((b) => breakText(aCase, b)).join("; ")
-        : "nowhere that was measured",
+        : "none of the measured values",
     ],
     [
-      "Finds errors from",
-      known(aCase.detectable) ? fmtFound(aCase.detectable) : "some points find none",
+      "Smallest detectable error",
+      known(aCase.detectable) ? fmtFound(aCase.detectable) : "none at some points",
     ],
     aCase.not_measured > 0 && [
       "Not measured",

@@ -89,7 +89,7 @@ function fmtParameter(aCase, x) {
 function breakText(aCase, place) {
   const what =
     place.fault === "refused" || place.fault === "crashed" ? place.fault : place.why;
-  const where = place.inside ? "inside the promise, " : "";
+  const where = place.inside ? "inside the supported range, " : "";
   return `${where}${fmtParameter(aCase, place.parameter)}: ${what}`;
 }
 
@@ -98,8 +98,8 @@ function promiseText(aCase) {
   if (known(low) && known(high)) {
     return `${fmtParameter(aCase, low)} to ${fmtParameter(aCase, high)}`;
   }
-  if (known(low)) return `from ${fmtParameter(aCase, low)} on`;
-  return known(high) ? `up to ${fmtParameter(aCase, high)}` : "everywhere";
+  if (known(low)) return `${fmtParameter(aCase, low)} and above`;
+  return known(high) ? `up to ${fmtParameter(aCase, high)}` : "all values";
 }
 
 // Errors that are found, relative: percent where that reads well.

@@ -13,11 +13,11 @@ function pointRows(point) {
     ["measured", fmt(point.measured, 6)],
     half > 0 && ["noise", `± ${fmt(half, 2)}`],
     point.tolerance > 0 && ["tolerance", `± ${fmt(point.tolerance, 2)}`],
-    ["z", point.verdict.z === null ? "beyond any noise" : fmt(point.verdict.z, 2)],
+    ["z", point.verdict.z === null ? "infinite" : fmt(point.verdict.z, 2)],
     point.invalid > 0 && ["invalid samples", fmtCount(point.invalid)],
     [
-      "finds errors from",
-      known(point.verdict.detectable) ? fmtFound(point.verdict.detectable) : "no size on",
+      "smallest detectable error",
+      known(point.verdict.detectable) ? fmtFound(point.verdict.detectable) : "none",
     ],
     !point.verdict.good && ["fault", point.verdict.why],
   ].filter(Boolean);
@@ -48,7 +48,7 @@ const PLOTS = [
   },
   {
     key: "noise",
-    title: "Standard error, relative",
+    title: "Relative standard error",
     log: true,
     tick: errorTick,
     value: (point) => ({
@@ -70,7 +70,7 @@ const PLOTS = [
   },
   {
     key: "lanes",
-    title: "Lanes filled",
+    title: "SIMD lanes used",
     log: false,
     tick: (x) => fmtShortPercent(x),
     include: [0, 1],
@@ -116,10 +116,9 @@ function detailSection(view, aCase, target, onChoose) {
     view.ran.length > 1 && strategyLegend(view, "Curves shown"),
     el("div.map-plots", { style: { "--plots": Math.max(1, figures.length) } }, figures),
     el("p.hint",
-      "Green: the promised range. Bands: noise at the level of the verdict; thin dashed " +
-        "lines: where a point would fail. Red rings: points that are not good; " +
-        "crosses: refused, with the message. A hollow marker has no error at all. Drag to " +
-        "zoom, double-click to reset the zoom.",
+      "Green: supported range. Bands: noise at the confidence level of the verdict. Thin dashed " +
+        "lines: largest accepted error. Red rings: failed points. Crosses: refused with a " +
+        "message. Hollow markers: no error at all. Drag to zoom, double-click to reset the zoom.",
     ),
   );
 }

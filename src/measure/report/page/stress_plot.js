@@ -19,7 +19,7 @@ function breakLines(frame, aCase, target) {
     const x = frame.x(place.parameter);
     return withTip(
       svg("line.break.told", { x1: x, x2: x, y1: frame.top, y2: frame.bottom }),
-      () => noteOf("First breaks here", breakText(aCase, place)),
+      () => noteOf("First failure", breakText(aCase, place)),
     );
   });
 }
@@ -58,7 +58,7 @@ function mapPoints(line, plot, choice) {
 // What drawPlot() takes. plot: one of PLOTS; choice: of its choices, or null.
 function mapOptions(aCase, target, lines, plot, choice) {
   const { name, unit } = aCase.axis;
-  const label = plot.title;
+  const label = choice ? `${plot.choices[choice][0]} per sample` : plot.title;
   const x = parameterScale(aCase);
   const zero = x.log && aCase.points.some((p) => p.parameter === 0) ? [0] : [];
   const describe = describePoint(aCase);
@@ -74,7 +74,7 @@ function mapOptions(aCase, target, lines, plot, choice) {
       format: parameterTick,
     },
     yAxis: {
-      label, quiet: true, ticks: decadeTicks,
+      label, ticks: decadeTicks,
       format: choice ? plot.choices[choice][1] : plot.tick,
     },
     scales: (some) => {

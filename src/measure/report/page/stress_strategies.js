@@ -1,5 +1,5 @@
 "use strict";
-// Which strategy survives stiffness: strategies against the parameters of all maps that
+// Strategies at extreme parameters: strategies against the parameters of all maps that
 // compare them, coloured by efficiency, with a mark where they are wrong.
 
 const compared = study.cases
@@ -49,7 +49,7 @@ function heatCell(aCase, line, point, first) {
   return withTip(cell, () => [
     describePoint(aCase)(line, { point }),
     ratio !== null &&
-      el("div", `efficiency ${joined(intervalTexts(point.efficiency))}`),
+      el("div", `relative efficiency ${joined(intervalTexts(point.efficiency))}`),
   ]);
 }
 
@@ -111,7 +111,7 @@ function heatMap(target) {
   const blocks = compared.map((aCase) => heatColumns(aCase, target));
   const names = [...new Set(blocks.flatMap(({ lines }) => [...lines.keys()]))];
   return scrollingTable(
-    "Efficiencies",
+    "Efficiency of each strategy by parameter value",
     heatHead(blocks),
     el("tbody", names.map((name) => heatRow(name, blocks))),
     "data heat-map",
@@ -134,26 +134,26 @@ function wrongStrategies(target) {
 function survivalText(target) {
   const wrong = wrongStrategies(target);
   if (wrong.length === 0) {
-    return "Every strategy stays right over the promised range of every map. ";
+    return "Every strategy is correct in the supported range of every map. ";
   }
   const most = 4;
   const texts = wrong
     .slice(0, most)
     .map(([name, names]) => `${name} (${names.join(", ")})`);
   const more = wrong.length > most ? ` and ${wrong.length - most} more` : "";
-  return `Wrong inside a promised range: ${texts.join("; ")}${more}. `;
+  return `Wrong results in a supported range: ${texts.join("; ")}${more}. `;
 }
 
 function strategiesSection(target) {
   if (compared.length === 0) return null;
   const baselines = [...new Set(compared.map((c) => c.baseline))];
-  return section("strategies", "Which strategy survives stiffness",
+  return section("strategies", "Strategies at extreme parameters",
     el("p.lead",
       survivalText(target),
       "Numbers are efficiencies, 1 / (variance × processor time), relative to ",
       el("b", baselines.join(", ")),
-      ": blue is better, orange is worse, full colour a factor of ten. A red frame is " +
-        "wrong or refused, a dot was not measured; point at it for the reason.",
+      ". Blue is more efficient, orange is less efficient; full colour is a factor of 10. Red " +
+        "frame: wrong or refused. Dot: not measured. Point at a cell for details.",
     ),
     heatMap(target),
   );

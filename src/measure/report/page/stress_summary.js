@@ -1,5 +1,5 @@
 "use strict";
-// The first screen: the verdict in one sentence, and all maps in one picture.
+// First screen: the verdict in one sentence, and small plots of all maps.
 
 function verdictKind() {
   if (study.outcomes.failed > 0) return "failed";
@@ -9,11 +9,11 @@ function verdictKind() {
 function summaryFacts() {
   const { full, seed, threads } = study.settings;
   const parts = [
-    `${fmtCount(study.promised)} promised points`,
+    `${fmtCount(study.promised)} points in supported ranges`,
     `${full ? "full" : "quick"} run of ${fmtSeconds(study.seconds)}`,
     `${fmtSeconds(study.cpu_seconds)} of processor time`,
     `${threads} thread${threads === 1 ? "" : "s"}, seed ${seed}`,
-    `a correct renderer fails one run in ${fmtCount(1 / study.false_alarm)}`,
+    `false-alarm rate: 1 in ${fmtCount(1 / study.false_alarm)} runs`,
   ];
   return el("p.lead", parts.join(" · "), el("br"), machinesText([study.machine]));
 }
@@ -22,11 +22,11 @@ function tileLegend() {
   const key = (name, text) =>
     el("span.key", el("span", { class: `key-mark ${name}` }), text);
   return el("p.tile-legend",
-    el("b", "Error against the parameter, "),
-    `from ${powerOfTen(TILE.from)} to 10, relative. `,
-    key("promise", "promised range"),
+    el("b", "Relative error against the parameter of each case"),
+    ` (error axis: ${powerOfTen(TILE.from)} to 10, logarithmic). `,
+    key("promise", "supported range"),
     key("allowed", "noise and tolerance"),
-    key("break", "first breaks"),
+    key("break", "first failure"),
     key("bad", "wrong"),
   );
 }
@@ -36,12 +36,12 @@ function chips() {
   const single = study.cases.filter((c) => !maps.includes(c));
   if (single.length === 0) return null;
   return el("div.chips",
-    el("span.note", "Of a single point each:"),
+    el("span.note", "Cases with a single point:"),
     single.map((c) =>
       withTip(el("span.chip", { "data-outcome": c.outcome, tabindex: 0 }, c.name), () => noteOf(
         `${c.name}: ${WORDS[c.outcome]}`,
         c.extreme,
-        `must: ${c.must}`,
+        `expected: ${c.must}`,
         c.why && c.why,
       )),
     ),
@@ -60,22 +60,22 @@ function stressSummary(target, onChoose) {
 }
 
 const STRESS_TERMS = {
-  Promised:
-    "The range in which the documentation says that results are right. A point in it " +
-      "that is not right, or is refused, fails its case; outside, the map shows what happens.",
+  "Supported range":
+    "The parameter range in which the documentation states that results are correct. A " +
+      "wrong or refused point in it fails the case. Points outside are shown for information.",
   Noise:
     "Standard errors times the quantile of Student's t at the level of a single point. " +
-      "The levels of all promised points together make the false-alarm probability.",
+      "The levels of all points in supported ranges together give the false-alarm rate.",
   Weak:
-    "A promised point could not have seen an error of 10 %. It passed, but that says " +
-      "little; a full run has more samples.",
-  Finds:
-    "The relative error that the worst promised point would have found with a " +
-      "probability of 90 %; of a rate, the rate.",
-  "First breaks":
-    "On the way out of the promised range, the first value at which a point is not " +
-      "good: wrong, or refused with a message.",
+    "The case passed, but one of its points cannot detect an error of 10 %. Use --full for " +
+      "more samples.",
+  Detectable:
+    "Relative error (or rate) that the least sensitive point of the supported range detects " +
+      "with a probability of 90 %.",
+  "First failures":
+    "The failing points nearest to the supported range, and inside it: wrong or " +
+      "refused with a message.",
   "Time and rays":
-    "Processor time of all points of a case, building their scenes included; rays per " +
-      "camera sample. Lanes: how full the vectors of all stages were.",
+    "Processor time of all points of a case, including the build of their scenes; rays per " +
+      "camera sample. Lanes: percentage of SIMD lanes in use, over all stages.",
 };

@@ -59,20 +59,20 @@ function caseColumns(onChoose) {
     }),
     textColumn("group", "Group", (c) => c.group),
     textColumn("outcome", "Verdict", outcomeCell, { sort: (c) => ORDER[c.outcome] }),
-    textColumn("must", "Must be true", (c) => el("span.must", c.must), silent),
+    textColumn("must", "Expected result", (c) => el("span.must", c.must), silent),
     numberColumn("expected", "Expected", expected, (x) => fmtShort(x, 5)),
     {
       key: "measured", title: "Measured", cell: measuredCell,
-      hint: "The promised point that is nearest to failing, with its noise",
+      hint: "The point of the supported range nearest to failing, with its noise",
     },
     { key: "z", title: "z", hint: "Standard errors beyond the tolerance", cell: zCell },
-    numberColumn("detectable", "Finds", (c) => c.detectable, fmtFound, {
-      hint: "The error that every promised point would find with a probability of 90 %",
+    numberColumn("detectable", "Detectable", (c) => c.detectable, fmtFound, {
+      hint: "Relative error that every point of the supported range detects with 90 % probability",
     }),
-    numberColumn("invalid", "Invalid", invalidOf, fmtCount),
+    numberColumn("invalid", "Invalid samples", invalidOf, fmtCount),
     numberColumn("seconds", "Time", (c) => sumPoints(c, "total_seconds"), fmtSeconds),
-    numberColumn("rays", "Rays", raysOf, (x) => fmt(x, 3), { hint: "Per sample" }),
-    textColumn("breaks", "First breaks at", breakCell, silent),
+    numberColumn("rays", "Rays / sample", raysOf, (x) => fmt(x, 3)),
+    textColumn("breaks", "First failures at", breakCell, silent),
   ];
 }
 

@@ -103,8 +103,8 @@ function tile(aCase, target, onChoose) {
     () => noteOf(
       aCase.name,
       aCase.extreme,
-      `${WORDS[outcome]}; promised ${promiseText(aCase)}`,
-      ...nearestBreaks(aCase, target).map((b) => `breaks at ${breakText(aCase, b)}`),
+      `${WORDS[outcome]}; supported range: ${promiseText(aCase)}`,
+      ...nearestBreaks(aCase, target).map((b) => `first failure at ${breakText(aCase, b)}`),
     ),
   );
 }

@@ -1,5 +1,5 @@
 "use strict";
-// The first screen, and below it what to beware of, what was measured and how.
+// First screen: the result, warnings, and facts on the measurement.
 
 function summarySection(view) {
   const { scene } = view;
@@ -23,8 +23,8 @@ function factsList(view) {
   const threads = known(machine.threads) ? `${fmtCount(machine.threads)} threads` : null;
   return el("dl.facts",
     fact("Image", size, cropNote(scene)),
-    fact("Repetitions", repetitions, "of every cell, interleaved, with different seeds"),
-    fact("Confidence", confidenceText(), "of all intervals, unless said otherwise"),
+    fact("Repetitions", repetitions, "per strategy and sample count, interleaved, with different seeds"),
+    fact("Confidence", confidenceText(), "of all intervals, unless stated otherwise"),
     fact("Samples", countsText(scene.counts), "per pixel"),
     fact("Reference", referenceText(scene.reference), referenceNote(scene.reference)),
     fact("Study took", known(study.seconds) ? fmtSeconds(study.seconds) : null,
@@ -76,11 +76,11 @@ function referenceText(reference) {
 function referenceNote(reference) {
   if (!reference) return null;
   const parts = [];
-  if (known(reference.relmse)) parts.push(`own relative MSE ${fmt(reference.relmse)}`);
+  if (known(reference.relmse)) parts.push(`its relative MSE: ${fmt(reference.relmse)}`);
   parts.push(
     reference.independent
-      ? "subtracted from all errors"
-      : "its own error could not be estimated",
+      ? "its noise is subtracted from all errors"
+      : "its own error is unknown",
   );
   const text = parts.join("; ");
   if (!reference.strategy) return text;

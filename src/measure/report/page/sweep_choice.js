@@ -96,8 +96,8 @@ function fixedMenu(axis, choice, onChange) {
 
 function choiceMenus(choice, onChange) {
   return el("div.menus", { role: "group", "aria-label": "Axes of the plots" },
-    choice.along && axisMenu("along", "Along a line", choice, onChange),
-    varyingAxes.length > 1 && axisMenu("lines", "A line for each", choice, onChange),
+    choice.along && axisMenu("along", "Horizontal axis", choice, onChange),
+    varyingAxes.length > 1 && axisMenu("lines", "One line per", choice, onChange),
     [...choice.fixed.keys()]
       .filter((axis) => occurTogether(choice.along, axis))
       .map((axis) => fixedMenu(axis, choice, onChange)),

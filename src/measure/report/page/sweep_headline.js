@@ -1,5 +1,5 @@
 "use strict";
-// One sentence on what the sweep has found, no stronger than its intervals.
+// Headline: the most efficient strategy, as far as the intervals support it.
 
 // "at 64 spp", of the values that vary beside scene and strategy.
 function whereText(values) {
@@ -12,9 +12,22 @@ function certaintyText({ equals, seeds, strategies }) {
     const are = seeds === 1 ? "1 seed is" : `${seeds} seeds are`;
     return `${are} too few for intervals; use 3 or more`;
   }
-  if (!known(equals)) return "too many strategies to say how many are as good";
-  if (equals > 0) return `${equals} of the other ${strategies - 1} may be as good`;
-  return "each of the others is certainly worse";
+  if (!known(equals)) return "too many strategies to test which others may be equally efficient";
+  if (equals > 0) return `${equals} of the other ${strategies - 1} strategies may be equally efficient`;
+  return "all other strategies are significantly less efficient";
+}
+
+// The efficiency of the second-best strategy relative to the baseline, where that is best.
+function nextText({ best, values }) {
+  const same = (group) => Object.entries(values).every(([key, x]) => group.values[key] === x);
+  const others = study.groups.filter((group) =>
+    group.strategy !== best && known(intervalOf(group, "efficiency").value) && same(group));
+  if (others.length === 0) return "";
+  const efficiency = (group) => intervalOf(group, "efficiency");
+  const next = others.reduce((a, b) =>
+    efficiency(b).value > efficiency(a).value ? b : a);
+  const ratio = joined(intervalTexts(efficiency(next), 1, "×"));
+  return `; the next, ${next.strategy}, has ${ratio} its efficiency`;
 }
 
 function leaderText(leader) {
@@ -23,9 +36,9 @@ function leaderText(leader) {
   const on = `on ${values.scene}${where && ` (${where})`}`;
   const head =
     best === baseline
-      ? `Nothing is more efficient than ${baseline} ${on}`
+      ? `${baseline}, the baseline, is the most efficient ${on}${nextText(leader)}`
       : `${best} is the most efficient ${on}: ` +
-        `${joined(intervalTexts(efficiency))} times ${baseline}`;
+        `${joined(intervalTexts(efficiency, 1, "×"))} the efficiency of ${baseline}`;
   return `${head}; ${certaintyText(leader)}.`;
 }
 
@@ -34,16 +47,18 @@ function leadersText(leaders) {
   for (const { best } of leaders) wins.set(best, (wins.get(best) || 0) + 1);
   const order = [...wins].sort((a, b) => b[1] - a[1]);
   const parts = order.slice(0, 3).map(([name, n]) => `${name} on ${n}`);
-  const more = order.length > 3 ? ", others elsewhere" : "";
+  const more = order.length > 3 ? ", other strategies on the rest" : "";
   const head = `Most efficient on ${leaders.length} scenes: ${parts.join(", ")}${more}`;
   const few = leaders.filter((l) => l.seeds < 3);
   if (few.length === leaders.length) return `${head}; ${certaintyText(few[0])}.`;
   const alone = leaders.filter((l) => l.seeds >= 3 && l.equals === 0).length;
   const better = leaders.filter((l) => l.best !== l.baseline && l.efficiency.low > 1);
-  const without = few.length > 0 ? ` ${few.length} have fewer than three seeds.` : "";
+  const without = few.length === 0 ? ""
+    : ` ${few.length === 1 ? "1 scene has" : `${few.length} scenes have`} too few seeds for intervals.`;
   return (
-    `${head}. On ${better.length || "none"} it is certainly better than ${study.baseline}, ` +
-    `on ${alone || "none"} than every other strategy.${without}`
+    `${head}. The most efficient strategy is significantly better than ${study.baseline} on ` +
+    `${better.length || "none"} of the scenes, and than every other strategy on ` +
+    `${alone || "none"}.${without}`
   );
 }
 
@@ -56,8 +71,8 @@ function fastestText() {
     .filter((axis) => best.values[axis.name])
     .map((axis) => valueLabel(axis, best.values[axis.name]));
   return (
-    `The highest rate${at.length > 0 ? ` (${at.join(", ")})` : ""}: ` +
-    `${joined(rateTexts(rate(best)))} samples per second.`
+    `Highest throughput: ${joined(rateTexts(rate(best)))} samples per second` +
+    `${at.length > 0 ? ` (${at.join(", ")})` : ""}.`
   );
 }
 

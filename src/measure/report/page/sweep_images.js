@@ -7,7 +7,7 @@ function groupPicture(view, group, label) {
   const { name } = study.cells[group.cells[0]];
   const image = findImage(name);
   return el("figure.thumbnail",
-    image ? tonedPicture(view, image, label) : missingPicture("no picture of it"),
+    image ? tonedPicture(view, image, label) : missingPicture("no image"),
     el("figcaption", label),
   );
 }
@@ -33,7 +33,7 @@ function chosenPictures(view, choice, amount, value) {
   const cut = groups.length - figures.length;
   return [
     el("div.thumbnails", figures),
-    cut > 0 && el("p.hint", `${cut} more are not shown.`),
+    cut > 0 && el("p.hint", `${cut} more images are not shown.`),
   ];
 }
 
@@ -54,5 +54,5 @@ function imagesSection(view, choice) {
       min: 0, max: last, value: last, "data-control": "amount",
       text: (i) => valueLabel(amount, values[i]), onInput: show,
     }).node;
-  return section("images", "Pictures", amounts, host);
+  return section("images", "Images", amounts, host);
 }

@@ -9,11 +9,11 @@ function plotArea(choice, onChange) {
   const lines = allLines(panels);
   const view = (current = linesView(lines));
   return [
-    section("plots", "Efficiency, error, throughput",
+    section("plots", "Efficiency, error and throughput",
       varyingAxes.length > 0 && choiceMenus(choice, onChange),
       lines.length > 0
         ? plotsSection(view, choice, panels, lines)
-        : el("p", "No finished cell has these values."),
+        : el("p", "No finished cell has values to plot."),
     ),
     imagesSection(view, choice),
     costSection(view, choice, panels),
@@ -27,7 +27,7 @@ function start() {
       "Written by lanelight sweep. This page holds all its numbers and needs no network.",
     sections: doneCells.length > 0 && [
       ["plots", "Plots"],
-      imageBlocks.size > 0 && ["images", "Pictures"],
+      imageBlocks.size > 0 && ["images", "Images"],
       ["stages", "Stage costs"],
       ["cells", "Cells"],
     ],

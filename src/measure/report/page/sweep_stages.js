@@ -29,12 +29,12 @@ function costSection(view, choice, panels) {
   );
   const bars = all.filter((bar) => bar.stages.length > 0).slice(0, MOST_BARS);
   if (bars.length === 0) {
-    return section("stages", "Stage costs", el("p", "No stage times were recorded."));
+    return section("stages", "Processor time per sample, by stage", el("p", "No stage times were recorded."));
   }
-  return section("stages", "Stage costs",
+  return section("stages", "Processor time per sample, by stage",
     el("p.lead",
-      "Processor time of each stage per sample; a bar's length is the sum." +
-        (all.length > bars.length ? ` The first ${MOST_BARS} of ${all.length}.` : ""),
+      "Processor time of each stage per sample; the length of a bar is the total." +
+        (all.length > bars.length ? ` Shows the first ${MOST_BARS} of ${all.length} lines.` : ""),
     ),
     costRows(view, bars, stageNames({ ranked: bars })),
   );

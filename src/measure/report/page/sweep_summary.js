@@ -1,5 +1,5 @@
 "use strict";
-// What the sweep is, and how much of it there is.
+// Headline, warnings and facts of the sweep.
 
 function countOf(status) {
   return study.cells.filter((cell) => cell.status === status).length;
@@ -31,26 +31,27 @@ function warnings() {
   const invalid = sumOf("invalid_samples");
   if (countOf("failed") > 0) {
     texts.push(
-      `${cellsThat(countOf("failed"), "has", "have")} failed; the table says why.`,
+      `${cellsThat(countOf("failed"), "has", "have")} failed; the table lists the reasons.`,
     );
   }
   if (countOf("missing") > 0) {
     texts.push(
-      `${cellsThat(countOf("missing"), "is", "are")} missing; the same command goes on.`,
+      `${cellsThat(countOf("missing"), "is", "are")} missing; run the same command again to ` +
+        `render ${countOf("missing") === 1 ? "it" : "them"}.`,
     );
   }
   if (machines.length > 1) {
     texts.push(
       `The cells come from ${machines.length} machines (${machines.slice(0, 4).join(", ")}` +
-        `${machines.length > 4 ? ", ..." : ""}): times may not be comparable.`,
+        `${machines.length > 4 ? ", ..." : ""}): their times may not be comparable.`,
     );
   }
   if (programs.length > 1) {
     texts.push(
-      `The cells come from ${programs.length} programs: ${programs.join("; ")}.`,
+      `The cells were rendered by ${programs.length} versions of the program: ${programs.join("; ")}.`,
     );
   }
-  if (invalid > 0) texts.push(`${fmtCount(invalid)} samples were invalid.`);
+  if (invalid > 0) texts.push(`${fmtCount(invalid)} samples were invalid (NaN, infinite or negative).`);
   return texts;
 }
 
@@ -64,7 +65,7 @@ function sweepSummary() {
         study.excluded > 0 ? `${fmtCount(study.excluded)} combinations excluded` : null,
       ),
       fact("Samples", fmtCount(sumOf("samples"))),
-      study.seeds > 1 && fact("Seeds", fmtCount(study.seeds), "repetitions, not lines"),
+      study.seeds > 1 && fact("Seeds", fmtCount(study.seeds), "repetitions of each cell"),
       fact("Processor time", fmtSeconds(sumOf("cpu_seconds"))),
       varyingAxes.map(axisFact),
       fact("Machine", machinesText(study.machines), null, { class: "wide" }),

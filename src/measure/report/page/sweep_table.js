@@ -51,10 +51,10 @@ function tableSection() {
   const cut = study.cells.length > MOST_CELLS;
   return section("cells", "All cells",
     el("p.lead",
-      "The same and more is in sweep.csv.",
+      "sweep.csv contains all columns.",
       cut &&
-        ` ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows are shown, the first ones ` +
-          "in the order chosen.",
+        ` The table shows the first ${MOST_CELLS} of ${fmtCount(study.cells.length)} rows, in ` +
+          "the chosen order.",
     ),
     sortableTable({
       columns: cellColumns(),

@@ -82,7 +82,7 @@ function leadingRows(view, strategies, row) {
   if (strategies.length <= MOST_ROWS) return strategies.map(row);
   const first = leading(view.ranked, view.baseline);
   const rest = strategies.filter((s) => !first.has(s.index));
-  const others = el("details.others", el("summary", `The other ${rest.length} strategies`));
+  const others = el("details.others", el("summary", `${rest.length} more strategies`));
   others.addEventListener("toggle", () => others.append(...rest.map(row)), { once: true });
   return [strategies.filter((s) => first.has(s.index)).map(row), others];
 }

@@ -1,6 +1,5 @@
 "use strict";
-// What to beware of: one entry for each kind, with the strategies that it is about, so
-// that nothing is said twice and nothing contradicts the verdict.
+// Warnings: one entry for each kind, with its strategies, so that no warning appears twice.
 
 function plural(count, one, many) {
   return count === 1 ? one : many;
@@ -20,25 +19,25 @@ function strategyWarnings(view) {
     about(
       at((s) => s.heavy_tailed),
       "Heavy tails",
-      "Rare bright samples carry most of the error: intervals may not hold; compare the " +
-        "trimmed error, and do not read their tests of bias.",
+      "Rare bright samples cause most of the error. Intervals are unreliable: compare the " +
+        "trimmed error and ignore the bias test.",
     ),
     about(
       at((s, level) => level.reference_limited),
       "Reference too noisy",
-      "More than half of what was measured at the largest count is the reference's own " +
-        "error: the error is not well known.",
+      "More than half of the error at the largest sample count is the noise of the " +
+        "reference. Use a reference with more samples.",
     ),
     about(
       tiles,
-      "Parts of the image differ",
-      "Some tiles differ both from the reference and from the other strategies by more " +
-        "than noise explains; the maps show where.",
+      "Local bias",
+      "Some tiles differ significantly from the reference and from the other strategies; " +
+        "see the error maps.",
     ),
     about(
       invalid,
       "Invalid samples",
-      `${fmtCount(total)} ${plural(total, "sample was", "samples were")} not finite or ` +
+      `${fmtCount(total)} ${plural(total, "sample was", "samples were")} NaN, infinite or ` +
         "negative.",
     ),
   ];
@@ -52,21 +51,21 @@ function biasWarnings(view) {
     bias.failed > 0 && {
       title: "Bias",
       text:
-        `${bias.failed} of ${bias.tests} strategies differ in the mean from the reference ` +
-        `and from the others (Holm, level ${fmtShort(bias.level)}).`,
+        `The mean image of ${bias.failed} of ${bias.tests} strategies differs significantly from ` +
+        `the reference and from the other strategies (Holm's test, level ${fmtShort(bias.level)}).`,
       strategies: listed(bias.strategies),
     },
     about(
       listed(bias.alike),
-      "The reference, rather than a strategy",
-      "The means differ from that of the reference by more than noise, but not from each " +
-        "other.",
+      "Reference may be wrong",
+      "The mean images of these strategies differ significantly from the reference but agree " +
+        "with each other.",
     ),
     suspect > 0 && {
-      title: "The reference, in places",
+      title: "Reference may be wrong locally",
       text:
         `In ${suspect} ${plural(suspect, "tile", "tiles")} the strategies agree with each ` +
-        "other and not with the reference: it is less sure there than it says.",
+        "other but not with the reference, so its estimated variance is probably too small there.",
       strategies: [],
     },
   ];
@@ -77,10 +76,10 @@ function calibrationWarning(scene) {
   if (!calibration || !calibration.share || !known(calibration.share.high)) return null;
   if (calibration.share.high >= calibration.stated - 0.05) return null;
   return {
-    title: "Self-estimates",
+    title: "Unreliable error estimates",
     text:
-      `Intervals that renders stated held in ${fmtPercent(calibration.share.value, 2)} of ` +
-      `them only; ${fmtPercent(calibration.stated, 2)} were promised.`,
+      `Only ${fmtPercent(calibration.share.value, 2)} of the renders have their true error inside ` +
+      `their own ${fmtPercent(calibration.stated, 2)} confidence interval.`,
     strategies: [],
   };
 }
@@ -99,24 +98,24 @@ function warningTexts(view) {
   const { scene } = view;
   const plain = (title, text) => ({ title, text, strategies: [] });
   return [
-    (scene.cautions || []).length > 0 && plain("Ranking:", scene.cautions.join(" ")),
+    (scene.cautions || []).length > 0 && plain("Ranking", scene.cautions.join(" ")),
     ...missingWarnings(view),
     ...biasWarnings(view),
     ...strategyWarnings(view),
     calibrationWarning(scene),
     scene.interrupted &&
-      plain("Interrupted", "Renders are missing; --resume does them."),
+      plain("Interrupted", "Some renders are missing; use --resume to finish them."),
     scene.reference && scene.reference.note && plain("Reference", scene.reference.note),
     scene.report_scale > 1 &&
       plain(
         "Images",
-        `are shown here at 1/${scene.report_scale} of their size; the EXR files are whole.`,
+        `They are scaled to 1/${scene.report_scale} in this report; the EXR files have full size.`,
       ),
   ].filter(Boolean);
 }
 
 function warningItem({ title, text, strategies }) {
-  return el("li", el("b", title), ` ${text}`, strategies.length > 0 && [
+  return el("li", el("b", `${title}:`), ` ${text}`, strategies.length > 0 && [
     " ",
     el("span.who", { title: strategies.map((s) => s.name).join(", ") },
       `(${strategies.length > 1 ? `${strategies.length} strategies: ` : ""}` +
@@ -129,10 +128,10 @@ function warningsList(view) {
   const items = warningTexts(view);
   if (items.length === 0) {
     return el("p.all-well",
-      "Nothing to beware of: every strategy ran, no test " +
-        "failed, and the reference is good enough.",
+      "No warnings: all strategies finished, no bias test failed, and the reference is " +
+        "accurate enough.",
     );
   }
-  const title = items.length === 1 ? "One thing to know" : `${items.length} things to know`;
+  const title = items.length === 1 ? "1 warning" : `${items.length} warnings`;
   return warningBox(title, items.map(warningItem));
 }

@@ -113,20 +113,21 @@ std::vector<Point> FarSun(double distance, const Effort& effort) {
 void AddLightSizeCases(std::vector<Case>& cases) {
   const CaseAdder add{cases, "lights", Truth::kClosedForm};
   add({"disk-light-radius", "radius of a disk light, from 100 to 1e-8 of its distance",
-       "the plane below shows the closed form, from one side and from both",
+       "the radiance of the plane below equals the closed form, for one-sided and "
+       "two-sided lamps",
        LogAxis("radius", "", {1e-8, 100}, Decades(-8, 2, 2), Decades(-8, 2)), Disk});
   add({"quad-light-size", "size of a quad light, from 100 to 1e-8 of its distance",
        "Lambert's formula for polygons",
        LogAxis("half side", "", {1e-6, 100}, Decades(-8, 2, 2), Decades(-8, 2)), Quad});
   add({"point-light-height", "a point light 1 to 1e-8 above a surface",
-       "the light that reaches a square is its solid angle, as far as places are "
-       "rounded",
+       "the irradiance on a square equals the solid angle, within the rounding of "
+       "positions",
        LogAxis("height", "", {1e-6, 1}, Decades(-8, 0)), NearPoint});
   add({"spot-cone-angle", "a spot light with a cone of 60 to 1e-3 degrees",
-       "the cone carries its intensity and its flux",
+       "intensity and flux of the cone",
        LogAxis("cone angle", "degrees", {1e-3, 60}, {1e-3, 1e-2, 0.1, 1, 10, 60}), Spot});
   add({"sun-distance", "a sun of the same angle, 10 to 1e9 units away",
-       "the plane shows the same",
+       "the plane has the same radiance",
        LogAxis("distance", "", {10, 1e7}, Decades(1, 9, 2), Decades(1, 9)), FarSun,
        "povray #469"});
 }

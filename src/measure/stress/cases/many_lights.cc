@@ -60,12 +60,12 @@ std::vector<Point> Triangles(double count, const Effort& effort) {
 void AddManyLightCases(std::vector<Case>& cases) {
   const CaseAdder add{cases, "lights", Truth::kClosedForm};
   add({"many-lights", "1 to 1e6 point lights, over six decades of intensity",
-       "the plane below shows their sum",
+       "the radiance of the plane below equals the sum over the lights",
        LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4, 262144},
                {1, 10, 100, 1e3, 1e4, 1e5, 262144, 1e6}),
        Points});
-  add({"emitting-triangles", "a lamp that is cut into 2 to 1e6 triangles",
-       "the plane below shows Lambert's formula of the whole",
+  add({"emitting-triangles", "a lamp tessellated into 2 to 1e6 triangles",
+       "the radiance of the plane below equals Lambert's formula for the whole lamp",
        LogAxis("triangles", "", {1, 1e6}, {2, 200, 20000}, {2, 200, 20000, 2e5, 2e6}),
        Triangles});
 }

@@ -148,19 +148,19 @@ void AddRadianceCases(std::vector<Case>& cases) {
   const CaseAdder twins{cases, "lights", Truth::kTwin};
   closed_lights(
       {"radiance", "radiance of every kind of light, from 1e-30 to 1e30",
-       "what is seen is in proportion",
+       "the image is proportional to it",
        LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        ByRadiance});
   invariant(
       {"noise-of-radiance", "noise of an image of radiance 1e-30 to 1e30",
-       "the standard error is in proportion",
+       "the standard error is proportional to it",
        LogAxis("radiance", "", {1e-30, 1e30}, Decades(-30, 30, 15), Decades(-30, 30, 3)),
        NoiseByRadiance});
   closed_film({"decades-in-one-image",
                "two lamps in one image, 1e-12 to 1e12 times as bright", "each is exact",
                LogAxis("ratio", "", {1e-12, 1e12}, Decades(-12, 12, 3)), InOneImage});
   twins({"bright-texel", "one texel of the sky 1 to 1e12 times as bright as the rest",
-         "the plane shows the sum over texels",
+         "the radiance of the plane equals the sum over the texels",
          LogAxis("times as bright", "", {1, 1e12}, Decades(0, 12, 2), Decades(0, 12)),
          BrightTexel});
 }

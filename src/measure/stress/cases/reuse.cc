@@ -122,22 +122,23 @@ std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
 void AddReuseCases(std::vector<Case>& cases) {
   const CaseAdder closed{cases, "transport", Truth::kClosedForm};
   const CaseAdder twins{cases, "transport", Truth::kTwin};
-  closed({"reuse-distance", "vertices 1e-6 to 1e6 apart, of paths that serve their block",
-          "a closed room keeps its balance",
+  closed({"reuse-distance", "path vertices 1e-6 to 1e6 apart, with reuse=block",
+          "the radiance in a closed box is 1",
           LogAxis("radius of the room", "", {1e-6, 1e6}, Decades(-6, 6, 3),
                   Decades(-12, 12, 2)),
           ByDistance});
-  closed({"reuse-corner", "first and second vertices that come together in a corner",
+  closed({"reuse-corner", "first and second vertices that converge in a corner",
           "both planes have the radiance of the series, at any distance",
-          LogAxis("half of what is seen", "", {1e-4, 100}, Decades(-4, 2, 2),
+          LogAxis("half of the radiance", "", {1e-4, 100}, Decades(-4, 2, 2),
                   Decades(-6, 4)),
           ByCorner});
   closed({"reuse-black", "black surfaces that emit on one side, beside diffuse ones",
           "every stripe has the radiance of the series",
           LogAxis("stripes", "", {2, 512}, {2, 16, 128}, {2, 4, 8, 16, 32, 64, 128, 512}),
           ByBlackStripes});
-  twins({"reuse-alpha", "second vertices of metal through the least alpha that is shared",
-         "the image of paths that serve their own pixels",
+  twins({"reuse-alpha",
+         "metal at the second vertex, across the smallest alpha that paths share",
+         "the image of reuse=none",
          LogAxis("alpha", "", {1e-3, 1}, {1e-3, 0.09, 0.11, 0.3},
                  {1e-3, 0.03, 0.09, 0.0999, 0.1001, 0.11, 0.3, 1}),
          BySharedAlpha});

@@ -118,23 +118,23 @@ void AddRoughnessCases(std::vector<Case>& cases) {
   const CaseAdder twins{cases, "materials", Truth::kTwin};
   const CaseAdder invariant{cases, "materials", Truth::kInvariance};
   twins({"ggx-metal-alpha", "roughness of a metal, alpha from 1e-8 to 1",
-         "a furnace shows the albedo of single scattering, integrated over slopes",
+         "white furnace test: the albedo of single scattering, integrated over slopes",
          LogAxis("GGX alpha", "", {0, 1}, Decades(-8, 0, 1), Decades(-8, 0, 0.5)),
          MetalByAlpha});
   twins({"ggx-glass-alpha", "roughness of glass, alpha from 1e-8 to 1",
-         "what is reflected and refracted in a furnace is the integral over slopes",
+         "white furnace test: reflection and refraction equal the integral over slopes",
          LogAxis("GGX alpha", "", {0, 1}, Decades(-8, 0, 2), Decades(-8, 0, 0.5)),
          GlassByAlpha});
   twins({"ggx-anisotropy", "roughness 1 along one axis, 1 to 1e-8 along the other",
-         "a furnace shows the integral over slopes",
+         "white furnace test: the integral over slopes",
          LogAxis("ratio of the alphas", "", {1, 1e8}, Decades(0, 8, 2), Decades(0, 8)),
          ByAnisotropy});
   invariant({"roughness-against-mirror", "alpha so small that the metal is a mirror",
-             "a lamp of 20 degrees is seen as in a mirror, but for the tail of GGX",
+             "a lamp of 20 degrees reflects as in a mirror, except for the tail of GGX",
              LogAxis("GGX alpha", "", {0, 0.01}, Decades(-8, -2)), AgainstMirror,
              "pbrt-v3 #214"});
   twins({"grazing-view", "materials seen under a cosine of 1 to 1e-7",
-         "in a furnace every material returns its albedo for that angle",
+         "white furnace test: every material returns its albedo for that angle",
          LogAxis("cosine of the view", "", {1e-7, 1}, Decades(-7, 0, 1)), Grazing});
 }
 

@@ -41,7 +41,7 @@ std::vector<Point> ByAlbedo(double missing, const Effort& effort) {
   scene.omission_reason = [&](const std::string& strategy) {
     const bool long_training = HasTraining(strategy) && length > effort(50.0, 2000.0);
     if (long_training)
-      return std::string("its pilot alone is 65536 paths of this length");
+      return std::string("its trial run alone takes 65536 paths of this length");
     // Squared weights of an event: 4/3 in the mean for uniform directions, 1 / (1 - q).
     const bool grows =
         Is(strategy, "directions=uniform") || Is(strategy, "roulette=constant");
@@ -123,12 +123,12 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
 void AddStrategyCases(std::vector<Case>& cases) {
   const CaseAdder add{cases, "strategies", Truth::kClosedForm};
   add({"strategies-light-radius", "a sphere light of radius 1e-8 to 0.5, every strategy",
-       "the plane below shows the closed form",
+       "the radiance of the plane below equals the closed form",
        LogAxis("radius", "", {1e-8, 0.5}, {1e-8, 1e-5, 1e-3, 0.03, 0.5},
                {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
        ByLightRadius});
   add({"strategies-albedo", "a closed room of albedo 0.5 to 1 - 1e-5, every strategy",
-       "the room is in balance: 1",
+       "the radiance in the room is 1",
        LogAxis("1 - albedo", "", {1e-5, 0.5}, {1e-3, 0.01, 0.1, 0.5},
                {1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.5}),
        ByAlbedo});
@@ -138,15 +138,15 @@ void AddStrategyCases(std::vector<Case>& cases) {
        ByRoughness});
   add({"strategies-radiance-ratio",
        "a light 1 to 1e12 times as bright as the sky, every strategy",
-       "the plane shows the sum of both",
+       "the radiance of the plane equals the sum of both",
        LogAxis("ratio", "", {1, 1e12}, Decades(0, 12, 4), Decades(0, 12)), ByRatio});
   add({"strategies-lights", "1 to 1e4 point lights over six decades, every strategy",
-       "the plane shows their sum",
+       "the radiance of the plane equals the sum over the lights",
        LogAxis("lights", "", {1, 1e6}, {1, 100, 1e4}, {1, 10, 100, 1e3, 1e4, 1e5, 1e6}),
        ByLights});
   add({"strategies-transmittance",
-       "a sky behind sheets that let 1 to 1e-12 through, every strategy",
-       "the product of what they let through",
+       "a sky behind sheets of transmittance 1 to 1e-12, every strategy",
+       "the product of the transmittances",
        LogAxis("transmitted", "", {1e-30, 1}, {1e-12, 1e-6, 1e-3, 1}, Decades(-30, 0, 3)),
        ByTransmittance});
 }

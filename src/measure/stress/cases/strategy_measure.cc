@@ -40,10 +40,10 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
   const double samples = double(*setup.settings.spp) * quality.size * quality.size;
   const double chance = scene.chance(strategy), hits = samples * chance;
   if (hits < kMinExpectedHits) {
-    return NotMeasured(strategy,
-                       fmt::format("only {:.2g} of {} samples find the light: nothing "
-                                   "can be said of their mean",
-                                   hits, samples));
+    return NotMeasured(
+        strategy,
+        fmt::format("only {:.2g} of {} samples find the light: too few for a test", hits,
+                    samples));
   }
   try {
     const JobRun rendered = RenderText(setup);

@@ -35,12 +35,14 @@ void AddTransportCases(std::vector<Case>& cases) {
   const CaseAdder closed{cases, "transport", Truth::kClosedForm};
   closed({"roulette-constant",
           "roulette that ends 0.001 to 0.7 of the paths at each event",
-          "a closed room keeps its balance",
+          "the radiance in a closed box is 1",
           LogAxis("probability of ending", "", {1e-3, 0.7}, {1e-3, 0.01, 0.1, 0.5, 0.7}),
           ByTermination});
-  closed({"roulette-floor", "least survival of 1e-6 to 1",
-          "a closed room keeps its balance",
-          LogAxis("least survival", "", {1e-6, 1}, {1e-6, 1e-3, 0.3, 0.6, 1}), ByFloor});
+  closed(
+      {"roulette-floor", "minimum survival probability of 1e-6 to 1",
+       "the radiance in a closed box is 1",
+       LogAxis("minimum survival probability", "", {1e-6, 1}, {1e-6, 1e-3, 0.3, 0.6, 1}),
+       ByFloor});
 }
 
 }  // namespace lanelight::stress
