@@ -34,7 +34,7 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
                                                                       : "--spp";
   const double spp = double(r.samples) / double(job.window.pixels());
   PrintError(
-      r.stop_reason == StopReason::kHopelessFactor
+      r.stop_reason == StopReason::kHopeless
           ? fmt::format("error: the target was not reached and more samples will not "
                         "help: stopped after {:.0f} samples per pixel, {:.0f}x the "
                         "estimated need; error {}",
