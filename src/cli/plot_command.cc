@@ -77,7 +77,7 @@ void AddPlotCommand(CLI::App& root, Command& chosen) {
   AddOption(*command, "-o,--output FILE", options->out,
             "Write the plot: .svg or .png (needs matplotlib), or its numbers: .csv");
   AddOption(*command, "--scene NAME", options->scene,
-            "Scene by name, if FILE has several");
+            "Scene by name; default: the only scene of FILE");
   command->add_flag("--all", options->all,
                     "Draw all strategies; default: the paper's or the leading eight");
   command->add_flag("--list", options->list, "Print which plots FILE has, and stop");

@@ -155,7 +155,7 @@ TEST_CASE("spectral reuse: dispersive glass is refused", "[reuse][spectral]") {
   glass.dispersion = std::make_shared<const Spectrum>(*SpectrumOfName("glass-F11"));
   room.shapes.back().material = static_cast<Index>(room.materials.size()) - 1;
   CHECK_THROWS_WITH(EstimateWith(room, "reuse=block", 4, 1),
-                    Catch::Contains("glass disperses"));
+                    Catch::Contains("dispersive glass"));
   room.integrator.transport = Transport::kRgb;
   EstimateWith(room, "reuse=block", 4, 1);
 }

@@ -39,7 +39,7 @@ Sums Evaluated(const TestMaterial& material, Vec3d wo) {
   return sums;
 }
 
-// Returns the moments of each material and direction; computes them once.
+// Returns the sums of each material and direction, computed once.
 const std::vector<std::vector<Sums>>& References() {
   static const std::vector<std::vector<Sums>> references = [] {
     std::vector<std::vector<Sums>> list;

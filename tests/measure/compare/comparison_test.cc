@@ -50,17 +50,15 @@ TEST_CASE("a verdict is one sentence with the findings", "[compare]") {
     return Compare(image, reference, options).verdict;
   };
   CHECK(verdict(reference) == "ref equals ref in every value");
-  CHECK_THAT(
-      verdict(Render("noisy", 2, 0.05)),
-      Contains("noisy differs from ref by ") && EndsWith("; the difference is not significant"));
+  CHECK_THAT(verdict(Render("noisy", 2, 0.05)),
+             Contains("noisy differs from ref by ") &&
+                 EndsWith("; the difference is not significant"));
   CHECK_THAT(verdict(Render("other", 3, 0.05, 1.3)),
              Contains("the difference is significant (p "));
   NamedImage plain = Render("plain", 4, 0.05);
   plain.image.names[3] = "spread";
-  CHECK_THAT(
-      verdict(plain),
-      EndsWith(
-          "significance unknown: the first image has no variances"));
+  CHECK_THAT(verdict(plain),
+             EndsWith("significance unknown: the first image has no variances"));
   CHECK_THAT(verdict(plain, {.flip = true}), Contains("; FLIP 0."));
   NamedImage invalid = {"bad", MakeImage(kSide, kSide, {"R", "G", "B"})};
   for (float& v : invalid.image.pixels) v = std::nanf("");

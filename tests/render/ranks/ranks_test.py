@@ -210,7 +210,7 @@ def test_other_commands(p):
     result = subprocess.run(p.command(2, "plan", p.scene()), stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True)
     check(result.returncode == 2 and result.stdout == "", "plan ran with ranks")
-    check(result.stderr.count("error: 2 ranks can `render`") == 1, result.stderr)
+    check(result.stderr.count("error: only `render` supports several ranks (2 here)") == 1, result.stderr)
     subprocess.run(p.command(1, "plan", p.scene()), stdout=subprocess.DEVNULL, check=True)
 
 

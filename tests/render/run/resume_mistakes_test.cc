@@ -108,8 +108,9 @@ TEST_CASE("a state whose tables do not fit the image is refused", "[resume]") {
       if (rest.tables[i].values.size() != kPerPixel) continue;
       ++per_pixel;
       damaged.tables[i].values.resize(kPerPixel - 3);
-      CHECK_THAT(ErrorOf(request, damaged),
-                 Contains("'" + rest.tables[i].name + "' has 7767 values: 7770 are"));
+      CHECK_THAT(
+          ErrorOf(request, damaged),
+          Contains("'" + rest.tables[i].name + "' has 7767 values; expected 7770:"));
     }
     CHECK(per_pixel == 1);
   }

@@ -9,6 +9,11 @@ function capitalised(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
+// The first letter of a title inside a sentence; abbreviations such as SIMD stay.
+function lowered(title) {
+  return /^[A-Z][a-z]/.test(title) ? title.charAt(0).toLowerCase() + title.slice(1) : title;
+}
+
 function known(x) {
   return typeof x === "number" && Number.isFinite(x);
 }

@@ -31,6 +31,6 @@ function drawErrorPlot(node, { slots, pace }) {
     drawing,
     el("p.note",
       "Relative MSE with 95 % confidence intervals. A bar without an upper end means that the ",
-      "samples are too few for an upper limit. Plain Monte Carlo falls as 1 / cost."),
+      "samples are too few for an upper limit. For independent samples, the relative MSE falls as 1 / cost."),
   );
 }

@@ -61,7 +61,7 @@ function efficiencyColumns(view, scale) {
 
 function coverageTexts(self) {
   if (!self || !known(self.total)) return { value: UNKNOWN, bounds: "" };
-  const refused = self.refused > 0 ? `${self.refused} without interval` : "";
+  const refused = self.refused > 0 ? `${self.refused} unknown` : "";
   if (self.total === 0) return { value: UNKNOWN, bounds: refused };
   return {
     value: fmtPercent(self.inside / self.total, 2),
@@ -103,7 +103,7 @@ function coverageColumn() {
     key: "self",
     title: "Coverage",
     unit: "self-estimate",
-    hint: "Percentage of renders whose own confidence interval contains the true error",
+    hint: "Percentage of renders whose own confidence interval contains the true error; unknown: no interval",
     cell: (s) => twoLines(coverageTexts(self(s))),
     sort: (s) => (self(s) && self(s).total ? self(s).inside / self(s).total : null),
   };

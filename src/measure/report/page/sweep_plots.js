@@ -170,8 +170,8 @@ function plotsSection(view, choice, panels, lines) {
   };
   const measures = keys.map((key) => [key, SWEEP_MEASURES[key].label]);
   const against = [
-    ["along", choice.along ? `along ${choice.along.title}` : "by line"],
-    ["time", "against time"],
+    ["along", choice.along ? `Against ${lowered(choice.along.title)}` : "By line"],
+    ["time", "Against time"],
   ];
   update({});
   return [
