@@ -320,7 +320,7 @@ TEST_CASE("images with motion are bit-identical for any threads and wavefront si
   base.spp = 12;
   base.threads = 1;
   base.wavefront = 1000;
-  base.sampler = Points::kSobol;
+  base.sampler = SampleSequence::kSobol;
   const SceneDescription scene = Everything(true);
   const Rendered reference = RenderDescription(scene, base);
   for (const std::uint32_t wavefront : {64u, 192u, 8192u}) {

@@ -323,7 +323,7 @@ TEST_CASE("spectral: the albedo output is the visible colour", "[spectral]") {
   TestRender options;
   options.spp = 1024;
   options.auxiliary = Auxiliary::kAov;
-  options.sampler = Points::kSobol;
+  options.sampler = SampleSequence::kSobol;
   const Rgb color = {0.2, 0.4, 0.8};
   const Rendered render = RenderDescription(Spectral(Patch({color}, {Grey(1)})), options);
   for (int c = 0; c < 3; ++c) {

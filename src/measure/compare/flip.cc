@@ -34,7 +34,7 @@ Kernel Scaled(std::vector<double> weights, double factor) {
 }
 
 // Returns exp(-x^2 / scale) at integer x.
-std::vector<double> Bell(int radius, double scale) {
+std::vector<double> GaussianKernel(int radius, double scale) {
   std::vector<double> out;
   for (int x = -radius; x <= radius; ++x) out.push_back(std::exp(-double(x) * x / scale));
   return out;
@@ -76,7 +76,8 @@ class EyeFilters {
 
   // Returns lengths of gradients of the edge (derivative 1) or point (2) detector.
   Plane Features(const Plane& in, int w, int h, int derivative) const {
-    std::vector<double> bell = Bell(feature_radius_, 2 * deviation_ * deviation_);
+    std::vector<double> bell =
+        GaussianKernel(feature_radius_, 2 * deviation_ * deviation_);
     const Kernel smooth = Scaled(bell, 1 / Sum(bell)), slope = Slope(bell, derivative);
     Plane across = ConvolveColumns(ConvolveRows(in, w, h, slope), w, h, smooth);
     const Plane down = ConvolveColumns(ConvolveRows(in, w, h, smooth), w, h, slope);
@@ -88,7 +89,7 @@ class EyeFilters {
 
  private:
   std::vector<double> BellOf(const Sensitivity& s) const {
-    return Bell(radius_, s.b * ppd_ * ppd_ / (kPi * kPi));
+    return GaussianKernel(radius_, s.b * ppd_ * ppd_ / (kPi * kPi));
   }
 
   Plane One(const Plane& in, int w, int h, const Sensitivity& s) const {

@@ -50,8 +50,8 @@ class PassRenderer::PassCheckpointer : public Checkpointer {
     static_cast<RunRecord&>(state) = renderer_.record_;
     return true;
   }
-  bool Due() const override { return observer_.Due(); }
-  void Keep(RunState& state) override {
+  bool IsDue() const override { return observer_.IsDue(); }
+  void Save(RunState& state) override {
     renderer_.record_ = std::move(static_cast<RunRecord&>(state));
     const Stopwatch watch;
     observer_.Observe();

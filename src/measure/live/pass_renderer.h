@@ -46,7 +46,7 @@ class PassObserver {
  public:
   virtual ~PassObserver() = default;
   /// Called often, from any thread: whether Observe is due, true until it is called.
-  virtual bool Due() const = 0;
+  virtual bool IsDue() const = 0;
   /// By the thread that renders, with nothing in flight: films may be read.
   virtual void Observe() = 0;
 };

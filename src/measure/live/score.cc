@@ -36,7 +36,7 @@ double StretchAt(const std::vector<Look>& a, const std::vector<Look>& b, std::si
          stat::NormalQuantile(0.5 + kEstimateConfidence / 2);
 }
 
-Ahead AheadBy(const Interval& ratio) {
+Ahead AheadOf(const Interval& ratio) {
   return ratio.low > 1 ? Ahead::kB : ratio.high < 1 ? Ahead::kA : Ahead::kUnknown;
 }
 
@@ -73,7 +73,7 @@ Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace 
   for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
     const std::size_t i = std::min(k, a.size() - 1), j = std::min(k, b.size() - 1);
     last = EfficiencyOf(a[i], b[j], pace, StretchAt(a, b, i, j));
-    const Ahead now = last.available ? AheadBy(last.interval) : Ahead::kUnknown;
+    const Ahead now = last.available ? AheadOf(last.interval) : Ahead::kUnknown;
     if (now == Ahead::kUnknown || now == ahead) continue;
     ahead = now;
     since = a[i].spp;

@@ -91,7 +91,7 @@ void SceneRunner::RunDiffuseModels() {
     settings.cached_bvh = CachedBvhOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
-    if (Stopped()) return;
+    if (IsStopped()) return;
     diffuse.image = FilmColors(film);
     for (Rgb& c : diffuse.image) c = RoundToFloat(c);
     WriteColors(path, film.width(), film.height(), {{"", &diffuse.image}});

@@ -78,10 +78,10 @@ class Runner {
               group, [&](std::size_t i) { return known_[i] != CellStatus::kMissing; })) {
         continue;
       }
-      const auto claim = claims_.Take("scene of " + part_[group.front()]->name);
+      const auto claim = claims_.TryLock("scene of " + part_[group.front()]->name);
       if (!claim) continue;
       for (const std::size_t i : group) {
-        if (Stopped() || interrupted_) return;
+        if (IsStopped() || interrupted_) return;
         TryCell(i);
       }
     }
@@ -104,26 +104,26 @@ class Runner {
       rest.insert(rest.end(), missing.begin(), missing.end());
     }
     for (const std::size_t i : rest) {
-      if (Stopped() || interrupted_) break;
+      if (IsStopped() || interrupted_) break;
       TryCell(i);
     }
-    interrupted_ |= Stopped();
+    interrupted_ |= IsStopped();
   }
 
   void WaitForOthers() {
     constexpr auto kPause = std::chrono::milliseconds(200);
     while (!interrupted_ && Count(CellStatus::kElsewhere) > 0) {
-      for (std::size_t i = 0; i < part_.size() && !Stopped(); ++i) {
+      for (std::size_t i = 0; i < part_.size() && !IsStopped(); ++i) {
         if (known_[i] == CellStatus::kElsewhere) TryCell(i);
       }
-      interrupted_ |= Stopped();
+      interrupted_ |= IsStopped();
       std::this_thread::sleep_for(kPause);
     }
   }
 
   void TryCell(std::size_t i) {
     if (known_[i] != CellStatus::kMissing && known_[i] != CellStatus::kElsewhere) return;
-    const auto claim = claims_.Take(part_[i]->name);
+    const auto claim = claims_.TryLock(part_[i]->name);
     if (!claim) {
       known_[i] = CellStatus::kElsewhere;
       return;
@@ -192,7 +192,7 @@ class Runner {
                         part_.size(), &cell, progress});
   }
 
-  bool Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
+  bool IsStopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
   std::size_t Count(CellStatus what) const {
     return std::size_t(std::ranges::count(known_, what));
   }

@@ -83,7 +83,8 @@ std::vector<Setting> Contents() {
                OfScene(fmt::format("'{}'", kDefaultStrategyName))},
               ChangesType{}, &S::strategy, kSceneFlag),
       Declare({"sampler", "", "Sample points", "those of the strategy"},
-              NamesOf<Points>(kNumPoints), &S::points, kSceneFlag | kReported),
+              NamesOf<SampleSequence>(kNumSampleSequences), &S::sampler,
+              kSceneFlag | kReported),
       Declare(
           {"transport", "",
            "What paths carry: red, green and blue, or wavelengths; scene: wavelengths "

@@ -33,7 +33,7 @@ StateLock::StateLock(const std::string& path,
       file_.reset();
       return;
     }
-    lock_ = file_->Take("state");
+    lock_ = file_->TryLock("state");
     if (!lock_) {
       const std::string who = file_->Note();
       throw InputError(fmt::format(

@@ -37,7 +37,7 @@ struct RankPasses::Head {
 };
 
 RankPasses::Head RankPasses::OwnHead(const TrainingSamples& samples) const {
-  return {samples.rays_closest, samples.rays_shadow, signal_.Stopped()};
+  return {samples.rays_closest, samples.rays_shadow, signal_.IsStopped()};
 }
 
 std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,

@@ -104,7 +104,7 @@ struct TriedStrategy {
   TrialGain Gain() const;
   /// Returns the logarithm of its gain over `must_gain` if that is clear by so many
   /// standard errors, and it neither misses light nor is carried by few pixels; else 0.
-  double Beyond(double must_gain, double standard_errors) const;
+  double SignificantLogGain(double must_gain, double standard_errors) const;
 };
 
 /// Prepares a change of the strategy of `options` for a trial. Strategies that are tried
@@ -150,10 +150,10 @@ class StrategyTrial {
                                      std::uint64_t samples);
 
   /// Trains the strategy for so many planned samples.
-  TrainingOutcome Learn(const TriedStrategy& tried, std::uint64_t planned,
-                        StrategyTables& tables);
+  TrainingOutcome TrainStrategy(const TriedStrategy& tried, std::uint64_t planned,
+                                StrategyTables& tables);
 
-  bool Stopped() const { return watcher_.Stopped(); }
+  bool IsStopped() const { return watcher_.IsStopped(); }
   /// Returns the samples of one pass.
   std::uint64_t samples() const { return work_.samples(); }
   /// Returns samples and rays of all passes so far.

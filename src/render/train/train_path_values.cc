@@ -75,7 +75,7 @@ class Pilot {
       outcome_.changes = Change(Roulette::kThroughput);
     }
     const PathSamples recorded = RecordPass();
-    if (!efficiency_ || watcher_.Stopped()) return outcome_;
+    if (!efficiency_ || watcher_.IsStopped()) return outcome_;
     Compare(recorded);
     return outcome_;
   }
@@ -160,7 +160,7 @@ class Pilot {
 
   // The better of no roulette and roulette on the throughput. Without roulette paths may
   // be very long: then a few of them have to do, and what they promise must be clear.
-  Candidate BetterPlain(Candidate plain) {
+  Candidate BetterPlainRoulette(Candidate plain) {
     TrainingWork work = FewOf(work_);
     PathSamples samples = Pass(kRecord, Roulette::kNone, work);
     const bool cheap = samples.Cost() < 3 * plain.cost;
@@ -180,9 +180,9 @@ class Pilot {
   void Compare(const PathSamples& recorded) {
     const Candidate throughput = Measure(Roulette::kThroughput, recorded);
     const Candidate splitting = MeasureSplitting(throughput);
-    if (options_.keep_roulette || watcher_.Stopped()) return;
-    const Candidate plain = BetterPlain(throughput);
-    if (watcher_.Stopped()) return;
+    if (options_.keep_roulette || watcher_.IsStopped()) return;
+    const Candidate plain = BetterPlainRoulette(throughput);
+    if (watcher_.IsStopped()) return;
     const Roulette chosen = IsClearlyBetter(splitting, plain, kMargin)
                                 ? Roulette::kEfficiency
                                 : plain.roulette;

@@ -90,7 +90,7 @@ class Pass {
     run.seed = pass.seed ^ 0x5bd1e995u;  // apart from the image's
     run.tables = pass.tables;
     // Without the strategy's points every sample is independent.
-    if (!own_points_) run.points.group_shift = 0;
+    if (!own_points_) run.sampler.group_shift = 0;
     return run;
   }
 

@@ -66,7 +66,7 @@ double EdgeLength(ParseState& state, ParamSet& params) {
 }
 
 void ReadPly(ParseState& state, ParamSet& params, Shape*) {
-  const NamedFile file = NeedFile(state, params, "filename");
+  const NamedFile file = RequireFile(state, params, "filename");
   MeshRequest request{file.path, file.param->where, state.open_object,
                       state.OpenShapes().size()};
   request.world_from_object = state.graphics.ctm;

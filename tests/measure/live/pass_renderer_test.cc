@@ -13,14 +13,14 @@ namespace {
 
 class PlainObserver : public PassObserver {
  public:
-  bool Due() const override { return false; }
+  bool IsDue() const override { return false; }
   void Observe() override {}
 };
 
 // Wants to look all the time.
 class QueryingObserver : public PassObserver {
  public:
-  bool Due() const override { return due_; }
+  bool IsDue() const override { return due_; }
   void Observe() override {
     ++looks;
     due_ = looks < 20;

@@ -45,7 +45,7 @@ inline Outcome OutcomeOf(const FilmAccumulator& film, const RunResult& result) {
   return out;
 }
 
-struct KeptRender {
+struct CheckpointedRender {
   std::string scene;
   RenderSettings settings;
   int threads = 2;
@@ -60,11 +60,11 @@ class TaskCounter : public Checkpointer {
   TaskCounter(Checkpointer& checkpointer, int tasks, std::atomic<bool>& stop)
       : checkpointer_(checkpointer), left_(tasks), stop_(stop) {}
   bool Restore(RunState& state) override { return checkpointer_.Restore(state); }
-  bool Due() const override {
+  bool IsDue() const override {
     if (left_ > 0 && --left_ == 0) stop_ = true;
-    return checkpointer_.Due();
+    return checkpointer_.IsDue();
   }
-  void Keep(RunState& state) override { checkpointer_.Keep(state); }
+  void Save(RunState& state) override { checkpointer_.Save(state); }
 
  private:
   Checkpointer& checkpointer_;
@@ -72,7 +72,7 @@ class TaskCounter : public Checkpointer {
   std::atomic<bool>& stop_;
 };
 
-inline Outcome RenderKept(const KeptRender& r) {
+inline Outcome RenderKept(const CheckpointedRender& r) {
   const ThreadLimit limit(r.threads);
   const Job job = PrepareJob(r.scene, r.settings);
   FilmAccumulator film = MakeFilm(job);

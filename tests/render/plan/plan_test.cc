@@ -27,7 +27,7 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
   SceneDescription description =
       ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
   if (!strategy.empty()) ApplyStrategy(strategy, {}, description.strategy);
-  description.strategy.points = Points::kIndependent;
+  description.strategy.sampler = SampleSequence::kIndependent;
   const PreparedScene scene = PrepareScene(description);
   PlanOptions options;
   options.max_depth = max_depth;

@@ -17,7 +17,7 @@ inline constexpr int kWidth = 70, kHeight = 37;  // of the image
 /// The state that a run leaves.
 struct Rest : RunRecord {
   bool taken = false;
-  std::vector<KeptColumn> columns;
+  std::vector<ColumnCopy> columns;
 };
 
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
@@ -32,8 +32,8 @@ class InterruptingCheckpointer : public Checkpointer {
     static_cast<RunRecord&>(state) = rest_;
     return true;
   }
-  bool Due() const override { return polls_.fetch_add(1) >= limit_; }
-  void Keep(RunState& state) override {
+  bool IsDue() const override { return polls_.fetch_add(1) >= limit_; }
+  void Save(RunState& state) override {
     rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
     polls_ = 0;
