@@ -20,7 +20,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// 3 sqrt(3): ImageGuess::Inverse is 1 / (3 sqrt(3) channel color).
+// 3 sqrt(3): PilotImage::Inverse is 1 / (3 sqrt(3) channel color).
 inline constexpr float kBrightnessOfInverse = 5.1961524f;
 
 LANELIGHT_INLINE VF Gathered(const Wave& wave, const Slots& slots) {

@@ -19,7 +19,8 @@ void CheckColor(const SceneDescription& scene, std::uint64_t spp, Rgb exact,
                 double tolerance, const std::string& strategy = "") {
   const auto image = RenderWavefront(Spectral(scene), spp, strategy);
   const auto result = stat::CompareMeans(
-      image, stat::KnownImage(image.width, image.height, [&](int, int) { return exact; }),
+      image,
+      stat::ExpectedImage(image.width, image.height, [&](int, int) { return exact; }),
       {4, 1e-6, tolerance, tolerance * 0.02});
   INFO(result.ToString());
   CHECK(result.same);

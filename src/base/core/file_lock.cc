@@ -70,11 +70,12 @@ LockFile::LockFile(const std::string& path)
     : path_(path), fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (fd_.get() < 0) Fail(path_, "cannot open");
   const ScopedLock probe(this, ByteOf("is there locking?"));
-  locking_ = SetLock(fd_.get(), F_WRLCK, probe.byte_) == 0 || !LacksLockSupport(errno);
+  supports_locks_ =
+      SetLock(fd_.get(), F_WRLCK, probe.byte_) == 0 || !LacksLockSupport(errno);
 }
 
 std::optional<ScopedLock> LockFile::TryLock(const std::string& name) const {
-  if (!locking_) return ScopedLock(nullptr, 0);
+  if (!supports_locks_) return ScopedLock(nullptr, 0);
   const std::uint64_t byte = ByteOf(name);
   if (SetLock(fd_.get(), F_WRLCK, byte) == 0) return ScopedLock(this, byte);
   if (errno == EAGAIN || errno == EACCES) return std::nullopt;

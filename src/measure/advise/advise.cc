@@ -233,7 +233,7 @@ class Adviser {
     for (const TriedBlocks& blocks :
          trial_.TryBlocks(baseline.entry, chosen.entry, gain, samples)) {
       AddBlocks(base, blocks, samples);
-      if (blocks.pays) chosen_ = all_.size() - 1;
+      if (blocks.is_efficient) chosen_ = all_.size() - 1;
     }
     advice_.rays = trial_.spent().rays;
   }
@@ -248,8 +248,8 @@ class Adviser {
     both.efficiency = {baseline.value * more.value, baseline.low * more.low,
                        baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.gains_per_pixel ? "gains by pixels, and loses after a filter"
-                                         : "not clearly better";
+    both.reason = blocks.has_gain_per_pixel ? "gains by pixels, and loses after a filter"
+                                            : "not clearly better";
     both.samples = samples;
     all_.push_back(both);
   }

@@ -141,8 +141,8 @@ std::array<Plane, 3> OpponentPlanes(const LinearImage& image,
   return out;
 }
 
-FilteredImage Look(const LinearImage& image, const EyeFilters& eye,
-                   const OpponentColors& colors) {
+FilteredImage FilterImage(const LinearImage& image, const EyeFilters& eye,
+                          const OpponentColors& colors) {
   const int w = image.width, h = image.height;
   const std::array<Plane, 3> opponent = OpponentPlanes(image, colors);
   FilteredImage out;
@@ -181,7 +181,8 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
   LL_CHECK(pixels_per_degree >= 1 && pixels_per_degree <= 1000);
   const EyeFilters eye(pixels_per_degree);
   const OpponentColors colors;
-  const FilteredImage a = Look(reference, eye, colors), b = Look(test, eye, colors);
+  const FilteredImage a = FilterImage(reference, eye, colors),
+                      b = FilterImage(test, eye, colors);
   // No two colours of a screen are further apart than green and blue.
   const double largest =
       std::pow(HyAb(colors.HuntLab({0, 1, 0}), colors.HuntLab({0, 0, 1})), kQc);

@@ -15,7 +15,7 @@ bool IsMatch(const std::string& word, const Case& about) {
          fnmatch(word.c_str(), about.group.c_str(), 0) == 0;
 }
 
-[[noreturn]] void ThrowNothing(const std::string& word, const std::vector<Case>& cases) {
+[[noreturn]] void ThrowNoMatch(const std::string& word, const std::vector<Case>& cases) {
   std::vector<std::string> known;
   for (const Case& about : cases) {
     known.push_back(about.name);
@@ -52,7 +52,7 @@ std::vector<Case> SelectCases(std::vector<Case> cases,
                               const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const auto means = [&](const Case& about) { return IsMatch(word, about); };
-    if (std::none_of(cases.begin(), cases.end(), means)) ThrowNothing(word, cases);
+    if (std::none_of(cases.begin(), cases.end(), means)) ThrowNoMatch(word, cases);
   }
   std::erase_if(cases, [&](const Case& about) {
     return !words.empty() &&

@@ -54,7 +54,7 @@ class SceneRunner {
  private:
   void Prepare();
   void CheckStrategies();
-  void FindTwin(StrategyRuns& runs, const std::string& key);
+  void FindEquivalent(StrategyRuns& runs, const std::string& key);
   void ChooseCountsAndReference();
   void CheckState();
   void SaveState();

@@ -32,7 +32,7 @@ class Runner {
         renderer_(sweep, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome) {
-    if (!claims_.locking() && options_.part.count == 1) {
+    if (!claims_.supports_locks() && options_.part.count == 1) {
       throw InputError(
           "the file system of '{}' does not support locks, which several processes need; "
           "give each process its own part with --part I/N",
@@ -55,7 +55,7 @@ class Runner {
   void FindPart() {
     std::map<std::string, std::size_t> group_of;
     for (const SweepCell& cell : sweep_.cells) {
-      const CellState state = folder_.Look(cell).state;
+      const CellState state = folder_.ReadCell(cell).state;
       const auto [index, count] = options_.part;
       if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
       const auto [entry, is_new] =
@@ -133,7 +133,7 @@ class Runner {
 
   // Another process may have rendered the cell since this one looked.
   bool StillMissing(std::size_t i) {
-    const CellState state = folder_.Look(*part_[i]).state;
+    const CellState state = folder_.ReadCell(*part_[i]).state;
     if (state == CellState::kDone) known_[i] = CellStatus::kDone;
     if (state == CellState::kFailed && !failed_before_[i])
       known_[i] = CellStatus::kFailed;

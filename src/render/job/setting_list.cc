@@ -189,7 +189,7 @@ std::optional<std::string> TargetType::Read(const std::string& text) const {
 std::string TargetType::Right(const std::string& text) const {
   // Cells of a sweep may be for other machines, whose targets are among the names then.
   if (Names() != AvailableTargets()) return NamesType::Right(text);
-  return "available: " + WhyNoTarget(text);
+  return "available: " + TargetProblem(text);
 }
 
 }  // namespace lanelight

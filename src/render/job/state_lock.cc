@@ -25,7 +25,7 @@ StateLock::StateLock(const std::string& path,
   do {
     lock_.reset();
     file_.emplace(LinkTarget(path) + ".lock");
-    if (!file_->locking()) {
+    if (!file_->supports_locks()) {
       on_problem(fmt::format(
           "{}: this file system has no locks: make sure that no other process keeps '{}'",
           file_->path(), path));

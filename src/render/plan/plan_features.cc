@@ -117,7 +117,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
 Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options) {
   Strategy strategy = options.strategy.value_or(scene.strategy);
   if (!options.training) return strategy;
-  if (!options.own_points) {
+  if (!options.has_own_sequences) {
     strategy.sampler = SampleSequence::kIndependent;
     strategy.reuse = Reuse::kNone;
   }

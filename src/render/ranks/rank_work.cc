@@ -174,7 +174,7 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
                             const OnStatus& on_status) {
   std::optional<Clock::time_point> signal;
   const StopPredicate should_stop = [&] {
-    if (!group_.leads() || !watcher.IsInterrupted()) return false;
+    if (!group_.is_leader() || !watcher.IsInterrupted()) return false;
     if (!signal) signal = Clock::now();
     return SecondsSince(*signal) > kAnswerSeconds;
   };

@@ -141,7 +141,7 @@ RunResult Runner::Result() {
   static_cast<RunCounts&>(result) = Counts();
   result.stop_reason = watch->Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.looks = schedule->Checks();
+  result.num_checks = schedule->Checks();
   strategy.Describe(result);
   result.control = films.film().Control();
   result.parts = EmptyParts();

@@ -91,7 +91,7 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
                                          const TrainingWork& work, double must_gain) {
   const TrainingSamples plain = Render(baseline, baseline.options, work);
   const TrainingSamples shared = Render(baseline, blocks, work);
-  const ImageGuess image = GuessImage(scene_, plain, work);
+  const PilotImage image = EstimatePilotImage(scene_, plain, work);
   const std::vector<bool> counted = PixelsWithoutLightEdges(baseline, work);
   const Squares tiles = SquaresOf(scene_, work, counted, kReuseTile);
   const Squares squares = SquaresOf(scene_, work, counted, kSquare);
@@ -113,8 +113,8 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
   out.filtered =
       std::exp(GainOf(by_squares(shared, kReusePrice), by_squares(plain, 1)).log);
   const double clear = out.gain.minimum - kGainStandardErrors * out.gain.standard_error;
-  out.gains_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
-  out.pays = out.gains_per_pixel && out.filtered > kMinFilteredGain;
+  out.has_gain_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
+  out.is_efficient = out.has_gain_per_pixel && out.filtered > kMinFilteredGain;
   return out;
 }
 
@@ -133,7 +133,7 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& baseline,
     if (watcher_.IsStopped()) break;
     tried.push_back(found);
     tried.back().changes = changes;
-    if (found.pays || !found.gains_per_pixel) break;
+    if (found.is_efficient || !found.has_gain_per_pixel) break;
   }
   return tried;
 }

@@ -162,7 +162,7 @@ TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
                                       const TrainingWork& work) {
   TrainingPass pass = {tried.scene, options,   &tried.tables,
                        seed_,       &watcher_, training_.ranks};
-  pass.options.own_points = true;
+  pass.options.has_own_sequences = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();
   spent_.rays += samples.rays();
@@ -201,7 +201,7 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   const TrainingSamples samples = Render(tried, options, work_);
   if (IsStopped()) return;
   // Weights are those of the image that the baseline strategy shows.
-  if (!image_) image_ = GuessImage(scene_, samples, work_);
+  if (!image_) image_ = EstimatePilotImage(scene_, samples, work_);
   tried.measure = {tried.price * samples.Cost(),
                    RelativeVariances(samples, work_, *image_)};
   tried.light = LightOf(samples, tried.measure);

@@ -115,7 +115,7 @@ TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& option
 /// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
 struct TriedBlocks {
   const char* changes = "";  // as in --strategy
-  bool gains_per_pixel = false, pays = false;
+  bool has_gain_per_pixel = false, is_efficient = false;
   /// Relative efficiency by pixels, and by squares of 8 x 8 pixels: errors of the pixels
   /// of a block have much in common, so a filter removes less of them.
   TrialGain gain;
@@ -173,7 +173,7 @@ class StrategyTrial {
   const std::uint64_t planned_;
   const StopWatcher watcher_;
   TrainingWork work_;
-  std::optional<ImageGuess> image_;
+  std::optional<PilotImage> image_;
   TrainingOutcome spent_;
 };
 

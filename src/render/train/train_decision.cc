@@ -111,7 +111,7 @@ class Decider {
          trial_.TryBlocks(entries_.front(), chosen, gain, planned_ / kTiled)) {
       note_ += fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", blocks.changes,
                            blocks.per_pixel, blocks.filtered);
-      if (!blocks.pays) continue;
+      if (!blocks.is_efficient) continue;
       reused.changes = JoinedChanges(reused.changes, blocks.changes);
       chosen = std::move(reused);
     }

@@ -120,10 +120,10 @@ class Reinserter {
     std::uint32_t above = Parent(from), other = beside;
     float saved = Area(above);  // that node is not needed then
     AccelBox rest;              // what `above` holds without the subtree
-    int looks = kMaxVisitedNodes;
+    int visits = kMaxVisitedNodes;
     for (;;) {
       stack.assign(1, {other, saved});
-      VisitChildren(from, beside, stack, looks, best);
+      VisitChildren(from, beside, stack, visits, best);
       rest.Extend(tree_[other].box);
       if (above == 0) return best;
       if (above != Parent(from)) saved += Area(above) - rest.HalfArea();
@@ -133,10 +133,10 @@ class Reinserter {
   }
 
   void VisitChildren(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
-                     int& looks, Move& best) const {
+                     int& visits, Move& best) const {
     const AccelBox& box = tree_[from].box;
     const float area = box.HalfArea();
-    while (!stack.empty() && --looks >= 0) {
+    while (!stack.empty() && --visits >= 0) {
       const auto [at, saved] = stack.back();
       stack.pop_back();
       if (!(saved - area > best.gain)) continue;  // no box there is smaller

@@ -202,7 +202,7 @@ void AddShape(ParseState& state, const std::string& type, ParamSet& params,
 
 // Why a shape that moves in the file cannot move here; empty if it can.
 std::string ReasonNotMoving(const ParseState& state, ShapeKind kind, Index material) {
-  if (const char* why = WhyCannotMove(kind)) return why;
+  if (const char* why = MotionProblem(kind)) return why;
   const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
                      state.scene.materials[material].kind != MaterialKind::kInterface;
   return emits ? "an area light cannot move: light is sampled where it is at the start"

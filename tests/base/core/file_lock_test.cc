@@ -17,7 +17,7 @@ TEST_CASE("a lock has one owner at a time", "[core][lock]") {
   const TemporaryFolder folder;
   // Two objects are like two processes: locks belong to open files.
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  CHECK(a.locking());
+  CHECK(a.supports_locks());
   {
     const auto x = a.TryLock("x");
     REQUIRE(x);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "src/base/core/source_location.h"
-#include "tests/render/job/kept_render.h"
+#include "tests/render/job/checkpointed_render.h"
 
 namespace lanelight {
 namespace {

@@ -8,7 +8,7 @@
 #include "src/base/core/source_location.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/parts.h"
-#include "tests/render/job/kept_render.h"
+#include "tests/render/job/checkpointed_render.h"
 
 namespace lanelight {
 namespace {

@@ -70,8 +70,8 @@ TEST_CASE("a render stops once its error is below the target", "[open_ended]") {
     const ErrorEstimate e = EstimateError(r.film);
     CHECK(Reached({o.target, 0}, e));
     CHECK(e.relmse.value > o.target / 2);  // not by much
-    CHECK(r.result.looks >= 2);
-    CHECK(r.result.looks <= 24);  // up to 512 units
+    CHECK(r.result.num_checks >= 2);
+    CHECK(r.result.num_checks <= 24);  // up to 512 units
     CHECK(r.result.samples % (37 * 29) == 0);
     const std::uint64_t done = r.film.Samples(3, 3);
     CHECK(CheckFrom(done, r.film.groups().unit) == done);

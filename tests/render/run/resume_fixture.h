@@ -8,7 +8,7 @@
 
 #include "src/render/wave/run_state.h"
 #include "tests/render/run/render_fixture.h"
-#include "tests/render/wave/kept_state.h"
+#include "tests/render/wave/column_copies.h"
 
 namespace lanelight::resume {
 

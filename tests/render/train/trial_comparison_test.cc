@@ -171,7 +171,7 @@ TEST_CASE("variances of samples that depend on each other are of their observati
       samples.colors.push_back({v, v, v});
     }
   }
-  const ImageGuess image(64, 64, work.pixels, samples.colors);
+  const PilotImage image(64, 64, work.pixels, samples.colors);
   const double weight = 1 / (1 + 0.01);
   // Two samples of an observation are worth one. 2 sigma^4 / 3 is the variance of each
   // pixel's; six standard errors: 2e-9.

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "tests/render/wave/kept_state.h"
+#include "tests/render/wave/column_copies.h"
 
 namespace lanelight {
 namespace {

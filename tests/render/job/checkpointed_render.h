@@ -29,15 +29,12 @@ inline Outcome OutcomeOf(const FilmAccumulator& film, const RunResult& result) {
     out.planes.emplace_back(reinterpret_cast<const char*>(plane.values.data()),
                             plane.values.size() * sizeof(float));
   }
-  nlohmann::json report = {{"samples", result.samples},
-                           {"closest", result.rays_closest},
-                           {"shadow", result.rays_shadow},
-                           {"invalid", result.health.Total()},
-                           {"looks", result.looks},
-                           {"pilot", result.training.samples},
-                           {"note", result.training.note},
-                           {"roulette", Name(result.roulette)},
-                           {"error", ToJson(EstimateError(film))}};
+  nlohmann::json report = {
+      {"samples", result.samples},           {"closest", result.rays_closest},
+      {"shadow", result.rays_shadow},        {"invalid", result.health.Total()},
+      {"looks", result.num_checks},          {"pilot", result.training.samples},
+      {"note", result.training.note},        {"roulette", Name(result.roulette)},
+      {"error", ToJson(EstimateError(film))}};
   if (result.control) {
     report["control"] = {result.control->coefficient, result.control->correlation};
   }

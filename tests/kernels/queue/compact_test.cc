@@ -32,7 +32,7 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
   Queue& live = wave.queue(QueueId::kScattered);
   live.size = count;
   std::copy(slots.begin(), slots.end(), live.items);
-  fixture.Run(PackStage, {});
+  fixture.Run(CompactStage, {});
   std::sort(slots.begin(), slots.end());
   REQUIRE(live.size == count);
   for (std::uint32_t i = 0; i < count; ++i) {
