@@ -37,7 +37,7 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
     reached += truth < target;
     error += truth;
     samples += double(result.samples) / double(job.window.pixels());
-    checks += double(result.checks);
+    checks += double(result.num_checks);
   }
   all_reached_ += reached;
   all_stopped_ += stopped;

@@ -55,8 +55,8 @@ TEST_CASE("a lock is released with its object, however often the file is open",
   const LockFile one(path);
   {
     const LockFile other(path);
-    const auto held = other.TryLock("x");
-    CHECK(held);
+    const auto claim = other.TryLock("x");
+    CHECK(claim);
     CHECK_FALSE(one.TryLock("x"));
     {
       const LockFile third(path);
@@ -75,20 +75,20 @@ TEST_CASE("locks of a killed process are released immediately", "[core][lock]") 
   REQUIRE(child >= 0);
   if (child == 0) {
     const LockFile file(path);
-    const auto held = file.TryLock("x");
-    const char taken = held ? 'y' : 'n';
-    if (write(ready[1], &taken, 1) == 1) pause();
+    const auto claim = file.TryLock("x");
+    const char is_locked = claim ? 'y' : 'n';
+    if (write(ready[1], &is_locked, 1) == 1) pause();
     _exit(1);
   }
-  char taken = 0;
-  REQUIRE(read(ready[0], &taken, 1) == 1);
-  CHECK(taken == 'y');
+  char is_locked = 0;
+  REQUIRE(read(ready[0], &is_locked, 1) == 1);
+  CHECK(is_locked == 'y');
   const LockFile own(path), other(path);
   CHECK_FALSE(own.TryLock("x"));
   kill(child, SIGKILL);
   // Until the kernel has closed the child's files.
-  const auto taken_over = own.Wait("x", [](double) { return true; });
-  CHECK(taken_over);
+  const auto takeover = own.Wait("x", [](double) { return true; });
+  CHECK(takeover);
   CHECK(waitpid(child, nullptr, 0) == child);
   CHECK_FALSE(other.TryLock("x"));
   close(ready[0]);
@@ -98,7 +98,7 @@ TEST_CASE("locks of a killed process are released immediately", "[core][lock]") 
 TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  const auto held = a.TryLock("x");
+  const auto claim = a.TryLock("x");
   std::vector<double> waited;
   const auto keep_waiting = [&](double seconds) {
     waited.push_back(seconds);
@@ -115,11 +115,11 @@ TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
 TEST_CASE("ten thousand locks use one file", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::vector<ScopedLock> taken;
+  std::vector<ScopedLock> locks;
   for (int i = 0; i < 10000; ++i) {
     auto lock = a.TryLock("cell " + std::to_string(i));
     REQUIRE(lock);
-    taken.push_back(std::move(*lock));
+    locks.push_back(std::move(*lock));
   }
   CHECK_FALSE(b.TryLock("cell 0"));
   CHECK_FALSE(b.TryLock("cell 9999"));

@@ -16,7 +16,7 @@ inline constexpr int kWidth = 70, kHeight = 37;  // of the image
 
 /// The state that a run leaves.
 struct Rest : RunRecord {
-  bool taken = false;
+  bool is_saved = false;
   std::vector<ColumnCopy> columns;
 };
 
@@ -27,7 +27,7 @@ class InterruptingCheckpointer : public Checkpointer {
       : rest_(rest), limit_(max_calls), stops_(stops) {}
 
   bool Restore(RunState& state) override {
-    if (!rest_.taken) return false;
+    if (!rest_.is_saved) return false;
     PutColumns(rest_.columns, state.films);
     static_cast<RunRecord&>(state) = rest_;
     return true;

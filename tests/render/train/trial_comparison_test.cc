@@ -131,8 +131,9 @@ TEST_CASE("strategies that cannot vary more are compared without the worst pixel
 TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   const PreparedScene scene = PrepareScene(SplitRoom());
   const TrainingOptions training;
-  const auto milder_roulette = [&](const std::string& given, const std::string& changes) {
-    PlanOptions options = WithChanges(scene, {}, given);
+  const auto milder_roulette = [&](const std::string& baseline_changes,
+                                   const std::string& changes) {
+    PlanOptions options = WithChanges(scene, {}, baseline_changes);
     StrategyTrial trial(scene, training, 1, 1 << 16);
     TriedStrategy baseline = PrepareTrial(scene, options, "", 1);
     TriedStrategy tried = PrepareTrial(scene, options, changes, 1);
