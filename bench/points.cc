@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "bench/cpu_clock.h"
-#include "kernels/probe/points_probe.h"
+#include "kernels/probe/sampler_probe.h"
 #include "kernels/simd/target.h"
 #include "src/base/core/machine_info.h"
 #include "src/vocabulary/strategy/strategy.h"
@@ -23,22 +23,23 @@ struct Options {
   int repeat = 15, calls = 200;
 };
 
-constexpr Points kSamplers[] = {
-    Points::kIndependent, Points::kStratified, Points::kCmj,    Points::kPmj02,
-    Points::kSobol,       Points::kHalton,     Points::kLattice};
+constexpr SampleSequence kSamplers[] = {
+    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kCmj,
+    SampleSequence::kPmj02,       SampleSequence::kSobol,      SampleSequence::kHalton,
+    SampleSequence::kLattice};
 constexpr std::uint32_t kPixels = 256, kSamples = 8;
 constexpr std::size_t kPoints = kPixels * kSamples;
 
 struct Batch {
-  Points points;
+  SampleSequence sampler;
   SamplerParameters parameters;
   std::vector<float> u0 = std::vector<float>(kPoints + 16), u1 = u0;
   std::vector<double> seconds = {};
 
   void Run(SimdTarget target, std::uint32_t call) {
-    const PointsQuery query = {
-        points, 1, call * kPixels, call % 50, call % 7 * kSamples, kSamples, kPixels};
-    ProbePoints(target, query, parameters, u0.data(), u1.data());
+    const SamplerQuery query = {
+        sampler, 1, call * kPixels, call % 50, call % 7 * kSamples, kSamples, kPixels};
+    ProbeSampler(target, query, parameters, u0.data(), u1.data());
   }
   double Sum() const {
     double sum = 0;
@@ -60,12 +61,12 @@ void Verify(Batch& batch, const std::string& target) {
     if (!std::equal(u0.begin(), u0.begin() + kPoints, batch.u0.begin()) ||
         !std::equal(u1.begin(), u1.begin() + kPoints, batch.u1.begin())) {
       throw std::runtime_error(
-          fmt::format("{}: differs from target {}", Name(batch.points), all.back()));
+          fmt::format("{}: differs from target {}", Name(batch.sampler), all.back()));
     }
   }
   const double n = 50.0 * 2 * kPoints;
   if (std::abs(sum / n - 0.5) > 6 * std::sqrt(1 / (12 * n))) {
-    throw std::runtime_error(fmt::format("{}: mean {}", Name(batch.points), sum / n));
+    throw std::runtime_error(fmt::format("{}: mean {}", Name(batch.sampler), sum / n));
   }
 }
 
@@ -79,8 +80,8 @@ int Main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const SimdTarget target(o.target);
   std::vector<Batch> batches;
-  for (Points points : kSamplers) {
-    batches.push_back({points, MakeSamplerParameters(points)});
+  for (SampleSequence sampler : kSamplers) {
+    batches.push_back({sampler, MakeSamplerParameters(sampler)});
     Verify(batches.back(), o.target);
   }
   for (int r = 0; r < o.repeat; ++r) {
@@ -99,7 +100,7 @@ int Main(int argc, char** argv) {
   for (Batch& batch : batches) {
     std::sort(batch.seconds.begin(), batch.seconds.end());
     const double scale = 1e9 / (2.0 * kPoints * o.calls);
-    fmt::print("{:12} {:11.3f} {:9.3f} {:9.3f}\n", Name(batch.points),
+    fmt::print("{:12} {:11.3f} {:9.3f} {:9.3f}\n", Name(batch.sampler),
                scale * batch.seconds[batch.seconds.size() / 2],
                scale * batch.seconds.front(), scale * batch.seconds.back());
   }

@@ -106,7 +106,7 @@ inline double TraceEmbree(RTCScene scene, EmbreeCall call, const RaySet& set,
   double seconds = 0;
   hits.assign(set.rays.size(), {});
   ForEachWave(set, 1, [&](std::size_t begin, std::size_t end) {
-    wave.Pack(&set.rays[begin], end - begin);
+    wave.CopyRays(&set.rays[begin], end - begin);
     const CpuTimer timer;
     wave.Trace(scene, false);
     seconds += timer.Seconds();

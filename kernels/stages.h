@@ -127,7 +127,7 @@ namespace lanelight {
   X(EnterMedia)                                \
   X(PassInterfaces)                            \
   X(Accumulate)                                \
-  X(Pack)                                      \
+  X(Compact)                                   \
   X(ReuseOwnLight)                             \
   X(ReusePairs)                                \
   X(ReuseGlossy)                               \

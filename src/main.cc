@@ -180,7 +180,7 @@ bool ForRanks(const CLI::App& root, const RankGroup& group) {
 // On the leader: which rank's number is another than its own; empty if none is.
 std::string RanksThatDiffer(RankGroup& group, int number) {
   const std::vector<int> numbers = group.AllGather(number);
-  for (int r = 1; group.leads() && r < group.ranks(); ++r) {
+  for (int r = 1; group.is_leader() && r < group.ranks(); ++r) {
     if (numbers[static_cast<std::size_t>(r)] != number) return group.Name(r);
   }
   return "";
@@ -223,7 +223,7 @@ int main(int argc, char** argv) {
   // Nor must a limit on the size of files (`ulimit -f`): they fail with EFBIG.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::unique_ptr<RankGroup> group = JoinRanks(&argc, &argv);
-  if (!group->leads()) SilenceConsole();
+  if (!group->is_leader()) SilenceConsole();
   CLI::App root(kDescription, "lanelight");
   Command chosen;
   AddCommands(root, *group, chosen);

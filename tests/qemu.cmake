@@ -22,7 +22,7 @@ set(long
   base/image/accumulator_test base/image/long_sums_test
   kernels/lights/emission_images_test kernels/lights/image_lights_test kernels/lights/portal_test
   kernels/lights/projected_test kernels/media/agreement_test kernels/media/coloured_test kernels/media/distances_test
-  kernels/media/varying_test scene/parse/format_test kernels/points/convergence_test
+  kernels/media/varying_test scene/parse/format_test kernels/samplers/convergence_test
   reference/closed_form_test reference/estimators_test
   render/job/any_split_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
   kernels/roulette/efficiency_test kernels/roulette/shadow_test kernels/roulette/splitting_test

@@ -25,7 +25,7 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
   // Where the samples cannot tell the error, the target is never reached.
   job.seconds = std::max(kMinSeconds, deadline.Left() / kMinSeeds);
   std::uint64_t reached = 0, stopped = 0, renders = 0;
-  double error = 0, samples = 0, looks = 0;
+  double error = 0, samples = 0, checks = 0;
   for (int seed = 1; seed <= options_.seeds; ++seed) {
     if (seed > kMinSeeds && deadline.Over()) break;
     job.seed = static_cast<std::uint64_t>(seed);
@@ -37,7 +37,7 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
     reached += truth < target;
     error += truth;
     samples += double(result.samples) / double(job.window.pixels());
-    looks += double(result.looks);
+    checks += double(result.num_checks);
   }
   all_reached_ += reached;
   all_stopped_ += stopped;
@@ -49,7 +49,7 @@ void Calibration::Stops(const Job& scene, const std::string& strategy, double ta
         ", reached {:5.1f} % [{:4.1f}, {:5.1f}], overshoot {:.3f}, {:.1f} spp, "
         "{:.1f} looks",
         100 * fraction.value, 100 * fraction.low, 100 * fraction.high, target * n / error,
-        samples / n, looks / n);
+        samples / n, checks / n);
   }
   fmt::print("\n");
   std::fflush(stdout);

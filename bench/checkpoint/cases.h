@@ -45,8 +45,8 @@ class WatchedCheckpointer : public Checkpointer {
   WatchedCheckpointer(Checkpoint& checkpoint, std::function<void(RunState&)> keep)
       : checkpoint_(checkpoint), keep_(std::move(keep)) {}
   bool Restore(RunState& state) override { return checkpoint_.Restore(state); }
-  bool Due() const override { return checkpoint_.Due(); }
-  void Keep(RunState& state) override { keep_(state); }
+  bool IsDue() const override { return checkpoint_.IsDue(); }
+  void Save(RunState& state) override { keep_(state); }
 
  private:
   Checkpoint& checkpoint_;

@@ -27,7 +27,7 @@ std::vector<std::string> WriteParts(const CheckpointBench& bench, const Job& job
     settings.part = {part, count};
     fs::remove(settings.path);
     Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
-    checkpoint.Keep(state);
+    checkpoint.Save(state);
     checkpoint.Finish();
     paths.push_back(settings.path);
   }

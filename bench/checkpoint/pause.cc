@@ -26,7 +26,7 @@ struct Steps {
   void Time(Checkpoint& checkpoint, RunState& state) {
     const Clock::time_point start = Clock::now();
     const double cpu = ProcessCpuSeconds();
-    checkpoint.Keep(state);
+    checkpoint.Save(state);
     const double paused = Since(start), paused_cpu = ProcessCpuSeconds() - cpu;
     checkpoint.Finish();
     pause.Add(paused);
@@ -79,7 +79,7 @@ nlohmann::json MeasurePause(const CheckpointBench& bench) {
   Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
   Steps steps;
   WatchedCheckpointer checkpointer(checkpoint, [&](RunState& state) {
-    checkpoint.Keep(state);  // warms up
+    checkpoint.Save(state);  // warms up
     checkpoint.Finish();
     for (int i = 0; i < bench.repeats; ++i) steps.Time(checkpoint, state);
   });

@@ -46,7 +46,7 @@ void VerifyResume(const CheckpointBench& bench, const Job& job, BenchFilm& whole
     std::atomic<bool> stop{false};
     Checkpoint checkpoint(job, settings, HeadOf(job), ThrowProblem);
     WatchedCheckpointer checkpointer(checkpoint, [&](RunState& state) {
-      checkpoint.Keep(state);
+      checkpoint.Save(state);
       stop = true;
     });
     Render(job, begun, &checkpointer, checkpoint.tiles(), &stop);

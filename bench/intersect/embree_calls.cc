@@ -66,7 +66,7 @@ EmbreeWave::EmbreeWave(EmbreeCall call, bool shadow, std::size_t capacity)
       width_(WidthOf(call, (capacity + 15) / 16 * 16)),
       memory_((capacity + width_ - 1) / width_ * width_ * words()) {}
 
-void EmbreeWave::Pack(const TestRay* rays, std::size_t count) {
+void EmbreeWave::CopyRays(const TestRay* rays, std::size_t count) {
   rays_ = count;
   packets_ = (count + width_ - 1) / width_;
   for (std::size_t i = 0; i < packets_ * width_; ++i) {

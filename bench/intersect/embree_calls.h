@@ -25,7 +25,7 @@ class EmbreeWave {
  public:
   EmbreeWave(EmbreeCall call, bool shadow, std::size_t capacity);
 
-  void Pack(const TestRay* rays, std::size_t count);
+  void CopyRays(const TestRay* rays, std::size_t count);
   /// Traces what was packed; this is what is timed.
   void Trace(RTCScene scene, bool coherent);
   void Unpack(BenchHit* hits) const;

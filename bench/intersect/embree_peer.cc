@@ -89,7 +89,7 @@ class Embree : public Peer {
     const FlushToZero flush;
     double seconds = 0;
     ForEachWave(set, size, [&](std::size_t begin, std::size_t end) {
-      packed.Pack(set.rays.data() + begin, end - begin);
+      packed.CopyRays(set.rays.data() + begin, end - begin);
       const CpuTimer timer;
       packed.Trace(scene, call.coherent);
       seconds += timer.Seconds();

@@ -50,7 +50,7 @@ STAGES = [
     ("connect", "Shadow", ""),
     ("roulette_throughput", "Scattered", "Done"),
     ("accumulate", "Done", "Free"),
-    ("pack", "Scattered", ""),
+    ("compact", "Scattered", ""),
 ]
 # The driver (src/render/wave/phase_driver.cc) moves these between stages.
 DRIVER = [("Scattered", "Active", "the next wave"),

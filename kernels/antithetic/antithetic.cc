@@ -1,6 +1,6 @@
 // pairs=antithetic: samples 2k and 2k+1 of a pixel share their random numbers; these
 // stages reflect those of the second one. The points stages have given both the same
-// numbers (PairedSample in kernels/points/fill-inl.h).
+// numbers (PairedSample in kernels/samplers/fill-inl.h).
 //   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, or u + 1/2 for
 //               azimuths. Numbers that are not paired are independent in both samples
 //   unbiased    u' is as uniform as u
@@ -21,7 +21,7 @@ LANELIGHT_BEGIN_KERNELS
 // exactly as uniform, and never 1.
 HWY_INLINE VF Reflected(VF u) { return hn::Sub(Splat(1.0f - 0x1p-24f), u); }
 // u + 1/2, modulo 1.
-HWY_INLINE VF HalfTurned(VF u) {
+HWY_INLINE VF RotatedByHalfTurn(VF u) {
   const VF half = Splat(0.5f);
   return hn::Add(u, hn::IfThenElse(hn::Lt(u, half), half, Splat(-0.5f)));
 }
@@ -44,7 +44,7 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
     if (first_only) odd = hn::And(odd, hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
     const MF reflect = hn::RebindMask(DF(), odd);
     const VF u = Gather(column, slots);
-    const VF other = kHow == Reflection::kRotate ? HalfTurned(u) : Reflected(u);
+    const VF other = kHow == Reflection::kRotate ? RotatedByHalfTurn(u) : Reflected(u);
     Scatter(hn::IfThenElse(reflect, other, u), column, slots);
   }
 }
@@ -106,8 +106,8 @@ Stage AntitheticBounceStage() {
           .input = QueueId::kVertex,
           .role = StageRole::kSampling,
           .needs = {Feature::kAntitheticPairs, Feature::kScatters},
-          .reads = fields::kBouncePoints | FieldSet{Field::sample, Field::depth},
-          .writes = fields::kBouncePoints,
+          .reads = fields::kBounceNumbers | FieldSet{Field::sample, Field::depth},
+          .writes = fields::kBounceNumbers,
           .resolve = Always<AntitheticBounce>};
 }
 

@@ -130,7 +130,7 @@ struct MeasuredBsdf : PlainBsdf {
       slices.at[0] = t.first, slices.at[1] = t.next;
       slices.fraction[1] = t.fraction,
       slices.fraction[0] = hn::Sub(Splat(1.0f), t.fraction);
-      if (!table.any_turns) return;
+      if (!table.any_anisotropic) return;
       const MeasuredNodes p(nodes, word(offsetof(MeasuredRecord, phi_at)),
                             word(offsetof(MeasuredRecord, phis)), phi);
       slices.count = 4;

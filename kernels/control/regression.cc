@@ -91,7 +91,7 @@ Stage FirstBounceStage() {
           .input = QueueId::kVertex,
           .role = StageRole::kSampling,
           .needs = {Feature::kRegressionControl, Feature::kScatters},
-          .reads = fields::kBouncePoints | FieldSet{Field::material, Field::first_bsdf},
+          .reads = fields::kBounceNumbers | FieldSet{Field::material, Field::first_bsdf},
           .writes = {Field::first_bsdf, Field::first_light},
           .resolve = Always<FirstBounce>};
 }

@@ -25,7 +25,7 @@ struct LensRay {
 };
 
 // Starts a ray at a point of the film, towards a point of the exit pupil's bounds.
-HWY_INLINE LensRay LeaveFilm(const LensSystem& lenses, V3 film, VF u0, VF u1) {
+HWY_INLINE LensRay RayFromFilm(const LensSystem& lenses, V3 film, VF u0, VF u1) {
   const DI di;
   const VF r = hn::Sqrt(hn::MulAdd(film.x, film.x, hn::Mul(film.y, film.y)));
   const VI last = hn::Set(di, static_cast<int32_t>(lenses.pupils.size()) - 1);
@@ -143,8 +143,8 @@ HWY_INLINE void LensBatch(Wave& wave, const StoreSlots& slots, MF valid) {
   FilmPosition<kBox>(wave, slots, &x, &y);
   const V3 film =
       MulAdd(splat(camera.dx), x, MulAdd(splat(camera.dy), y, splat(camera.base)));
-  LensRay ray = LeaveFilm(camera.lenses, film, Gather(p.u_lens_0, slots),
-                          Gather(p.u_lens_1, slots));
+  LensRay ray = RayFromFilm(camera.lenses, film, Gather(p.u_lens_0, slots),
+                            Gather(p.u_lens_1, slots));
   TraceLenses(camera.lenses, ray);
   const ShadingFrame axes = {splat(camera.right), splat(camera.up),
                              splat(camera.forward)};

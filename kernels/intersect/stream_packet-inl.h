@@ -57,7 +57,7 @@ class PacketPhase {
 
  private:
   // Instances have many places for one triangle.
-  static constexpr bool kRemembers = kAny && !kInstances;
+  static constexpr bool kCachesBlockers = kAny && !kInstances;
 
   template <bool kTop>
   LANELIGHT_INLINE void RunIn(const Bvh& tree, uint32_t at, RayList& live) {
@@ -130,7 +130,7 @@ class PacketPhase {
     hn::Store(slabs.octant, DI(), octants);
     PacketBest best = NoHits(packet.rays.t_max, hn::LoadU(DI(), rays_.prim + at_));
     uint32_t rays = valid & MaskBits(df, slabs.Finite());
-    if constexpr (kRemembers) {
+    if constexpr (kCachesBlockers) {
       blockers_.Test(scene_, packet, rays, best);
       rays &= ~best.found;
     }
@@ -166,7 +166,7 @@ class PacketPhase {
         TestLeaf(ref, packet, lanes, best);
       }
     }
-    if constexpr (kRemembers) {
+    if constexpr (kCachesBlockers) {
       if (best.blocker != kNoPrimitive) blockers_.Add(best.blocker);
     }
     if constexpr (!kTop) StoreHits(best);

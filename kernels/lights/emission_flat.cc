@@ -74,11 +74,11 @@ void EmissionOfFlat(Wave& wave) {
       if constexpr (kPoints != LightPoints::kArea) {
         const V3 from = ScatteredFrom(p, slots);
         if constexpr (kShape == LightShape::kTriangle) {
-          const SeenTriangle seen(triangle, from);
+          const VisibleTriangle seen(triangle, from);
           pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
         } else {
           const LightRectangle rectangle(light);
-          const SeenRectangle seen(rectangle, from);
+          const VisibleRectangle seen(rectangle, from);
           pdf = PdfAtHit<kPoints>(p, slots, seen, pmf, pdf);
         }
       }

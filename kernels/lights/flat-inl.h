@@ -35,14 +35,14 @@ LANELIGHT_INLINE Bilinear FlooredCosines(const Bilinear& c, VF middle) {
 ///   Weights   of the corners of the square, for a unit normal of the receiver
 ///   At        the point on the light for a point of the square
 ///   Square    the point of the square where a ray (columns of the hit) met the light
-struct SeenTriangle {
+struct VisibleTriangle {
   static constexpr LightShape kShape = LightShape::kTriangle;
   const LightTriangle& triangle;
   V3 from;
   SphericalTriangle view;
   VF omega;
 
-  LANELIGHT_INLINE SeenTriangle(const LightTriangle& t, V3 receiver)
+  LANELIGHT_INLINE VisibleTriangle(const LightTriangle& t, V3 receiver)
       : triangle(t), from(receiver), view(t.p0 - from, t.e1, t.e2) {
     omega = view.SolidAngle();
   }
@@ -73,15 +73,15 @@ struct SeenTriangle {
   }
 };
 
-/// As SeenTriangle.
-struct SeenRectangle {
+/// As VisibleTriangle.
+struct VisibleRectangle {
   static constexpr LightShape kShape = LightShape::kRectangle;
   const LightRectangle& rectangle;
   V3 from;
   LocalRectangle view;
   VF omega;
 
-  LANELIGHT_INLINE SeenRectangle(const LightRectangle& r, V3 receiver)
+  LANELIGHT_INLINE VisibleRectangle(const LightRectangle& r, V3 receiver)
       : rectangle(r), from(receiver), view(r.From(receiver)) {
     omega = view.SolidAngle(r.size_x, r.size_y);
   }

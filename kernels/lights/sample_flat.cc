@@ -32,7 +32,7 @@ HWY_INLINE V3 FacingNormal(const PathColumns& p, const Slots& slots) {
 // Emitters: lights of a batch, with
 //   normal, radiance, pmf, area, TwoSided()
 //   ByArea(u0, u1)   a point on them, uniform over the area
-//   SeenFrom(p)      a SeenTriangle or SeenRectangle (flat-inl.h)
+//   SeenFrom(p)      a VisibleTriangle or VisibleRectangle (flat-inl.h)
 template <LightPoints kPoints, class Emitters>
 HWY_INLINE void SampleFlatLight(const PathColumns& p, const StoreSlots& slots,
                                 const Emitters& light) {
@@ -93,7 +93,7 @@ struct TriangleEmitters {
   HWY_INLINE MF TwoSided() const {
     return hn::RebindMask(DF(), hn::Ne(two_sided, hn::Zero(DI())));
   }
-  HWY_INLINE SeenTriangle SeenFrom(V3 p) const { return {triangle, p}; }
+  HWY_INLINE VisibleTriangle SeenFrom(V3 p) const { return {triangle, p}; }
   HWY_INLINE V3 ByArea(VF u0, VF u1) const {
     const VF root = hn::Sqrt(u0);
     const VF b1 = hn::Sub(Splat(1.0f), root), b2 = hn::Mul(root, u1);
@@ -178,7 +178,7 @@ struct RectangleEmitters {
 
   HWY_INLINE V3 normal() const { return rectangle.n; }
   HWY_INLINE MF TwoSided() const { return two_sided; }
-  HWY_INLINE SeenRectangle SeenFrom(V3 p) const { return {rectangle, p}; }
+  HWY_INLINE VisibleRectangle SeenFrom(V3 p) const { return {rectangle, p}; }
   HWY_INLINE V3 ByArea(VF u0, VF u1) const {
     return rectangle.At(hn::Mul(u0, rectangle.size_x), hn::Mul(u1, rectangle.size_y));
   }

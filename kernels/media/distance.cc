@@ -116,7 +116,7 @@ void MediumDistance(Wave& wave) {
       });
   ForEachBatch(wave, mine,
                [&](const StoreSlots& slots, MF) HWY_ATTR { Walk<Needs>(wave, slots); });
-  LeaveWithEvents(wave);
+  QueueEvents(wave);
 }
 
 StageFn ResolveMediumDistance(const FeatureSet& features) {

@@ -47,7 +47,7 @@ LANELIGHT_INLINE void StoreEvent(const PathColumns& p, const StoreSlots& slots, 
 
 /// Moves the paths with an event from kActive to kVertex, or to kDone if they may not
 /// scatter any more.
-LANELIGHT_INLINE void LeaveWithEvents(Wave& wave) {
+LANELIGHT_INLINE void QueueEvents(Wave& wave) {
   const PathColumns& p = wave.path;
   Queue& active = wave.queue(QueueId::kActive);
   const uint32_t before = active.size;

@@ -65,7 +65,7 @@ HWY_INLINE PathColumns RestAsRay(const Wave& wave) {
   return ray;
 }
 
-HWY_INLINE void BeginRest(Wave& wave) {
+HWY_INLINE void BeginRemainder(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kShadow),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
@@ -130,7 +130,7 @@ HWY_INLINE void NextLegs(Wave& wave) {
 void ShadowThrough(Wave& wave) {
   const PathColumns ray = RestAsRay(wave);
   const RayKernels& kernels = wave.kernels;
-  BeginRest(wave);
+  BeginRemainder(wave);
   // Both queues have been consumed (stages `split` and `route`).
   Queue& legs = wave.queue(QueueId::kActive);
   const Queue surfaces = wave.queue(QueueId::kSurface);

@@ -137,7 +137,7 @@ void MediumTracking(Wave& wave) {
       }
     });
   }
-  LeaveWithEvents(wave);
+  QueueEvents(wave);
 }
 
 Stage MediumTrackingStage() {

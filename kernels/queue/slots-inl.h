@@ -1,8 +1,9 @@
 // Access to the columns of a batch of paths.
 //
-// Slots of a batch are often neighbours: the pack stage (kernels/sort/pack.cc) starts
-// every wave without gaps, and queues keep their order. Gathers and scatters cost about a
-// cycle per lane wherever the lanes are, so neighbours are reached by whole vectors:
+// Slots of a batch are often neighbours: the compact stage (kernels/sort/compact.cc)
+// starts every wave without gaps, and queues keep their order. Gathers and scatters cost
+// about a cycle per lane wherever the lanes are, so neighbours are reached by whole
+// vectors:
 //   run      slots first, first + 1, ...: one load or store
 //   window   all slots in two adjacent aligned blocks: two loads and permutations
 //   anywhere gather and scatter

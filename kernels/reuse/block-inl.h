@@ -68,7 +68,7 @@ struct SuffixRoulette {
   float whole, sum;  // sum of the probabilities below 1 so far, from u on
 
   explicit SuffixRoulette(float u) : whole(0), sum(u) {}
-  bool Keeps(float q) {
+  bool Survives(float q) {
     if (q >= 1) return true;
     sum += q;
     if (sum - whole < 1) return false;
@@ -86,7 +86,7 @@ HWY_INLINE void ListSuffixes(const Wave& wave) {
     const float maximum = MaxSent(wave, r);
     if (!(maximum > 0)) continue;
     const float q = HWY_MIN(1.0f, maximum / block.certainly_kept);
-    if (!roulette.Keeps(q)) continue;
+    if (!roulette.Survives(q)) continue;
     SuffixRow& row = block.rows[block.num_suffixes];
     row = {r, block.num_suffixes++, 1 / q, SuffixPart::kEven};
   }

@@ -3,7 +3,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/accumulate/check-inl.h"
-#include "kernels/points/wavelength-inl.h"
+#include "kernels/samplers/wavelength-inl.h"
 #include "kernels/reuse/block-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 
@@ -82,7 +82,7 @@ HWY_INLINE void RestoreLight(const Wave& wave) {
 template <bool kSigned>
 HWY_INLINE void FinishSamples(Wave& wave) {
   const DI di;
-  const bool spectral = kSigned && wave.run->points.by_tile;
+  const bool spectral = kSigned && wave.run->sampler.by_tile;
   const VU sample = SplatU(wave.work.first_sample + wave.block->sample);
   const Wavelengths wavelengths(
       TileWavelength(*wave.run, SplatU(wave.work.pixels[0]), sample));

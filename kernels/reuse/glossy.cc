@@ -109,7 +109,7 @@ void LightGlossy(Wave& wave) {
   Block& block = *wave.block;
   for (uint32_t s = 0; s < block.num_suffixes; ++s) {
     const uint32_t record = block.rows[s].record;
-    if (!ServesGlossily(block.second.state[record])) continue;
+    if (!IsReusableGlossy(block.second.state[record])) continue;
     OfGlossyKind(GlossyKindOf(wave, record),
                  [&]<class Bsdf>() HWY_ATTR { LightRow<Bsdf>(wave, s); });
     wave.lanes.items += block.size;

@@ -121,7 +121,8 @@ HWY_INLINE void SplitKind(Wave& wave, uint32_t kind) {
   };
   for (uint32_t i = 0; i < block.size; ++i) {
     const uint32_t r = block.records[i];
-    if (!ServesGlossily(block.second.state[r]) || GlossyKindOf(wave, r) != kind) continue;
+    if (!IsReusableGlossy(block.second.state[r]) || GlossyKindOf(wave, r) != kind)
+      continue;
     list[n++] = r;
     if (n == lanes) flush();
   }
@@ -148,7 +149,7 @@ Stage ReuseOwnLightStage() {
 // Keeps, for glossy second vertices whose light sample has been connected, its direction
 // and light, and the direction in which the path continues.
 
-HWY_INLINE void KeepLight(const Wave& wave, const Slots& slots, VI record) {
+HWY_INLINE void StoreOwnLight(const Wave& wave, const Slots& slots, VI record) {
   const PathColumns& p = wave.path;
   const GlossyColumns& glossy = wave.block->glossy;
   if (p.ls_x != nullptr) {
@@ -170,7 +171,7 @@ void SecondVerticesLight(Wave& wave) {
       });
   ForEachBatch(wave, shaded, [&](const Slots& slots, MF) HWY_ATTR {
     const VI record = RecordOf(wave.work, Gather(p.output, slots));
-    KeepLight(wave, slots, record);
+    StoreOwnLight(wave, slots, record);
     const MF mirrored = hn::Le(Gather(p.bsdf_pdf, slots), hn::Zero(DF()));
     const VI state =
         hn::IfThenElse(hn::RebindMask(DI(), mirrored), StateLanes(ReuseState::kMirrored),

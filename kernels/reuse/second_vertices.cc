@@ -57,13 +57,14 @@ HWY_INLINE MF IsGlossy(const Wave& wave, const Slots& slots) {
   return hn::And(IsOfKinds(wave, slots, kGlossyKinds), wide);
 }
 
-HWY_INLINE void KeepColumns(const KeptColumns& columns, const Slots& slots, VI record) {
+HWY_INLINE void StoreColumns(const StoredColumns& columns, const Slots& slots,
+                             VI record) {
   for (uint32_t c = 0; c < columns.count; ++c) {
     Scatter(Gather(columns.from[c], slots), columns.to[c], record);
   }
 }
 
-HWY_INLINE void KeepSecond(const Wave& wave, const Slots& slots, VI record) {
+HWY_INLINE void StoreSecond(const Wave& wave, const Slots& slots, VI record) {
   const PathColumns& p = wave.path;
   const ReuseColumns& second = wave.block->second;
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
@@ -118,7 +119,7 @@ HWY_INLINE void RecordEven(Wave& wave, const Queue& vertices) {
   });
   ForEachBatch(wave, serving, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI record = RecordsOf(wave, slots);
-    KeepSecond(wave, slots, record);
+    StoreSecond(wave, slots, record);
     BeginSuffix(wave.path, slots);
     SetState(wave, slots, record, ReuseState::kSecond);
   });
@@ -132,8 +133,8 @@ HWY_INLINE void RecordGlossy(Wave& wave, const Queue& vertices) {
   });
   ForEachBatch(wave, serving, [&](const StoreSlots& slots, MF) HWY_ATTR {
     const VI record = RecordsOf(wave, slots);
-    KeepSecond(wave, slots, record);
-    KeepColumns(wave.block->glossy_columns, slots, record);
+    StoreSecond(wave, slots, record);
+    StoreColumns(wave.block->glossy_columns, slots, record);
     Scatter3(Gather3(p.beta_r, p.beta_g, p.beta_b, slots), glossy.beta_r, glossy.beta_g,
              glossy.beta_b, record);
     BeginSuffix(p, slots);
@@ -181,7 +182,7 @@ HWY_INLINE void RecordFirsts(Wave& wave) {
       });
   ForEachBatch(wave, mine, [&](const Slots& slots, MF) HWY_ATTR {
     const VI record = RecordsOf(wave, slots);
-    KeepColumns(wave.block->first_columns, slots, record);
+    StoreColumns(wave.block->first_columns, slots, record);
     SetState(wave, slots, record, ReuseState::kFirst);
   });
 }

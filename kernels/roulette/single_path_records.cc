@@ -20,7 +20,7 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// 3 sqrt(3): ImageGuess::Inverse is 1 / (3 sqrt(3) channel color).
+// 3 sqrt(3): PilotImage::Inverse is 1 / (3 sqrt(3) channel color).
 inline constexpr float kBrightnessOfInverse = 5.1961524f;
 
 LANELIGHT_INLINE VF Gathered(const Wave& wave, const Slots& slots) {
@@ -35,7 +35,8 @@ LANELIGHT_INLINE VF Sent(const Wave& wave, const Slots& slots) {
 }
 
 // Returns what the path would have gathered without splitting.
-LANELIGHT_INLINE VF Alone(const PathColumns& p, const Slots& slots, VF gathered) {
+LANELIGHT_INLINE VF SinglePathRadiance(const PathColumns& p, const Slots& slots,
+                                       VF gathered) {
   const VF since = hn::Sub(gathered, Gather(p.single_l, slots));
   return hn::Add(Gather(p.single_gathered, slots),
                  hn::Div(since, Gather(p.copy_weight, slots)));
@@ -59,7 +60,7 @@ void SinglePathBefore(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kVertex), [&](const Slots& slots, MF) HWY_ATTR {
     const VF gathered = Gathered(wave, slots);
-    Scatter(Alone(p, slots, gathered), p.single_gathered, slots);
+    Scatter(SinglePathRadiance(p, slots, gathered), p.single_gathered, slots);
     Scatter(gathered, p.single_l, slots);
     Scatter(Sent(wave, slots), p.decided_at, slots);
   });
@@ -83,7 +84,7 @@ void SinglePathDecision(Wave& wave) {
       wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
         const VF beta = MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots));
         AddRisk(p, slots, hn::Div(beta, Gather(p.copy_weight, slots)),
-                Alone(p, slots, Gathered(wave, slots)));
+                SinglePathRadiance(p, slots, Gathered(wave, slots)));
       });
 }
 
@@ -96,7 +97,7 @@ void SinglePathEnd(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kDone), [&](const Slots& slots, MF) HWY_ATTR {
     const VI output = Gather(p.output, slots);
     const VF zero = hn::Zero(DF()), gathered = Gathered(wave, slots);
-    const VF end = Alone(p, slots, gathered), square = hn::Mul(end, end);
+    const VF end = SinglePathRadiance(p, slots, gathered), square = hn::Mul(end, end);
     VF added = hn::MulAdd(square, Gather(p.risk_0, slots), Gather(p.risk_2, slots));
     added = hn::NegMulAdd(hn::Add(end, end), Gather(p.risk_1, slots), added);
     // Values within rounding are taken as 0, and so is NaN from a path that carries

@@ -72,8 +72,8 @@ LANELIGHT_INLINE void CopyPaths(const ColumnLists& lists, const uint32_t* parent
 
 /// Divides the budget of a parent among its k copies: its own share, and those of the new
 /// slots.
-LANELIGHT_INLINE void ShareBudget(const PathColumns& p, uint32_t parent,
-                                  const uint32_t* slots, uint32_t k) {
+LANELIGHT_INLINE void DistributeBudget(const PathColumns& p, uint32_t parent,
+                                       const uint32_t* slots, uint32_t k) {
   const uint32_t budget = p.budget[parent];
   LL_DCHECK(k <= budget);
   for (uint32_t c = 1; c < k; ++c) {
@@ -104,13 +104,13 @@ LANELIGHT_INLINE void SplitPaths(Wave& wave, Queue& queue, const uint32_t* copie
   for (uint32_t i = 0; i < n;) {
     uint32_t k = 1;
     while (i + k - 1 < n && parents[i + k - 1] == parents[i]) ++k;
-    ShareBudget(wave.path, parents[i], slots + i, k);
+    DistributeBudget(wave.path, parents[i], slots + i, k);
     i += k - 1;
   }
 }
 
 template <class Policy>
-LANELIGHT_INLINE void PlayWindow(Wave& wave) {
+LANELIGHT_INLINE void ApplyWeightWindow(Wave& wave) {
   const PathColumns& p = wave.path;
   Queue& queue = wave.queue(QueueId::kVertex);
   Queue survivors = {queue.items, 0};  // compacts in place: writes never pass reads
@@ -152,7 +152,7 @@ Stage WindowStage(const char* name, const char* meaning, Feature kind) {
           .reads = fields::kThroughput | fields::kRay | fields::kPoint | fields::kNormal |
                    identity | FieldSet{Field::eta_scale},
           .writes = fields::kThroughput | fields::kRadiance | identity,
-          .resolve = Always<PlayWindow<Policy>>};
+          .resolve = Always<ApplyWeightWindow<Policy>>};
 }
 
 LANELIGHT_END_KERNELS

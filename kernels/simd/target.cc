@@ -60,7 +60,7 @@ std::int64_t TargetNamed(const std::string& name) {
     if (strcasecmp(hwy::TargetName(target), name.c_str()) == 0) return target;
   }
   throw InputError(
-      fmt::format("SIMD target '{}' is not available: {}", name, WhyNoTarget(name)));
+      fmt::format("SIMD target '{}' is not available: {}", name, TargetProblem(name)));
 }
 
 // The targets that `./run build` compiles: "all" in cmake/targets.cmake.
@@ -87,7 +87,7 @@ std::vector<std::string> AvailableTargets() {
   return names;
 }
 
-std::string WhyNoTarget(const std::string& name) {
+std::string TargetProblem(const std::string& name) {
   const auto is_named = [&name](const std::string& other) {
     return strcasecmp(other.c_str(), name.c_str()) == 0;
   };

@@ -41,7 +41,7 @@ std::vector<std::string> AvailableTargets();
 
 /// Says why a target is not available, and what to do: the program was built without it,
 /// or the machine cannot run it, or there is none of that name.
-std::string WhyNoTarget(const std::string& name);
+std::string TargetProblem(const std::string& name);
 
 /// Throws InputError if there is none. What kernels do then is undefined.
 void RequireTarget();

@@ -19,7 +19,7 @@ struct PixelSteps {
 
 // Turns `axis`, which is across the camera's forward direction, with that direction, or
 // with the backward one if it is nearer, to the line of sight.
-HWY_INLINE V3 Turned(V3 axis, V3 forward, V3 sight) {
+HWY_INLINE V3 RotatedToSight(V3 axis, V3 forward, V3 sight) {
   const VF cosine = Dot(forward, sight);
   const V3 sum = Mul(forward, hn::CopySign(Splat(1.0f), cosine)) + sight;
   const VF fraction = hn::Div(Dot(axis, sight), hn::Add(Splat(1.0f), hn::Abs(cosine)));
@@ -34,7 +34,7 @@ HWY_INLINE PixelSteps StepsAt(const PixelFootprint& f, V3 p) {
   const V3 sight = Mul(from_eye, hn::Div(Splat(1.0f), distance));
   const MF in_front = hn::Ge(depth, hn::Mul(Splat(f.min_cosine), distance));
   const auto step = [&](Vec3f pixel, Vec3f axis, float angle) HWY_ATTR {
-    const V3 turned = Turned(SplatVec(axis), forward, sight);
+    const V3 turned = RotatedToSight(SplatVec(axis), forward, sight);
     return IfThenElse(in_front, Mul(SplatVec(pixel), depth),
                       Mul(turned, hn::Mul(distance, Splat(angle))));
   };

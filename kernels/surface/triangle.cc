@@ -237,7 +237,7 @@ HWY_INLINE void StoreTangents(const Wave& wave, const StoreSlots& slots,
   if (path.tv_x != nullptr) {
     bitangent = solved.Bitangent(face.e1, face.e2, face.normal);
   }
-  if (wave.geometry->turned_tangents) {
+  if (wave.geometry->rotated_tangents) {
     TurnTangents(*wave.geometry, tri, face.normal, tangent, bitangent);
   }
   if (path.tv_x != nullptr) {

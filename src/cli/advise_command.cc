@@ -66,7 +66,7 @@ std::string AdviceText(const Advice& advice) {
 // The command that renders as the advice says.
 std::string RenderCommand(const AdviseCommandOptions& options, const Advice& advice) {
   RenderSettings settings = options.scene.settings;
-  settings.points.reset();  // which the strategy says
+  settings.sampler.reset();  // which the strategy says
   settings.strategy.text = ToText(advice.chosen);
   return fmt::format("lanelight render {} -o FILE.exr{}", ShellWord(options.scene.scene),
                      FlagsText(settings));

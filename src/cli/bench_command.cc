@@ -62,15 +62,15 @@ int Bench(BenchCommandOptions options) {
   if (options.json != "-") {
     Print(ThroughputText(rows, options.bench.within, {false, columns}));
   }
-  bool good = true;
+  bool success = true;
   const auto save = [&](const std::string& path, const std::string& text) {
-    if (!path.empty()) good &= SaveOrPrint(path, text);
+    if (!path.empty()) success &= SaveOrPrint(path, text);
   };
   save(options.json, DumpJson(json, 1) + "\n");
   save(options.csv, ThroughputCsv(rows));
   save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
   if (!options.html.empty()) save(options.html, ReportPage(PageKind::kBench, json));
-  if (!good) return kExitBadInput;
+  if (!success) return kExitBadInput;
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
   if (options.json != "-") {

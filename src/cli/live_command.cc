@@ -21,7 +21,7 @@ struct LiveCommandOptions {
 std::string CommandLine(const SceneOptions& options) {
   RenderSettings settings = options.settings;
   settings.strategy = {};
-  settings.points.reset();
+  settings.sampler.reset();
   return "lanelight render " + ShellWord(options.scene) + FlagsText(settings);
 }
 

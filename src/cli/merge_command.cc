@@ -74,7 +74,7 @@ int Merge(const MergeOptions& options) {
                              std::uint64_t(film.width()) * std::uint64_t(film.height()),
                              options.partial};
   WriteRendering(film, facts, targets, members, rendering);
-  const bool good = PrintProblems(rendering.problems);
+  const bool success = PrintProblems(rendering.problems);
   if (targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.outputs.quiet) {
@@ -82,7 +82,7 @@ int Merge(const MergeOptions& options) {
   }
   if (rendering.report.black) PrintError(fmt::format("warning: {}", kNoLight));
   if (rendering.report.result.health.Total() > 0) return kExitInvalidSamples;
-  return good ? kExitGood : kExitBadInput;
+  return success ? kExitGood : kExitBadInput;
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::string HeaderText(const ProfileReport& report, const Job& job,
                              double(result.bytes_in_flight) / 1024, report.level.name));
   if (result.counter_error != 0) {
     text += SummaryRow("counters", std::string(result.counters ? "in part: " : "none: ") +
-                                       WhyNoCounters(result.counter_error));
+                                       CountersProblem(result.counter_error));
   }
   return text;
 }

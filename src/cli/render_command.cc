@@ -22,7 +22,7 @@ struct RenderCommandOptions {
 // use the leader's, which has the state.
 DefaultDecision DecisionFor(const RenderCommandOptions& options, RankGroup& group) {
   DefaultDecision decision = DefaultDecision::kIfLong;
-  if (group.leads()) {
+  if (group.is_leader()) {
     if (const auto began = DecisionOfState(options.outputs.targets.checkpoint)) {
       decision =
           *began == Decide::kPilot ? DefaultDecision::kAlways : DefaultDecision::kNever;
@@ -42,10 +42,10 @@ int Serve(const RenderCommandOptions& options, const RenderSettings& settings,
 }
 
 int Render(const RenderCommandOptions& options, RankGroup& group) {
-  if (group.leads()) CheckOutputs(options.outputs, {options.scene.scene});
+  if (group.is_leader()) CheckOutputs(options.outputs, {options.scene.scene});
   RenderSettings settings = options.scene.settings;
   settings.decision = DecisionFor(options, group);
-  if (!group.leads()) return Serve(options, settings, group);
+  if (!group.is_leader()) return Serve(options, settings, group);
   ProgressPrinter progress(ChooseProgressStyle(options.outputs.quiet));
   progress.PrintMessage("reading " + options.scene.scene + " and building its BVH",
                         /*always=*/false);

@@ -155,7 +155,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
                    const RenderOutputs& options, const std::string& preface) {
   const RenderReport& report = rendering.report;
   const std::string kept =
-      rendering.state_kept ? options.targets.checkpoint.path : std::string();
+      rendering.is_checkpoint_saved ? options.targets.checkpoint.path : std::string();
   const bool good = PrintProblems(rendering.problems);
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
@@ -169,7 +169,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   }
   if (!report.partial && report.black) PrintError(fmt::format("warning: {}", kNoLight));
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
-  if (!checkpoint.path.empty() && !rendering.state_kept) {
+  if (!checkpoint.path.empty() && !rendering.is_checkpoint_saved) {
     PrintError("error: the last state could not be written to '" + checkpoint.path + "'");
     return kExitBadInput;
   }

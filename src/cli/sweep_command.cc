@@ -73,7 +73,7 @@ void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
                     options.out));
 }
 
-int DryRun(const Sweep& sweep, SweepCommandOptions& options) {
+int PrintPlannedCells(const Sweep& sweep, SweepCommandOptions& options) {
   const InterruptGuard interrupt("\nstopping\n");
   Print(PredictionText(
       sweep, Predict(sweep, options.sweep.out, options.pilots, interrupt.stop())));
@@ -88,7 +88,7 @@ WorkStep StepOf(const SweepProgress& p) {
 
 int RunSweepCommand(SweepCommandOptions& options) {
   const Sweep sweep = ReadSweep(options.file);
-  if (options.dry_run) return DryRun(sweep, options);
+  if (options.dry_run) return PrintPlannedCells(sweep, options);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
       "\nstopping: the current cell is discarded; the same command renders it again "

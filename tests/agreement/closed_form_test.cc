@@ -20,7 +20,7 @@ void CheckClosedForm(const SceneDescription& scene, std::uint64_t spp, const Exa
                      double power = 0.02) {
   const auto image = RenderWavefront(scene, spp);
   const auto result = stat::CompareMeans(
-      image, stat::KnownImage(image.width, image.height, exact), kTolerant);
+      image, stat::ExpectedImage(image.width, image.height, exact), kTolerant);
   INFO(result.ToString());
   CHECK(result.same);
   if (exact(0, 0).x > 0) CHECK(result.detectable_bias < power);
@@ -160,7 +160,7 @@ TEST_CASE("wavefront: a clear coat conserves energy", "[closed_form]") {
       b.AddEnvironment(Grey(1));
       const double exact = closed_form::CoatedFurnace(albedo, 1.5, 1, events / 2);
       const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 4096),
-                                             stat::KnownImage(4, 4, Constant(exact)),
+                                             stat::ExpectedImage(4, 4, Constant(exact)),
                                              {4, 1e-6, 0.005, 0});
       INFO("events " << events << ", albedo " << albedo << ": " << result.ToString());
       CHECK(result.same);

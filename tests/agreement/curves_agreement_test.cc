@@ -137,7 +137,7 @@ TEST_CASE("the width of a stretched curve is measured in object space", "[curves
   curve.width[1] = 0.2;
   const double slope = 3 * 0.1 / std::sqrt(25 - 0.01);
   const double seen = 1 - slope / std::tan(10 * kPi / 180);
-  const auto known = stat::KnownImage(1, 1, [&](int, int) { return Grey(seen); });
+  const auto known = stat::ExpectedImage(1, 1, [&](int, int) { return Grey(seen); });
   const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 1 << 18), known,
                                          {4, 1e-6, kFloatTolerance, 1e-7});
   INFO(result.ToString());

@@ -37,8 +37,9 @@ std::function<Rgb(int, int)> PixelMeans(const F& f) {
 void CheckMeans(const SceneDescription& scene, const std::function<Rgb(int, int)>& exact,
                 const std::string& strategy = "") {
   const auto image = RenderWavefront(scene, 8192, strategy);
-  const auto result = stat::CompareMeans(
-      image, stat::KnownImage(image.width, image.height, exact), {4, 1e-6, 2e-3, 1e-5});
+  const auto result =
+      stat::CompareMeans(image, stat::ExpectedImage(image.width, image.height, exact),
+                         {4, 1e-6, 2e-3, 1e-5});
   INFO(strategy << ": " << result.ToString());
   CHECK(result.same);
   CHECK(result.detectable_bias < 0.1);
@@ -320,7 +321,7 @@ TEST_CASE("images with motion are bit-identical for any threads and wavefront si
   base.spp = 12;
   base.threads = 1;
   base.wavefront = 1000;
-  base.sampler = Points::kSobol;
+  base.sampler = SampleSequence::kSobol;
   const SceneDescription scene = Everything(true);
   const Rendered reference = RenderDescription(scene, base);
   for (const std::uint32_t wavefront : {64u, 192u, 8192u}) {

@@ -56,8 +56,8 @@ inline void Check(const Row& row, Transport transport) {
   SceneDescription scene = ParseText(kHead + row.before + "WorldBegin\n" + row.world);
   scene.integrator.transport = transport;
   const auto image = RenderWavefront(scene, 1 << 15);
-  const auto known =
-      stat::KnownImage(image.width, image.height, [&](int, int) { return row.expected; });
+  const auto known = stat::ExpectedImage(image.width, image.height,
+                                         [&](int, int) { return row.expected; });
   const auto result = stat::CompareMeans(image, known, {4, 1e-6, row.tolerance, 1e-6});
   INFO(result.ToString());
   CHECK(result.same);

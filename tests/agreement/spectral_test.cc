@@ -19,7 +19,8 @@ void CheckColor(const SceneDescription& scene, std::uint64_t spp, Rgb exact,
                 double tolerance, const std::string& strategy = "") {
   const auto image = RenderWavefront(Spectral(scene), spp, strategy);
   const auto result = stat::CompareMeans(
-      image, stat::KnownImage(image.width, image.height, [&](int, int) { return exact; }),
+      image,
+      stat::ExpectedImage(image.width, image.height, [&](int, int) { return exact; }),
       {4, 1e-6, tolerance, tolerance * 0.02});
   INFO(result.ToString());
   CHECK(result.same);
@@ -323,7 +324,7 @@ TEST_CASE("spectral: the albedo output is the visible colour", "[spectral]") {
   TestRender options;
   options.spp = 1024;
   options.auxiliary = Auxiliary::kAov;
-  options.sampler = Points::kSobol;
+  options.sampler = SampleSequence::kSobol;
   const Rgb color = {0.2, 0.4, 0.8};
   const Rendered render = RenderDescription(Spectral(Patch({color}, {Grey(1)})), options);
   for (int c = 0; c < 3; ++c) {

@@ -60,7 +60,7 @@ TEST_CASE("missing features of a scene are listed without articles", "[cli]") {
     CHECK(text.starts_with("not ") == (first.find('=') != text.npos));
   }
   CHECK(WithoutFeature(Feature::kOrthographic) == "no orthographic camera");
-  CHECK(WithoutFeature(Feature::kHaltonPoints) == "not points=halton");
+  CHECK(WithoutFeature(Feature::kHaltonSampleSequence) == "not points=halton");
 }
 
 TEST_CASE("the plan of a sphere under a point light has only what it needs", "[cli]") {

@@ -169,8 +169,9 @@ TEST_CASE("profile and render choose the same strategy for equal arguments", "[c
   CHECK(has_pilot);
   CHECK_THAT(Lines(r.out).at(0), Contains("strategy") && Contains("trial run"));
 
-  const ProcessResult given = Profile(scene, {"--strategy", "points=halton"});
-  CHECK_THAT(Lines(given.out).at(0), Contains("points=halton") && !Contains("trial run"));
+  const ProcessResult explicit_run = Profile(scene, {"--strategy", "points=halton"});
+  CHECK_THAT(Lines(explicit_run.out).at(0),
+             Contains("points=halton") && !Contains("trial run"));
 }
 
 TEST_CASE("the rows of a profile account for the processor time", "[cli]") {

@@ -202,10 +202,10 @@ TEST_CASE("a checkpoint of another strategy is refused with the differences", "[
 TEST_CASE("the printed strategy is the one that renders", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSphereScene(directory), exr = directory / "a.exr";
-  const ProcessResult given =
+  const ProcessResult explicit_run =
       RunLanelight({"render", scene, "-o", exr, "--strategy", "roulette=none"});
   // The scene itself asks for independent points.
-  CHECK_THAT(given.out, Contains("strategy   points=independent,roulette=none\n"));
+  CHECK_THAT(explicit_run.out, Contains("strategy   points=independent,roulette=none\n"));
   CHECK_THAT(RunLanelight({"render", scene, "-o", exr, "--sampler", "sobol"}).out,
              !Contains("strategy"));
   // A pilot decides in long renders, and so says the plan.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "src/measure/stress/closed_forms.h"
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 
 namespace lanelight::stress {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/base/core/pi.h"
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 
 namespace lanelight::stress {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/measure/stress/closed_forms.h"
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 
 namespace lanelight::stress {
 namespace {

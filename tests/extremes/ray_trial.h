@@ -12,7 +12,7 @@
 
 #include "src/base/core/vec.h"
 #include "src/render/job/job.h"
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 #include "tests/support/wave_fixture.h"
 
 namespace lanelight::stress {

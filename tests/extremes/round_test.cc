@@ -204,10 +204,10 @@ std::vector<Point> LeaveFlat(double sine, const Effort& effort) {
 std::vector<Point> ThinRing(double width, const Effort& effort) {
   const double inner = 1 - width;
   const double form = width * (2 - width) / (2 * (1 + inner * inner));
-  const std::string text = CameraText({0, 0, 0.5}, {0, 0, 0}, 0.01) +
-                           "WorldBegin\nMaterial " + Diffuse(0.5) +
-                           "\nShape \"disk\" \"float radius\" 2\n" +
-                           Block(Glow(1, true) + Disk({0, 0, 1}, {0, 0, 1}, 1, inner));
+  const std::string text =
+      CameraText({0, 0, 0.5}, {0, 0, 0}, 0.01) + "WorldBegin\nMaterial " + Diffuse(0.5) +
+      "\nShape \"disk\" \"float radius\" 2\n" +
+      Block(AreaLightText(1, true) + Disk({0, 0, 1}, {0, 0, 1}, 1, inner));
   return {Expect(0.5 * form, text,
                  {.quick = 1024, .depth = 1, .relative = 1e-5 + 1e-7 / width}, effort)};
 }

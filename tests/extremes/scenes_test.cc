@@ -14,10 +14,10 @@ namespace {
 // closed form is that of its four right angles. In any unit of length.
 std::vector<Point> LampOverFloor(double unit, const Effort& effort) {
   const double u = unit;
-  const std::string text = CameraText({0, 0, u / 2}, {0, 0, 0}, 0.01) +
-                           "WorldBegin\nMaterial " + Diffuse(0.5) + "\n" +
-                           Rectangle({-5 * u, -5 * u, 0}, {5 * u, 5 * u, 0}) + Glow(1) +
-                           Rectangle({-u / 2, -u / 2, u}, {u / 2, u / 2, u}, false);
+  const std::string text =
+      CameraText({0, 0, u / 2}, {0, 0, 0}, 0.01) + "WorldBegin\nMaterial " +
+      Diffuse(0.5) + "\n" + Rectangle({-5 * u, -5 * u, 0}, {5 * u, 5 * u, 0}) +
+      AreaLightText(1) + Rectangle({-u / 2, -u / 2, u}, {u / 2, u / 2, u}, false);
   // Form factor of a parallel rectangle above its corner, a = b = 1/2, four times.
   const double x = 0.5 / std::sqrt(1.25);
   return {Expect(0.5 * 4 / M_PI * x * std::atan(x), text, {.quick = 256, .depth = 1},
@@ -151,8 +151,8 @@ std::vector<Point> Sheared(double shear, const Effort& effort) {
 
 // The floor, and lamps one unit above it.
 std::string UnderLamps(const std::string& lamps) {
-  return "Material " + Diffuse(0.5) + "\n" + Rectangle({-2, -2, 0}, {2, 2, 0}) + Glow(1) +
-         lamps;
+  return "Material " + Diffuse(0.5) + "\n" + Rectangle({-2, -2, 0}, {2, 2, 0}) +
+         AreaLightText(1) + lamps;
 }
 
 // A lamp that shines to one side only, told in eight mirrored ways.

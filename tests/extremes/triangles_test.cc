@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 #include "tests/extremes/ray_trial.h"
 
 namespace lanelight::stress {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/extremes/hold.h"
+#include "tests/extremes/check_points.h"
 
 namespace lanelight::stress {
 namespace {
@@ -22,9 +22,10 @@ std::string Perspective(double fov) {
 // A glowing disk across the view, `radius` at `distance` straight ahead of the origin.
 std::string DiskAhead(const std::string& camera, double distance, double radius) {
   return camera + "PixelFilter \"box\"\nWorldBegin\nMaterial " + Diffuse(0) + "\n" +
-         Block(Glow(1, true) + fmt::format("Translate 0 0 {:.17g}\nShape \"disk\" "
-                                           "\"float radius\" {:.17g}",
-                                           distance, radius));
+         Block(AreaLightText(1, true) +
+               fmt::format("Translate 0 0 {:.17g}\nShape \"disk\" "
+                           "\"float radius\" {:.17g}",
+                           distance, radius));
 }
 
 // The disk fills pi / 16 of the square view: half as wide as the view.
@@ -106,7 +107,7 @@ Point HalfPlane(const std::string& series, double lens, double focus,
           "LookAt 0 0 0  0 0 1  0 1 0\nCamera \"perspective\" \"float fov\" 40 "
           "\"float lensradius\" {:.17g} \"float focaldistance\" {:.17g}\n",
           lens, focus) +
-      "PixelFilter \"box\"\nWorldBegin\n" + Glow(1, true) +
+      "PixelFilter \"box\"\nWorldBegin\n" + AreaLightText(1, true) +
       Rectangle({0, -wide, 1}, {wide, wide, 1});
   return Named(series, Expect(0.5, text, {64, 4096, 1}, effort));
 }
@@ -123,7 +124,7 @@ std::vector<Point> ByFocus(double focus, const Effort& effort) {
 }
 
 std::string Lamp(double x0, double x1) {
-  return Block(Glow(1, true) + Rectangle({x0, -2, 0}, {x1, 2, 0}));
+  return Block(AreaLightText(1, true) + Rectangle({x0, -2, 0}, {x1, 2, 0}));
 }
 
 // One pixel, half of it covered by a lamp: to one side of its middle (the other sample of

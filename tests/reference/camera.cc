@@ -103,9 +103,9 @@ CameraSample CameraRays::Plane(double x, double y, Random& random) const {
   } else {
     window[2] = -1 / aspect, window[3] = 1 / aspect;
   }
-  const auto& given = camera.screen_window;
-  if (given[0] != 0 || given[1] != 0 || given[2] != 0 || given[3] != 0) {
-    std::copy(given, given + 4, window);
+  const auto& screen = camera.screen_window;
+  if (screen[0] != 0 || screen[1] != 0 || screen[2] != 0 || screen[3] != 0) {
+    std::copy(screen, screen + 4, window);
   }
   const double sx = window[0] + (window[1] - window[0]) * x / film.width;
   const double sy = window[3] - (window[3] - window[2]) * y / film.height;

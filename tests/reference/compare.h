@@ -17,7 +17,7 @@ inline stat::ImageTestResult CompareWithClosedForm(
     const std::function<Rgb(int, int)>& f, const stat::ImageTestOptions& test = {}) {
   const ReferenceImage image = RenderReference(scene, options);
   return stat::CompareMeans(Estimate(image),
-                            stat::KnownImage(image.width, image.height, f), test);
+                            stat::ExpectedImage(image.width, image.height, f), test);
 }
 
 inline TwinOptions Options(ReferenceEstimator estimator, int samples) {

@@ -94,10 +94,10 @@ LocalMaterial EvaluateMaterial(const SceneDescription& scene, Index index,
   out.measured = m->measured;
   if (m->kind == MaterialKind::kHair) SetHair(*m, at, out);
   if (m->kind == MaterialKind::kConductor || m->kind == MaterialKind::kCoatedConductor) {
-    const bool given = m->has_reflectance;
-    out.eta = given ? Rgb{1, 1, 1} : look.Color(m->eta);
-    out.k =
-        given ? AbsorptionFromReflectance(look.Color(m->reflectance)) : look.Color(m->k);
+    const bool from_reflectance = m->has_reflectance;
+    out.eta = from_reflectance ? Rgb{1, 1, 1} : look.Color(m->eta);
+    out.k = from_reflectance ? AbsorptionFromReflectance(look.Color(m->reflectance))
+                             : look.Color(m->k);
     if (coat) {  // seen from inside the coat, the index is relative to it
       out.eta = out.eta / m->interface_eta;
       out.k = out.k / m->interface_eta;

@@ -32,9 +32,9 @@ struct Tracer {
               Index medium) const;
   /// The light that arrives at `p` by connections, weighed by scattered(toward); `medium`
   /// in direction `toward`, by medium(toward).
-  template <typename Scattered, typename Beyond>
+  template <typename Scattered, typename SignificantLogGain>
   Rgb Direct(Vec3d p, int primitive, const Scattered& scattered,
-             const Beyond& medium) const;
+             const SignificantLogGain& medium) const;
   Rgb Trace(Ray ray) const;
 };
 
@@ -63,9 +63,9 @@ Rgb Tracer::Connect(const LightConnection& light, const Ray& shadow, Rgb scatter
   return scattered * light.radiance * Unoccluded(shadow, reach, medium);
 }
 
-template <typename Scattered, typename Beyond>
+template <typename Scattered, typename SignificantLogGain>
 Rgb Tracer::Direct(Vec3d p, int primitive, const Scattered& scattered,
-                   const Beyond& medium) const {
+                   const SignificantLogGain& medium) const {
   Rgb sum;
   const auto add = [&](const LightConnection& light) {
     const Ray shadow = {p, light.toward, primitive};

@@ -232,8 +232,8 @@ std::vector<Rgb> SampleOfPixels(const ReuseTwin& twin, const CameraRays& camera)
     const double y = i / film.width + twin.random.Uniform();
     paths.push_back(twin.Trace(camera.Sample(x, y, twin.random).ray));
   }
-  const double surely = twin.CertainlyKept(paths);
-  for (Path& path : paths) path.q = std::min(1.0, MaxChannel(path.sent) / surely);
+  const double certain = twin.CertainlyKept(paths);
+  for (Path& path : paths) path.q = std::min(1.0, MaxChannel(path.sent) / certain);
   const std::vector<int> order = Shuffled(static_cast<int>(paths.size()), twin.random);
   std::vector<Rgb> sample(paths.size());
   for (std::size_t begin = 0; begin < paths.size(); begin += twin.options.block) {

@@ -23,7 +23,7 @@ SceneBuilder::SceneBuilder(int width, int height) {
   scene_.film.height = height;
   scene_.filter.kind = FilterKind::kBox;
   scene_.filter.x_radius = scene_.filter.y_radius = 0.5;
-  scene_.strategy.points = Points::kIndependent;
+  scene_.strategy.sampler = SampleSequence::kIndependent;
 }
 
 SceneBuilder& SceneBuilder::Depth(int max_depth) {

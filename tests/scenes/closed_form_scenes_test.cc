@@ -19,7 +19,7 @@ stat::ImageTestResult CompareScene(const std::string& name, int size, std::uint6
                                    const std::function<Rgb(int, int)>& exact,
                                    double tolerance = kFloatTolerance) {
   const auto image = RenderWavefront(LoadScene(name, size, size), spp);
-  return stat::CompareMeans(image, stat::KnownImage(size, size, exact),
+  return stat::CompareMeans(image, stat::ExpectedImage(size, size, exact),
                             {4, 1e-6, tolerance, 0});
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("own scenes: all parse and compile", "[scenes]") {
     CHECK(scene.film.width <= 512);
     CHECK(scene.film.height <= 512);
     CHECK(scene.sampler.spp == 64);
-    CHECK(scene.strategy.points == Points::kSobol);
+    CHECK(scene.strategy.sampler == SampleSequence::kSobol);
     REQUIRE_NOTHROW(PrepareScene(scene));
   }
 }

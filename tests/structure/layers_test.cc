@@ -38,7 +38,7 @@ constexpr Folder kFolders[] = {
     {"kernels/warp",            "sampling routines"},
     {"kernels/queue",           "the loop over a queue"},
     {"kernels/texture",         "textures"},
-    {"kernels/points",          "sample points"},
+    {"kernels/samplers",          "sample points"},
     {"kernels/antithetic",      "antithetic pairs"},
     {"kernels/generate",        "camera rays"},
     {"kernels/intersect",       "rays and shapes"},

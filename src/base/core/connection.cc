@@ -50,8 +50,8 @@ std::optional<Endpoint> EndpointType::Read(const std::string& text) const {
   std::string host = text, port;
   const std::size_t bracket = text.rfind(']');
   const std::size_t colon = text.rfind(':');
-  const bool behind = bracket == text.npos || (colon != text.npos && colon > bracket);
-  if (colon != text.npos && behind) {
+  const bool is_behind = bracket == text.npos || (colon != text.npos && colon > bracket);
+  if (colon != text.npos && is_behind) {
     host = text.substr(0, colon);
     port = text.substr(colon + 1);
     if (port.empty()) return {};

@@ -46,7 +46,7 @@ int SetLock(int fd, int type, std::uint64_t byte) {
   return result;
 }
 
-bool KnowsNoLocks(int error) {
+bool LacksLockSupport(int error) {
   return error == ENOSYS || error == ENOLCK || error == EOPNOTSUPP || error == EINVAL;
 }
 
@@ -70,11 +70,12 @@ LockFile::LockFile(const std::string& path)
     : path_(path), fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
   if (fd_.get() < 0) Fail(path_, "cannot open");
   const ScopedLock probe(this, ByteOf("is there locking?"));
-  locking_ = SetLock(fd_.get(), F_WRLCK, probe.byte_) == 0 || !KnowsNoLocks(errno);
+  supports_locks_ =
+      SetLock(fd_.get(), F_WRLCK, probe.byte_) == 0 || !LacksLockSupport(errno);
 }
 
-std::optional<ScopedLock> LockFile::Take(const std::string& name) const {
-  if (!locking_) return ScopedLock(nullptr, 0);
+std::optional<ScopedLock> LockFile::TryLock(const std::string& name) const {
+  if (!supports_locks_) return ScopedLock(nullptr, 0);
   const std::uint64_t byte = ByteOf(name);
   if (SetLock(fd_.get(), F_WRLCK, byte) == 0) return ScopedLock(this, byte);
   if (errno == EAGAIN || errno == EACCES) return std::nullopt;
@@ -86,7 +87,7 @@ std::optional<ScopedLock> LockFile::Wait(
     const std::string& name, const std::function<bool(double)>& keep_waiting) const {
   const auto start = std::chrono::steady_clock::now();
   for (LockSeconds pause = kFirstPause;; pause = std::min(2 * pause, kLongestPause)) {
-    if (auto lock = Take(name)) return lock;
+    if (auto lock = TryLock(name)) return lock;
     const LockSeconds waited = std::chrono::steady_clock::now() - start;
     if (!keep_waiting(waited.count())) return std::nullopt;
     std::this_thread::sleep_for(pause);

@@ -36,11 +36,11 @@ class LockFile {
   LockFile& operator=(const LockFile&) = delete;
 
   /// False if the file system knows no locks. Take then grants everything.
-  bool locking() const { return locking_; }
+  bool supports_locks() const { return supports_locks_; }
   /// Takes a lock; empty if it is taken. Never waits. A lock is one byte of the file, by
   /// the hash of its name; two names share a byte with a probability of 2^-62. Throws
   /// InputError if the file system fails.
-  std::optional<ScopedLock> Take(const std::string& name) const;
+  std::optional<ScopedLock> TryLock(const std::string& name) const;
   /// Tries again, with pauses, while keep_waiting(seconds waited so far) holds.
   std::optional<ScopedLock> Wait(const std::string& name,
                                  const std::function<bool(double)>& keep_waiting) const;
@@ -58,7 +58,7 @@ class LockFile {
   friend class ScopedLock;
   std::string path_;
   FileDescriptor fd_;
-  bool locking_ = true;
+  bool supports_locks_ = true;
 };
 
 }  // namespace lanelight

@@ -72,7 +72,7 @@ bool CounterGroup::Read(CounterValues* values) const {
   return true;
 }
 
-std::string WhyNoCounters(int error) {
+std::string CountersProblem(int error) {
   std::string reason =
       fmt::format("perf_event_open: {} ({})", strerrorname_np(error), strerror(error));
   switch (error) {

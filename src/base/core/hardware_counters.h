@@ -48,6 +48,6 @@ class CounterGroup {
 };
 
 /// Why counters are missing, and what would bring them; `error` as CounterGroup has it.
-std::string WhyNoCounters(int error);
+std::string CountersProblem(int error);
 
 }  // namespace lanelight

@@ -29,7 +29,7 @@ std::string FileText(const std::filesystem::path& path) {
 }
 
 // Reduces white space to single spaces between words.
-std::string Tidy(std::string_view text) {
+std::string CollapseSpaces(std::string_view text) {
   std::istringstream words{std::string(text)};
   std::string out;
   for (std::string word; words >> word;) out += (out.empty() ? "" : " ") + word;
@@ -150,8 +150,9 @@ std::optional<std::string> ProcessorIn(std::string_view cpuinfo) {
   std::istringstream lines{std::string(cpuinfo)};
   for (std::string line; std::getline(lines, line);) {
     const std::size_t colon = std::min(line.find(':'), line.size());
-    const std::string name = Tidy(line.substr(0, colon));
-    const std::string value = Tidy(line.substr(std::min(colon + 1, line.size())));
+    const std::string name = CollapseSpaces(line.substr(0, colon));
+    const std::string value =
+        CollapseSpaces(line.substr(std::min(colon + 1, line.size())));
     if (value.empty()) continue;
     if (name == "model name") add(value);
     if (name == "CPU implementer") implementer = value;

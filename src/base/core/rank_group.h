@@ -40,7 +40,7 @@ class RankGroup {
   virtual ~RankGroup() = default;
   virtual int rank() const { return 0; }
   virtual int ranks() const { return 1; }
-  bool leads() const { return rank() == 0; }
+  bool is_leader() const { return rank() == 0; }
   /// "rank 2 on node7".
   virtual std::string Name(int) const { return "rank 0"; }
   /// That the leader has sent to workers, or has had from them.

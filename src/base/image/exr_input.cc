@@ -101,7 +101,7 @@ std::map<std::string, ImageAttribute> ExrAttributes(const Imf::Header& header) {
   return attributes;
 }
 
-std::string WhyNotExr(const std::exception& error, const std::string& content) {
+std::string ExrProblem(const std::exception& error, const std::string& content) {
   if (dynamic_cast<const DamagedExr*>(&error) != nullptr) return error.what();
   return content.starts_with(kExrMagic)
              ? "it is damaged, or of a kind that OpenEXR does not read"

@@ -44,6 +44,6 @@ inline constexpr std::size_t kMaxExrSamplesPerByte = 4096;
 void CheckExrMemory(const std::string& content, bool reads_pixels);
 
 /// Returns the cause of an error in plain words.
-std::string WhyNotExr(const std::exception& error, const std::string& content);
+std::string ExrProblem(const std::exception& error, const std::string& content);
 
 }  // namespace lanelight

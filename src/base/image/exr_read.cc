@@ -89,7 +89,8 @@ auto WithExr(const std::string& path, const ReadContent& read) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError("{}: cannot read the EXR file: {}", path, WhyNotExr(error, content));
+    throw InputError("{}: cannot read the EXR file: {}", path,
+                     ExrProblem(error, content));
   }
 }
 

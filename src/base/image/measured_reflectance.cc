@@ -93,8 +93,8 @@ class Reader {
 
  private:
   // The dimensions before the last two, which are rows and columns: two of each at least.
-  void NeedShape(const std::string& name,
-                 const std::vector<std::uint64_t>& leading) const {
+  void RequireShape(const std::string& name,
+                    const std::vector<std::uint64_t>& leading) const {
     const TensorField& field = file_.Find(name);
     const std::size_t n = leading.size();
     const auto& shape = field.shape;
@@ -132,7 +132,7 @@ class Reader {
 
   MeasuredTensor Tensor(const std::string& name,
                         const std::vector<std::uint64_t>& leading) const {
-    NeedShape(name, leading);
+    RequireShape(name, leading);
     const auto& shape = file_.Find(name).shape;
     MeasuredTensor t;
     t.height = static_cast<int>(shape[leading.size()]);

@@ -44,12 +44,12 @@ class Reader {
     throw InputError("byte {}: {}", place,
                      fmt::format(format, std::forward<Args>(args)...));
   }
-  void Need(std::uint64_t count, const char* what) const {
+  void RequireBytes(std::uint64_t count, const char* what) const {
     if (count <= left()) return;
     Fail(place_, "{} of {} bytes, but the file ends at byte {}", what, count, size_);
   }
   void Read(std::uint64_t count, const char* what, void* to) {
-    Need(count, what);
+    RequireBytes(count, what);
     if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(count))) {
       Fail(place_, "{} of {} bytes cannot be read", what, count);
     }
@@ -62,7 +62,7 @@ class Reader {
     return value;
   }
   void Skip(std::uint64_t count, const char* what) {
-    Need(count, what);
+    RequireBytes(count, what);
     place_ += count;
     file_.seekg(static_cast<std::streamoff>(place_));
   }
@@ -96,7 +96,7 @@ io::Header ReadHeader(Reader& reader) {
 // Compressed bytes, after their number.
 std::vector<std::uint8_t> ReadPacked(Reader& reader) {
   const auto size = reader.Read<std::uint64_t>("the size of a compressed grid");
-  reader.Need(size, "a compressed grid");
+  reader.RequireBytes(size, "a compressed grid");
   std::vector<std::uint8_t> packed(size);
   reader.Read(size, "a compressed grid", packed.data());
   return packed;
@@ -132,7 +132,7 @@ void Unblosc(Reader& reader, GridBytes* bytes) {
 // Allocates no more than the rest of the file can unpack to.
 GridBytes MakeRoom(const Reader& reader, io::Codec codec, std::uint64_t size) {
   if (codec == io::Codec::NONE) {
-    reader.Need(size, "a grid");
+    reader.RequireBytes(size, "a grid");
   } else if (size / kMaxExpansion > reader.left()) {
     reader.Fail(reader.place(), "a grid of {} bytes cannot come from {} compressed bytes",
                 size, reader.left());
@@ -167,14 +167,14 @@ std::optional<StoredGrid> ReadStoredGrid(std::istream& file, const std::string& 
     std::uint64_t before = 0;           // it, or before the next segment
     for (int i = 0; i < header.gridCount; ++i) {
       const auto meta = reader.Read<io::MetaData>("the description of a grid");
-      reader.Need(meta.nameSize, "the name of a grid");
+      reader.RequireBytes(meta.nameSize, "the name of a grid");
       std::string found(meta.nameSize, '\0');
       reader.Read(meta.nameSize, "the name of a grid", found.data());
       if (size) continue;
       if (found.c_str() == name) {
         size = meta.gridSize;
       } else {
-        reader.Need(meta.fileSize, "a grid");
+        reader.RequireBytes(meta.fileSize, "a grid");
         before += meta.fileSize;
       }
     }

@@ -59,7 +59,7 @@ class Source {
 
  private:
   static int Read(void* self, char* data, int size) {
-    return static_cast<Source*>(self)->Take(data, size);
+    return static_cast<Source*>(self)->ReadBytes(data, size);
   }
   static void Skip(void* self, int n) {
     Source* source = static_cast<Source*>(self);
@@ -74,7 +74,7 @@ class Source {
   }
   // Reads into stb's look-ahead buffer, the target of the first read, may be short at the
   // end of the file, but not empty. Other reads need all bytes.
-  int Take(char* data, int size) {
+  int ReadBytes(char* data, int size) {
     if (look_ahead_ == nullptr) look_ahead_ = data;
     const std::size_t n =
         std::min(static_cast<std::size_t>(std::max(size, 0)), content_.size() - at_);

@@ -76,10 +76,10 @@ class Adviser {
 
   Advice Run() {
     all_ = CandidatesFor(job_.scene, job_.plan.options);
-    std::vector<Tried> tried = First();
-    if (tried.size() > 1 && Round(tried, 0)) {
+    std::vector<Tried> tried = FirstCandidates();
+    if (tried.size() > 1 && RunRound(tried, 0)) {
       DropWorseCandidates(tried);
-      if (tried.size() > 1 && Round(tried, kFirst)) Second(tried);
+      if (tried.size() > 1 && RunRound(tried, kFirst)) RunSecondRound(tried);
     }
     if (advice_.rays > 0 && !advice_.interrupted) TryBlocks(tried);
     Conclude();
@@ -104,7 +104,7 @@ class Adviser {
   }
 
   // Returns the candidates of the first round: as many as can have kMinSamples samples.
-  std::vector<Tried> First() {
+  std::vector<Tried> FirstCandidates() {
     std::vector<Tried> tried(1);
     for (std::size_t i = 1; i < all_.size(); ++i) {
       if (all_[i].status != CandidateStatus::kRefused) tried.push_back({i, {}});
@@ -120,7 +120,7 @@ class Adviser {
     return tried;
   }
 
-  bool Round(std::vector<Tried>& tried, double fraction) {
+  bool RunRound(std::vector<Tried>& tried, double fraction) {
     const std::uint64_t samples = std::max(SamplesFor(tried, fraction), kMinSamples);
     advice_.interrupted |= IsTooSlow() || !TryAll(tried, samples);
     if (advice_.interrupted) return false;
@@ -187,7 +187,7 @@ class Adviser {
   static double Score(const Tried& t) { return t.entry.Gain().log; }
 
   // Tries the default, the best two of the first round, and their combination.
-  void Second(std::vector<Tried>& tried) {
+  void RunSecondRound(std::vector<Tried>& tried) {
     const auto better = [](const Tried& a, const Tried& b) {
       return Score(a) > Score(b);
     };
@@ -199,13 +199,14 @@ class Adviser {
     }
     if (tried.size() < 2) return;
     if (tried.size() == 1 + kBest) Combine(tried);
-    if (tried.size() > 2 && !Round(tried, kSecond)) return;
+    if (tried.size() > 2 && !RunRound(tried, kSecond)) return;
     std::iter_swap(tried.begin() + 1,
                    std::min_element(tried.begin() + 1, tried.end(), better));
     tried.resize(2);
-    if (!Round(tried, kLast)) return;
+    if (!RunRound(tried, kLast)) return;
     const Tried& last = tried.back();
-    if (last.entry.Beyond(kMinChangeGain, kNormal95) > 0) chosen_ = last.index;
+    if (last.entry.SignificantLogGain(kMinChangeGain, kNormal95) > 0)
+      chosen_ = last.index;
     unseen_ = chosen_ == 0 && last.entry.IsCarriedByFew() ? last.index : 0;
   }
 
@@ -232,7 +233,7 @@ class Adviser {
     for (const TriedBlocks& blocks :
          trial_.TryBlocks(baseline.entry, chosen.entry, gain, samples)) {
       AddBlocks(base, blocks, samples);
-      if (blocks.pays) chosen_ = all_.size() - 1;
+      if (blocks.is_efficient) chosen_ = all_.size() - 1;
     }
     advice_.rays = trial_.spent().rays;
   }
@@ -247,7 +248,7 @@ class Adviser {
     both.efficiency = {baseline.value * more.value, baseline.low * more.low,
                        baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.gains_per_pixel
+    both.reason = blocks.has_gain_per_pixel
                       ? "more efficient per pixel, less efficient after a filter"
                       : "not clearly better";
     both.samples = samples;

@@ -26,8 +26,8 @@ constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 constexpr double kUnknownPriceUncertainty = 0.15;
 
 // Returns why the scene refuses the strategy; empty if not, with `key` its plan's key.
-std::string Refusal(const Strategy& strategy, const PlanOptions& options,
-                    const PreparedScene& scene, std::string& key) {
+std::string ReasonToOmit(const Strategy& strategy, const PlanOptions& options,
+                         const PreparedScene& scene, std::string& key) {
   if (strategy.light_selection == LightSelection::kTree &&
       scene.Parts().lights->lights.size() < kFewLights) {
     const std::size_t lights = scene.Parts().lights->lights.size();
@@ -99,7 +99,7 @@ std::vector<AdvisedCandidate> CandidatesFor(const PreparedScene& scene,
   std::vector<std::string> keys;
   for (AdvisedCandidate& candidate : out) {
     std::string key;
-    candidate.reason = Refusal(candidate.strategy, options, scene, key);
+    candidate.reason = ReasonToOmit(candidate.strategy, options, scene, key);
     // Equal plans give equal bits; only timing would differ.
     const auto twin = std::ranges::find(keys, key);
     if (candidate.reason.empty() && twin != keys.end()) {

@@ -44,7 +44,7 @@ std::string PText(double p) {
   return p < 1e-12 ? "p < 1e-12" : fmt::format("p = {:.2g}", p);
 }
 
-std::string WhatFailed(const Agreement& a) {
+std::string FailureSummary(const Agreement& a) {
   if (a.failed.empty()) return "the mean of the whole image";
   return fmt::format("{} of {} tiles{}", a.failed.size(), a.layout.size(),
                      a.image_failed ? " and the mean of the whole" : "");
@@ -135,7 +135,7 @@ std::string AgreementText(const Agreement& a) {
                             Percent(a.detectable))
               : "");
     case AgreementVerdict::kDiffer:
-      return fmt::format("significant difference in {} ({}; {})", WhatFailed(a),
+      return fmt::format("significant difference in {} ({}; {})", FailureSummary(a),
                          PText(a.p), tests);
     case AgreementVerdict::kInconclusive:
       break;

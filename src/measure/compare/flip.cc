@@ -34,7 +34,7 @@ Kernel Scaled(std::vector<double> weights, double factor) {
 }
 
 // Returns exp(-x^2 / scale) at integer x.
-std::vector<double> Bell(int radius, double scale) {
+std::vector<double> GaussianKernel(int radius, double scale) {
   std::vector<double> out;
   for (int x = -radius; x <= radius; ++x) out.push_back(std::exp(-double(x) * x / scale));
   return out;
@@ -76,7 +76,8 @@ class EyeFilters {
 
   // Returns lengths of gradients of the edge (derivative 1) or point (2) detector.
   Plane Features(const Plane& in, int w, int h, int derivative) const {
-    std::vector<double> bell = Bell(feature_radius_, 2 * deviation_ * deviation_);
+    std::vector<double> bell =
+        GaussianKernel(feature_radius_, 2 * deviation_ * deviation_);
     const Kernel smooth = Scaled(bell, 1 / Sum(bell)), slope = Slope(bell, derivative);
     Plane across = ConvolveColumns(ConvolveRows(in, w, h, slope), w, h, smooth);
     const Plane down = ConvolveColumns(ConvolveRows(in, w, h, smooth), w, h, slope);
@@ -88,7 +89,7 @@ class EyeFilters {
 
  private:
   std::vector<double> BellOf(const Sensitivity& s) const {
-    return Bell(radius_, s.b * ppd_ * ppd_ / (kPi * kPi));
+    return GaussianKernel(radius_, s.b * ppd_ * ppd_ / (kPi * kPi));
   }
 
   Plane One(const Plane& in, int w, int h, const Sensitivity& s) const {
@@ -140,8 +141,8 @@ std::array<Plane, 3> OpponentPlanes(const LinearImage& image,
   return out;
 }
 
-FilteredImage Look(const LinearImage& image, const EyeFilters& eye,
-                   const OpponentColors& colors) {
+FilteredImage FilterImage(const LinearImage& image, const EyeFilters& eye,
+                          const OpponentColors& colors) {
   const int w = image.width, h = image.height;
   const std::array<Plane, 3> opponent = OpponentPlanes(image, colors);
   FilteredImage out;
@@ -180,7 +181,8 @@ Plane LdrFlip(const LinearImage& reference, const LinearImage& test,
   LL_CHECK(pixels_per_degree >= 1 && pixels_per_degree <= 1000);
   const EyeFilters eye(pixels_per_degree);
   const OpponentColors colors;
-  const FilteredImage a = Look(reference, eye, colors), b = Look(test, eye, colors);
+  const FilteredImage a = FilterImage(reference, eye, colors),
+                      b = FilterImage(test, eye, colors);
   // No two colours of a screen are further apart than green and blue.
   const double largest =
       std::pow(HyAb(colors.HuntLab({0, 1, 0}), colors.HuntLab({0, 0, 1})), kQc);

@@ -76,7 +76,7 @@ void PageSocket::SendClose() {
 void PageSocket::Close() {
   if (!open_) return;
   open_ = false;
-  shared_.render_thread->Leave(session_);
+  shared_.render_thread->RemoveSession(session_);
   beast::get_lowest_layer(socket_).close();
   shared_.pages.erase(shared_from_this());
 }

@@ -18,7 +18,7 @@ namespace {
 // from so many on: with fewer there is seldom an interval, and to say how many more it
 // would take costs several times as much as the estimate.
 constexpr double kEstimateSampleRatio = 1.3;
-constexpr std::uint64_t kFirstLook = 8;
+constexpr std::uint64_t kFirstEstimateSpp = 8;
 // Nothing can be done meanwhile: of images with more pixels than these, only when an
 // estimate is this small a part of the time since the last one.
 constexpr std::uint64_t kQuickPixels = 1u << 16;
@@ -50,8 +50,8 @@ class PassRenderer::PassCheckpointer : public Checkpointer {
     static_cast<RunRecord&>(state) = renderer_.record_;
     return true;
   }
-  bool Due() const override { return observer_.Due(); }
-  void Keep(RunState& state) override {
+  bool IsDue() const override { return observer_.IsDue(); }
+  void Save(RunState& state) override {
     renderer_.record_ = std::move(static_cast<RunRecord&>(state));
     const Stopwatch watch;
     observer_.Observe();
@@ -120,19 +120,19 @@ void PassRenderer::Fit() {
 }
 
 void PassRenderer::EstimateIfDue(const std::atomic<bool>& stop) {
-  if (spp_ < kFirstLook) return;
-  if (!looks_.empty()) {
-    const Look& last = looks_.back();
+  if (spp_ < kFirstEstimateSpp) return;
+  if (!snapshots_.empty()) {
+    const EstimateSnapshot& last = snapshots_.back();
     if (double(spp_) < kEstimateSampleRatio * double(last.spp)) return;
     const double since = cpu_seconds() - last.seconds;
     if (view_.window.pixels() > kQuickPixels &&
-        since * kMaxEstimateFraction < look_seconds_)
+        since * kMaxEstimateFraction < estimate_seconds_)
       return;
   }
   const Stopwatch watch;
   ErrorEstimate error = EstimateError(film_, &stop);
-  look_seconds_ = watch.CpuSeconds();
-  if (error.available) looks_.push_back({spp_, cpu_seconds(), std::move(error)});
+  estimate_seconds_ = watch.CpuSeconds();
+  if (error.available) snapshots_.push_back({spp_, cpu_seconds(), std::move(error)});
 }
 
 std::size_t PassRenderer::Bytes() const {

@@ -46,13 +46,13 @@ class PassObserver {
  public:
   virtual ~PassObserver() = default;
   /// Called often, from any thread: whether Observe is due, true until it is called.
-  virtual bool Due() const = 0;
+  virtual bool IsDue() const = 0;
   /// By the thread that renders, with nothing in flight: films may be read.
   virtual void Observe() = 0;
 };
 
 /// The error after some number of samples per pixel.
-struct Look {
+struct EstimateSnapshot {
   std::uint64_t spp = 0;
   double seconds = 0;  // processor time until then
   ErrorEstimate error;
@@ -78,7 +78,7 @@ class PassRenderer {
   /// Of all passes, by stage and part of tasks.
   const std::vector<StageProfile>& stages() const { return stages_; }
   /// Errors, estimated now and then, the last one some time ago.
-  const std::vector<Look>& looks() const { return looks_; }
+  const std::vector<EstimateSnapshot>& snapshots() const { return snapshots_; }
   /// Samples per pixel that all pixels have.
   std::uint64_t spp() const { return spp_; }
   /// Processor time of its rendering, training included, looks and pictures not.
@@ -101,9 +101,9 @@ class PassRenderer {
   CostMap cost_;
   RunRecord record_;
   std::vector<StageProfile> stages_;
-  std::vector<Look> looks_;
+  std::vector<EstimateSnapshot> snapshots_;
   std::uint64_t spp_ = 0;
-  double observed_seconds_ = 0, look_seconds_ = 0, rate_ = 0;
+  double observed_seconds_ = 0, estimate_seconds_ = 0, rate_ = 0;
 };
 
 }  // namespace lanelight::live

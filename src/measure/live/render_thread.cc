@@ -57,7 +57,7 @@ void RenderThread::Receive(int session, const std::string& message) {
   }
 }
 
-void RenderThread::Leave(int session) {
+void RenderThread::RemoveSession(int session) {
   {
     const std::lock_guard lock(mutex_);
     senders_.erase(session);
@@ -143,7 +143,7 @@ void RenderThread::Render(const Running& running) {
   const Work& work = running.work;
   try {
     work.renderer->Pass(work.spp, *this, work.preview ? stop_all_ : stop_);
-    running.session->Done(work, work.renderer->spp() < work.spp);
+    running.session->FinishWork(work, work.renderer->spp() < work.spp);
   } catch (const InputError& error) {
     running.session->Refuse(work.slot, error.message());
   }
@@ -176,7 +176,7 @@ void RenderThread::Loop() {
   }
 }
 
-bool RenderThread::Due() const { return waiting_ || Microseconds() >= publish_at_; }
+bool RenderThread::IsDue() const { return waiting_ || Microseconds() >= publish_at_; }
 
 void RenderThread::Observe() {
   HandleRequests(false);

@@ -26,12 +26,12 @@ class RenderThread : private PassObserver {
 
   // From any thread, and none of them waits for a render:
   /// A page opens; the number of its session. `send` is called by the render_thread's
-  /// thread, until Leave has returned.
+  /// thread, until RemoveSession has returned.
   int Enter(Send send);
   /// A message of the page. What is wrong with it is sent back.
   void Receive(int session, const std::string& message);
   /// The page is closed: what it has asked for is stopped and forgotten.
-  void Leave(int session);
+  void RemoveSession(int session);
 
  private:
   struct Request {
@@ -55,7 +55,7 @@ class RenderThread : private PassObserver {
   void Render(const Running& running);
   /// Until something is asked for, or a session is due that was not at `since`.
   void Wait(std::chrono::steady_clock::time_point since);
-  bool Due() const override;
+  bool IsDue() const override;
   void Observe() override;
   void Publish();
   void SendError(int session, const std::string& what);

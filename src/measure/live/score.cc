@@ -23,26 +23,27 @@ LogError LogErrorOf(const Interval& error, double stretch) {
   return out;
 }
 
-double CostOf(const Look& look, Pace pace) {
-  return pace == Pace::kTime ? look.seconds : double(look.spp);
+double CostOf(const EstimateSnapshot& snapshot, Pace pace) {
+  return pace == Pace::kTime ? snapshot.seconds : double(snapshot.spp);
 }
 
 // At these looks, for an interval that holds at all of them.
-double StretchAt(const std::vector<Look>& a, const std::vector<Look>& b, std::size_t i,
-                 std::size_t j) {
+double StretchAt(const std::vector<EstimateSnapshot>& a,
+                 const std::vector<EstimateSnapshot>& b, std::size_t i, std::size_t j) {
   const double more =
       std::max(double(a[i].spp) / double(a[0].spp), double(b[j].spp) / double(b[0].spp));
   return stat::TimeUniformQuantile(more * more, kEstimateConfidence) /
          stat::NormalQuantile(0.5 + kEstimateConfidence / 2);
 }
 
-Ahead AheadBy(const Interval& ratio) {
+Ahead AheadOf(const Interval& ratio) {
   return ratio.low > 1 ? Ahead::kB : ratio.high < 1 ? Ahead::kA : Ahead::kUnknown;
 }
 
 }  // namespace
 
-Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch) {
+Ratio EfficiencyOf(const EstimateSnapshot& a, const EstimateSnapshot& b, Pace pace,
+                   double stretch) {
   Ratio ratio;
   const Interval &ea = a.error.relmse, &eb = b.error.relmse;
   if (!(ea.value > 0) || !(eb.value > 0) || !std::isfinite(ea.value) ||
@@ -62,7 +63,8 @@ Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch) {
   return ratio;
 }
 
-Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace pace) {
+Ratio EfficiencyOf(const std::vector<EstimateSnapshot>& a,
+                   const std::vector<EstimateSnapshot>& b, Pace pace) {
   Ratio last;
   if (a.empty() || b.empty()) {
     last.why = "errors are estimated from 8 samples per pixel on";
@@ -73,7 +75,7 @@ Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace 
   for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
     const std::size_t i = std::min(k, a.size() - 1), j = std::min(k, b.size() - 1);
     last = EfficiencyOf(a[i], b[j], pace, StretchAt(a, b, i, j));
-    const Ahead now = last.available ? AheadBy(last.interval) : Ahead::kUnknown;
+    const Ahead now = last.available ? AheadOf(last.interval) : Ahead::kUnknown;
     if (now == Ahead::kUnknown || now == ahead) continue;
     ahead = now;
     since = a[i].spp;
@@ -84,7 +86,7 @@ Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace 
 }
 
 Ratio EfficiencyOf(const PassRenderer& a, const PassRenderer& b, Pace pace) {
-  return EfficiencyOf(a.looks(), b.looks(), pace);
+  return EfficiencyOf(a.snapshots(), b.snapshots(), pace);
 }
 
 }  // namespace lanelight::live

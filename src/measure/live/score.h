@@ -33,14 +33,16 @@ struct Ratio {
 /// (variance estimates recovery, Zou and Donner 2008). How much the clock scatters is not
 /// in it. `stretch` multiplies the distances; with 1 the interval holds at one look that
 /// was chosen beforehand, with kEstimateConfidence.
-Ratio EfficiencyOf(const Look& a, const Look& b, Pace pace, double stretch = 1);
+Ratio EfficiencyOf(const EstimateSnapshot& a, const EstimateSnapshot& b, Pace pace,
+                   double stretch = 1);
 
 /// The efficiency by all looks: the interval is that of the last look, and intervals hold
 /// at all looks together with kEstimateConfidence (src/base/stat/hypothesis.h),
 /// so a viewer may stop at any of them. The squared sums of the pixels' errors, less what
 /// is expected of them, are a martingale whose variance grows with the square of the
 /// samples.
-Ratio EfficiencyOf(const std::vector<Look>& a, const std::vector<Look>& b, Pace pace);
+Ratio EfficiencyOf(const std::vector<EstimateSnapshot>& a,
+                   const std::vector<EstimateSnapshot>& b, Pace pace);
 Ratio EfficiencyOf(const PassRenderer& a, const PassRenderer& b, Pace pace);
 
 }  // namespace lanelight::live

@@ -53,7 +53,7 @@ void Session::Do(const json& message) {
   try {
     HandleCommand(message.at("do"), message);
   } catch (const json::exception& error) {
-    throw NotUnderstood(error);
+    throw UnknownMessageText(error);
   }
 }
 

@@ -47,7 +47,7 @@ class Session {
   /// While the camera moves, nothing but previews is rendered: until then.
   std::chrono::steady_clock::time_point When() const { return settled_; }
   /// The work has been done, or stopped.
-  void Done(const Work& work, bool stopped);
+  void FinishWork(const Work& work, bool stopped);
   /// Marks the work of this slot as impossible.
   void Refuse(int slot, const std::string& why);
 

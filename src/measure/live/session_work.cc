@@ -95,7 +95,7 @@ std::optional<Work> Session::NextPass() {
   return work;
 }
 
-void Session::Done(const Work& work, bool stopped) {
+void Session::FinishWork(const Work& work, bool stopped) {
   if (!work.preview || stopped) return;
   Slot& slot = slots_[static_cast<std::size_t>(work.slot)];
   slot.previewed = true;

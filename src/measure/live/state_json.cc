@@ -20,16 +20,18 @@ namespace {
 using nlohmann::json;
 
 // Ends that are not known become null.
-json LookJson(const Look& look) {
-  const Interval& e = look.error.relmse;
-  return {{"spp", look.spp}, {"seconds", look.seconds}, {"relmse", e.value},
-          {"low", e.low},    {"high", e.high},          {"why", look.error.why}};
+json SnapshotJson(const EstimateSnapshot& snapshot) {
+  const Interval& e = snapshot.error.relmse;
+  return {{"spp", snapshot.spp}, {"seconds", snapshot.seconds},
+          {"relmse", e.value},   {"low", e.low},
+          {"high", e.high},      {"why", snapshot.error.why}};
 }
 
-json LooksJson(const PassRenderer& renderer) {
-  json looks = json::array();
-  for (const Look& look : renderer.looks()) looks.push_back(LookJson(look));
-  return looks;
+json SnapshotsJson(const PassRenderer& renderer) {
+  json snapshots = json::array();
+  for (const EstimateSnapshot& snapshot : renderer.snapshots())
+    snapshots.push_back(SnapshotJson(snapshot));
+  return snapshots;
 }
 
 json StagesJson(const PassRenderer& renderer) {
@@ -64,7 +66,7 @@ json PassJson(const PassRenderer& renderer, const std::string& command) {
           {"rays", counts.rays_closest + counts.rays_shadow},
           {"seconds", renderer.cpu_seconds()},
           {"training", renderer.training()},
-          {"looks", LooksJson(renderer)},
+          {"looks", SnapshotsJson(renderer)},
           {"stages", StagesJson(renderer)},
           {"omitted", OmittedJson(renderer.plan())},
           {"notes", renderer.plan().notes},
@@ -162,11 +164,11 @@ nlohmann::json ParseMessage(std::string_view text) {
     message.at("do").get_ref<const std::string&>();
     return message;
   } catch (const nlohmann::json::exception& error) {
-    throw NotUnderstood(error);
+    throw UnknownMessageText(error);
   }
 }
 
-InputError NotUnderstood(const nlohmann::json::exception& error) {
+InputError UnknownMessageText(const nlohmann::json::exception& error) {
   return InputError("invalid message: " + JsonProblem(error));
 }
 

@@ -22,7 +22,7 @@ inline constexpr std::size_t kLongestMessage = 1u << 14;
 nlohmann::json ParseMessage(std::string_view text);
 
 /// Returns an InputError that says what is wrong with a message.
-InputError NotUnderstood(const nlohmann::json::exception& error);
+InputError UnknownMessageText(const nlohmann::json::exception& error);
 
 /// Returns whether the message may make the work in progress obsolete.
 bool ChangesWork(const nlohmann::json& message);

@@ -10,12 +10,12 @@
 namespace lanelight::stress {
 namespace {
 
-bool Means(const std::string& word, const Case& about) {
+bool IsMatch(const std::string& word, const Case& about) {
   return fnmatch(word.c_str(), about.name.c_str(), 0) == 0 ||
          fnmatch(word.c_str(), about.group.c_str(), 0) == 0;
 }
 
-[[noreturn]] void ThrowNothing(const std::string& word, const std::vector<Case>& cases) {
+[[noreturn]] void ThrowNoMatch(const std::string& word, const std::vector<Case>& cases) {
   std::vector<std::string> known;
   for (const Case& about : cases) {
     known.push_back(about.name);
@@ -51,13 +51,13 @@ std::vector<Case> ByGroup(const std::vector<Case>& cases) {
 std::vector<Case> SelectCases(std::vector<Case> cases,
                               const std::vector<std::string>& words) {
   for (const std::string& word : words) {
-    const auto means = [&](const Case& about) { return Means(word, about); };
-    if (std::none_of(cases.begin(), cases.end(), means)) ThrowNothing(word, cases);
+    const auto means = [&](const Case& about) { return IsMatch(word, about); };
+    if (std::none_of(cases.begin(), cases.end(), means)) ThrowNoMatch(word, cases);
   }
   std::erase_if(cases, [&](const Case& about) {
     return !words.empty() &&
            std::none_of(words.begin(), words.end(),
-                        [&](const std::string& word) { return Means(word, about); });
+                        [&](const std::string& word) { return IsMatch(word, about); });
   });
   return ByGroup(cases);
 }

@@ -98,7 +98,7 @@ class CautionFinder {
 };
 
 // Heavy-tailed strategies are not tested.
-bool AnyHeavy(const SceneAnalysis& analysis) {
+bool HasHeavyTail(const SceneAnalysis& analysis) {
   return std::ranges::any_of(analysis.strategies,
                              [](const StrategyAnalysis& s) { return s.heavy_tailed; });
 }
@@ -113,7 +113,7 @@ std::string ImagesText(const SceneRuns& runs, const SceneAnalysis& analysis) {
   if (analysis.bias_tests == 0 || !analysis.biased_alike.empty()) return "";
   return fmt::format(
       "No {}mean image differs from the reference by more than noise ({} test{}).",
-      AnyHeavy(analysis) ? "other " : "", analysis.bias_tests,
+      HasHeavyTail(analysis) ? "other " : "", analysis.bias_tests,
       analysis.bias_tests == 1 ? "" : "s");
 }
 

@@ -51,7 +51,7 @@ void Finish(Checkpoint& checkpoint, const ReferenceOptions& options) {
 
 Reference RenderReference(const Job& scene, const ReferenceOptions& options) {
   Strategy strategy;
-  strategy.points = Points::kIndependent;
+  strategy.sampler = SampleSequence::kIndependent;
   const Job job = WithRender(scene, strategy, options.spp, options.seed);
   FilmAccumulator film = MakeFilm(job);
   RunOptions run = RunOptionsOf(job);

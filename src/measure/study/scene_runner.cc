@@ -42,21 +42,21 @@ SceneRunner::SceneRunner(const StudyOptions& options, const StudyHooks& hooks,
 void SceneRunner::Run() {
   Prepare();
   CheckStrategies();
-  Settle();
-  if (!Stopped()) RunCells();
-  if (!Stopped() && options_.paper) RunDiffuseModels();
-  scene_.interrupted = Stopped();
-  if (!Stopped()) Report("finished");
+  ChooseCountsAndReference();
+  if (!IsStopped()) RunCells();
+  if (!IsStopped() && options_.paper) RunDiffuseModels();
+  scene_.interrupted = IsStopped();
+  if (!IsStopped()) Report("finished");
 }
 
 // Chooses sample counts and the reference. One process does it; the others wait and use
 // its results.
-void SceneRunner::Settle() {
+void SceneRunner::ChooseCountsAndReference() {
   const auto claim = WaitForClaim("scene");
   if (!claim) return;
   CheckState();
   FindCounts();
-  if (Stopped()) return;
+  if (IsStopped()) return;
   PlanWork();
   FindReference();
 }
@@ -107,10 +107,10 @@ double SceneRunner::Work(std::uint64_t spp) const {
   return double(spp) * double(job_.window.pixels()) + 5000;
 }
 
-bool SceneRunner::Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
+bool SceneRunner::IsStopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
 
 std::optional<ScopedLock> SceneRunner::WaitForClaim(const std::string& name) const {
-  return claims_->Wait(name, [this](double) { return !Stopped(); });
+  return claims_->Wait(name, [this](double) { return !IsStopped(); });
 }
 
 void SceneRunner::Report(const std::string& what) {
@@ -138,7 +138,7 @@ void SceneRunner::RunCells() {
 
 // Returns false if stopped.
 bool SceneRunner::RunRepetition(StrategyRuns& runs, std::uint64_t spp, int repetition) {
-  const auto claim = claims_->Take(CellKey(runs, spp));
+  const auto claim = claims_->TryLock(CellKey(runs, spp));
   if (!claim) {
     elsewhere_.insert({&runs, spp});
     return true;
@@ -172,7 +172,7 @@ bool SceneRunner::RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int re
   Report(cell);
   try {
     cells.repetitions.push_back(Render(runs, spp, repetition, cells));
-    if (Stopped()) return false;
+    if (IsStopped()) return false;
     store_->Save(runs.Text(), spp, cells);
   } catch (const std::bad_alloc&) {
     runs.message = cell + ": out of memory";
@@ -184,7 +184,7 @@ bool SceneRunner::RenderRepetition(StrategyRuns& runs, std::uint64_t spp, int re
   if (runs.status == RunStatus::kFailed && hooks_.on_problem) {
     hooks_.on_problem(scene_.name + ": " + runs.message);
   }
-  clock_.Worked(Work(spp));
+  clock_.AddDoneWork(Work(spp));
   return true;
 }
 
@@ -195,7 +195,7 @@ Measurement SceneRunner::Render(const StrategyRuns& runs, std::uint64_t spp,
   Measurement m;
   m.machine = ThisMachine();
   m.seed = job.seed;
-  if (Stopped()) return m;
+  if (IsStopped()) return m;
   Describe(run.result, EstimateError(run.film), m);
   const std::vector<Rgb> image = FilmColors(run.film);
   MeasureErrors(image, scene_.reference, m);

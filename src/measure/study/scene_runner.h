@@ -28,7 +28,7 @@ class StudyClock {
   explicit StudyClock(std::size_t scenes) : scenes_left_(scenes) {}
 
   void StartScene(double work);
-  void Worked(double work) { done_ += work; }
+  void AddDoneWork(double work) { done_ += work; }
   void FinishScene();
   double Seconds() const { return watch_.Seconds(); }
   /// Returns the finished fraction of the study.
@@ -54,8 +54,8 @@ class SceneRunner {
  private:
   void Prepare();
   void CheckStrategies();
-  void FindTwin(StrategyRuns& runs, const std::string& key);
-  void Settle();
+  void FindEquivalent(StrategyRuns& runs, const std::string& key);
+  void ChooseCountsAndReference();
   void CheckState();
   void SaveState();
   void FindCounts();
@@ -76,7 +76,7 @@ class SceneRunner {
   /// Returns the largest sample count of any strategy.
   std::uint64_t MaxSamples() const;
   std::uint64_t Seed(int repetition) const;
-  bool Stopped() const;
+  bool IsStopped() const;
   /// Waits for a claim; empty if the study is stopped before.
   std::optional<ScopedLock> WaitForClaim(const std::string& name) const;
   void Report(const std::string& what);

@@ -149,15 +149,15 @@ void SceneRunner::FindReference() {
   options.on_progress = [&](const Progress& p) {
     if (!hooks_.on_progress) return;
     StudyClock ahead = clock_;
-    ahead.Worked(Work(options.spp) * p.fraction);
+    ahead.AddDoneWork(Work(options.spp) * p.fraction);
     hooks_.on_progress({scene_.name, fmt::format("reference, {} spp", options.spp),
                         ahead.Fraction(), ahead.Seconds(), ahead.SecondsLeft()});
   };
   state_["reference_spp"] = options.spp;
   SaveState();
   scene_.reference = RenderReference(job_, options);
-  clock_.Worked(Work(options.spp));
-  if (Stopped()) return;
+  clock_.AddDoneWork(Work(options.spp));
+  if (IsStopped()) return;
   WriteReference(ReferencePath(), scene_.reference);
   state_["reference"] = {{"strategy", scene_.reference.strategy},
                          {"spp", options.spp},

@@ -52,7 +52,7 @@ void SceneRunner::CheckStrategies() {
       for (const std::string& note : job.plan.notes) {
         runs.message += (runs.message.empty() ? "" : "; ") + note;
       }
-      FindTwin(runs, plan_keys_.back() = PlanKey(job.scene, job.plan));
+      FindEquivalent(runs, plan_keys_.back() = PlanKey(job.scene, job.plan));
     } catch (const InputError& error) {
       runs.status = RunStatus::kRefused;
       runs.message = Reason(error);
@@ -62,7 +62,7 @@ void SceneRunner::CheckStrategies() {
 }
 
 // Finds a strategy with an equal plan, whose renders are bit-identical.
-void SceneRunner::FindTwin(StrategyRuns& runs, const std::string& key) {
+void SceneRunner::FindEquivalent(StrategyRuns& runs, const std::string& key) {
   const auto found = std::find(plan_keys_.begin(), plan_keys_.end() - 1, key);
   if (found == plan_keys_.end() - 1) return;
   runs.same_as = std::size_t(found - plan_keys_.begin());
@@ -91,7 +91,7 @@ void SceneRunner::RunDiffuseModels() {
     settings.cached_bvh = CachedBvhOf(*job_.scene.compiled);
     const Job job = PrepareJob(scene_.path, settings);
     const FilmAccumulator film = RunJob(job, {}, hooks_.stop).film;
-    if (Stopped()) return;
+    if (IsStopped()) return;
     diffuse.image = FilmColors(film);
     for (Rgb& c : diffuse.image) c = RoundToFloat(c);
     WriteColors(path, film.width(), film.height(), {{"", &diffuse.image}});

@@ -34,13 +34,13 @@ class TimedRenders {
       : job_(job), strategies_(strategies), seconds_(seconds), stop_(stop) {}
 
   std::vector<Calibration> Run() {
-    for (std::size_t i = 0; i < strategies_.size() && !Stopped(); ++i) {
+    for (std::size_t i = 0; i < strategies_.size() && !IsStopped(); ++i) {
       renders_.push_back({WarmUp(strategies_[i]), {}, {}});
     }
     for (int round = 0; round < kTimedRounds; ++round) {
-      for (std::size_t i = 0; i < renders_.size() && !Stopped(); ++i) Measure(i);
+      for (std::size_t i = 0; i < renders_.size() && !IsStopped(); ++i) Measure(i);
     }
-    if (Stopped()) return {};
+    if (IsStopped()) return {};
     std::vector<Calibration> out;
     for (const TimedStrategy& timed : renders_) out.push_back(Evaluate(timed));
     return out;
@@ -58,7 +58,7 @@ class TimedRenders {
     double wall = 0, cpu = 0;
   };
 
-  bool Stopped() const { return stop_ != nullptr && *stop_; }
+  bool IsStopped() const { return stop_ != nullptr && *stop_; }
 
   JobRun Render(const Strategy& strategy, std::uint64_t spp) {
     return RunJob(WithRender(job_, strategy, spp, job_.seed), {}, stop_);
@@ -83,7 +83,7 @@ class TimedRenders {
     Render(strategy, spp);
     // Stops at half the time, since the next render takes twice as long.
     while (SecondsOf(Render(strategy, spp).result).wall < wanted / 2 && spp < kMaxSpp &&
-           !Stopped()) {
+           !IsStopped()) {
       spp *= 2;
     }
     return spp;

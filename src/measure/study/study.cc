@@ -54,7 +54,7 @@ class ImageWriter {
       : runs_(runs), images_(images) {}
 
   // Adds an image to the report only.
-  std::string Show(const std::string& name, const std::vector<Rgb>& colors) {
+  std::string AddImage(const std::string& name, const std::vector<Rgb>& colors) {
     ReportImage image;
     image.name = runs_.name + "/" + name;
     image.width = runs_.window.width();
@@ -70,7 +70,7 @@ class ImageWriter {
   std::string Write(const std::string& name, const std::vector<Rgb>& colors) {
     WriteColors(runs_.folder + "/" + name + ".exr", runs_.window.width(),
                 runs_.window.height(), {{"", &colors}});
-    return Show(name, colors);
+    return AddImage(name, colors);
   }
 
  private:
@@ -127,7 +127,7 @@ void AddLevelImages(const SceneRuns& runs, const LevelFirsts& firsts,
       level.image = strategy.one;
     } else if (values <= left) {
       left -= values;
-      level.image = writer.Show(
+      level.image = writer.AddImage(
           fmt::format("{:02}.{}spp", firsts.strategy + 1, level.spp), firsts.images[i]);
     }
   }
@@ -138,11 +138,12 @@ void AddSceneImages(const SceneRuns& runs, SceneAnalysis& analysis,
   ImageWriter writer(runs, images);
   if (!runs.reference.mean.empty()) {
     analysis.reference_image = runs.reference.rendered()
-                                   ? writer.Show("reference", runs.reference.mean)
+                                   ? writer.AddImage("reference", runs.reference.mean)
                                    : writer.Write("reference", runs.reference.mean);
   }
   for (const DiffuseModel& model : runs.diffuse) {
-    analysis.diffuse_images.push_back(writer.Show("diffuse-" + model.name, model.image));
+    analysis.diffuse_images.push_back(
+        writer.AddImage("diffuse-" + model.name, model.image));
   }
 }
 

@@ -63,7 +63,7 @@ class Predictor {
     std::set<std::pair<std::string, std::string>> seen;
     out.cells.resize(sweep_.cells.size());
     for (const SweepCell& cell : sweep_.cells) {
-      out.cells[cell.index].done = folder_.Look(cell).state == CellState::kDone;
+      out.cells[cell.index].done = folder_.ReadCell(cell).state == CellState::kDone;
       if (out.cells[cell.index].done || !CellRenderer::HasTarget(cell)) continue;
       const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
       if (seen.emplace(scene, strategy).second) {

@@ -152,7 +152,7 @@ std::string SweepCsv(const std::vector<Json>& cells) {
 void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome) {
   std::vector<Json> cells;
   for (const SweepCell& cell : sweep.cells) {
-    const CellRecord record = folder.Look(cell);
+    const CellRecord record = folder.ReadCell(cell);
     FromJsonOf(folder.File(cell, "report.json"), [&] {
       cells.push_back(CellJson(cell, record));
       if (record.state != CellState::kDone) return;

@@ -32,7 +32,7 @@ class Runner {
         renderer_(sweep, folder.Outputs()) {}
 
   void Run(SweepOutcome& outcome) {
-    if (!claims_.locking() && options_.part.count == 1) {
+    if (!claims_.supports_locks() && options_.part.count == 1) {
       throw InputError(
           "the file system of '{}' does not support locks, which several processes need; "
           "give each process its own part with --part I/N",
@@ -55,7 +55,7 @@ class Runner {
   void FindPart() {
     std::map<std::string, std::size_t> group_of;
     for (const SweepCell& cell : sweep_.cells) {
-      const CellState state = folder_.Look(cell).state;
+      const CellState state = folder_.ReadCell(cell).state;
       const auto [index, count] = options_.part;
       if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
       const auto [entry, is_new] =
@@ -78,10 +78,10 @@ class Runner {
               group, [&](std::size_t i) { return known_[i] != CellStatus::kMissing; })) {
         continue;
       }
-      const auto claim = claims_.Take("scene of " + part_[group.front()]->name);
+      const auto claim = claims_.TryLock("scene of " + part_[group.front()]->name);
       if (!claim) continue;
       for (const std::size_t i : group) {
-        if (Stopped() || interrupted_) return;
+        if (IsStopped() || interrupted_) return;
         TryCell(i);
       }
     }
@@ -104,26 +104,26 @@ class Runner {
       rest.insert(rest.end(), missing.begin(), missing.end());
     }
     for (const std::size_t i : rest) {
-      if (Stopped() || interrupted_) break;
+      if (IsStopped() || interrupted_) break;
       TryCell(i);
     }
-    interrupted_ |= Stopped();
+    interrupted_ |= IsStopped();
   }
 
   void WaitForOthers() {
     constexpr auto kPause = std::chrono::milliseconds(200);
     while (!interrupted_ && Count(CellStatus::kElsewhere) > 0) {
-      for (std::size_t i = 0; i < part_.size() && !Stopped(); ++i) {
+      for (std::size_t i = 0; i < part_.size() && !IsStopped(); ++i) {
         if (known_[i] == CellStatus::kElsewhere) TryCell(i);
       }
-      interrupted_ |= Stopped();
+      interrupted_ |= IsStopped();
       std::this_thread::sleep_for(kPause);
     }
   }
 
   void TryCell(std::size_t i) {
     if (known_[i] != CellStatus::kMissing && known_[i] != CellStatus::kElsewhere) return;
-    const auto claim = claims_.Take(part_[i]->name);
+    const auto claim = claims_.TryLock(part_[i]->name);
     if (!claim) {
       known_[i] = CellStatus::kElsewhere;
       return;
@@ -133,7 +133,7 @@ class Runner {
 
   // Another process may have rendered the cell since this one looked.
   bool StillMissing(std::size_t i) {
-    const CellState state = folder_.Look(*part_[i]).state;
+    const CellState state = folder_.ReadCell(*part_[i]).state;
     if (state == CellState::kDone) known_[i] = CellStatus::kDone;
     if (state == CellState::kFailed && !failed_before_[i])
       known_[i] = CellStatus::kFailed;
@@ -192,7 +192,7 @@ class Runner {
                         part_.size(), &cell, progress});
   }
 
-  bool Stopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
+  bool IsStopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
   std::size_t Count(CellStatus what) const {
     return std::size_t(std::ranges::count(known_, what));
   }

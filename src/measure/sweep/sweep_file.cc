@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 // Returns whether two values are equal. Different names of one strategy are equal;
 // "scene" depends on the scene.
-bool Same(Axis axis, const std::string& a, const std::string& b) {
+bool IsSameValue(Axis axis, const std::string& a, const std::string& b) {
   if (a == b) return true;
   if (axis != Axis::kStrategy || a == kSceneStrategyName || b == kSceneStrategyName) {
     return false;
@@ -38,7 +38,7 @@ void AddValue(const std::string& name, GridValue value, std::vector<GridValue>& 
   const Axis axis = *SweepAxisOf(name);
   value.text = CanonicalValue(name, value.text, value.where);
   for (GridValue& other : values) {
-    if (!Same(axis, other.text, value.text)) continue;
+    if (!IsSameValue(axis, other.text, value.text)) continue;
     if (IsJoined(value, other)) return;
     throw InputError(value.where, "{} {} is a duplicate: it equals {} in line {}",
                      Name(axis), Quoted(value.text), Quoted(other.text),

@@ -74,7 +74,7 @@ OutputPaths SweepFolder::Outputs() const {
 
 void SweepFolder::CheckWritable() const { lanelight::CheckWritable(path_ + kProbe); }
 
-CellRecord SweepFolder::Look(const SweepCell& cell) {
+CellRecord SweepFolder::ReadCell(const SweepCell& cell) {
   CellRecord record;
   const std::string path = File(cell, "report.json");
   std::error_code error;

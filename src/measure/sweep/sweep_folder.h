@@ -37,7 +37,7 @@ class SweepFolder {
 
   /// Reads a cell. Throws InputError that states the difference for a finished cell of
   /// other settings or of a changed scene, and for other files.
-  CellRecord Look(const SweepCell& cell);
+  CellRecord ReadCell(const SweepCell& cell);
 
   /// Makes the directory of a claimed cell, and removes temporary files of killed
   /// processes.

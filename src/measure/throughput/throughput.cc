@@ -134,11 +134,11 @@ std::vector<ThroughputRow> MeasureThroughput(
     const double max_seconds = options.seconds * double(bench.rows().size());
     for (progress.repeats = 0; !stop; ++progress.repeats) {
       const bool enough = progress.repeats >= kMinRepeats;
-      if (enough &&
-          (MaxSpread(bench.rows()) <= options.within || watch.Seconds() >= max_seconds))
+      if (enough && (MaxRelativeHalfWidth(bench.rows()) <= options.within ||
+                     watch.Seconds() >= max_seconds))
         break;
       bench.Repeat(stop);
-      progress.worst = MaxSpread(bench.rows());
+      progress.worst = MaxRelativeHalfWidth(bench.rows());
       on_progress(progress);
     }
     ++progress.done;

@@ -47,8 +47,8 @@ struct ThroughputOptions {
   RenderSettings settings;           // BenchSpp() if spp is not set
   std::vector<int> threads;          // one row each
   std::vector<std::string> targets;  // one row each
-  double within = 0.01;              // ends when Spread() of all rows is at most this
-  double seconds = 10;               // upper limit for each row
+  double within = 0.01;  // ends when RelativeHalfWidth() of all rows is at most this
+  double seconds = 10;   // upper limit for each row
 };
 
 /// One scene, on one SIMD target, with one number of threads.
@@ -69,9 +69,9 @@ struct ThroughputRow {
   Interval Rate() const;
   Interval CpuRate() const;
   /// Returns the fraction of all threads' time in which they waited for a processor.
-  double Waiting() const;
+  double WaitingFraction() const;
   /// Returns half the width of the interval divided by the median; infinite if unknown.
-  double Spread() const;
+  double RelativeHalfWidth() const;
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }
 };
 
@@ -90,11 +90,11 @@ struct BenchProgress {
   std::string scene;
   std::size_t done = 0, scenes = 0;
   int repeats = 0;
-  double worst = 0;  // largest Spread()
+  double worst = 0;  // largest RelativeHalfWidth()
 };
 
-/// Returns the largest Spread(); 0 without rows.
-double MaxSpread(const std::vector<ThroughputRow>& rows);
+/// Returns the largest RelativeHalfWidth(); 0 without rows.
+double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows);
 
 /// Returns the row with one thread, but the same scene and target; null without one.
 const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,

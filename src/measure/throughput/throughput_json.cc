@@ -50,7 +50,7 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
           {"spp", row.spp},
           {"seconds", row.seconds},
           {"cpu_seconds", row.cpu_seconds},
-          {"waiting", row.Waiting()},
+          {"waiting", row.WaitingFraction()},
           {"samples", row.counts.samples},
           {"rays",
            {{"closest", row.counts.rays_closest}, {"shadow", row.counts.rays_shadow}}},

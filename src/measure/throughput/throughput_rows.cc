@@ -53,13 +53,13 @@ Interval ThroughputRow::CpuRate() const {
   return RateIn(*this, stat::MedianInterval(cpu_seconds, kBenchConfidence));
 }
 
-double ThroughputRow::Waiting() const {
+double ThroughputRow::WaitingFraction() const {
   const double cpu = std::accumulate(cpu_seconds.begin(), cpu_seconds.end(), 0.0);
   const double all = cpu + waiting_seconds;
   return all > 0 ? waiting_seconds / all : 0;
 }
 
-double ThroughputRow::Spread() const {
+double ThroughputRow::RelativeHalfWidth() const {
   if (seconds.size() < kMinRepeats) return std::numeric_limits<double>::infinity();
   const Interval s = Seconds();
   return (s.high - s.low) / (2 * s.value);
@@ -87,9 +87,9 @@ std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   return groups;
 }
 
-double MaxSpread(const std::vector<ThroughputRow>& rows) {
+double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows) {
   double worst = 0;
-  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Spread());
+  for (const ThroughputRow& row : rows) worst = std::max(worst, row.RelativeHalfWidth());
   return worst;
 }
 
@@ -111,7 +111,7 @@ std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                     *machine.load, *CoresAtATime(machine)));
   }
   double worst = 0;
-  for (const ThroughputRow& row : rows) worst = std::max(worst, row.Waiting());
+  for (const ThroughputRow& row : rows) worst = std::max(worst, row.WaitingFraction());
   if (worst > kMaxWaiting) {
     reasons.push_back(fmt::format(
         "threads waited for a processor up to {:.0f} % of the time", 100 * worst));
@@ -127,7 +127,7 @@ std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& ro
         "The machine was busy: {}. Rates per second of processor time are more reliable.",
         fmt::join(busy, "; ")));
   }
-  const double worst = MaxSpread(rows);
+  const double worst = MaxRelativeHalfWidth(rows);
   if (worst > within) {
     warnings.push_back(fmt::format(
         "Not all medians are known within {:.3g} %: the least certain one {}. Stop other "

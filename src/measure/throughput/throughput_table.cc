@@ -56,8 +56,8 @@ std::string Millions(double value) { return fmt::format("{:.3g}", 1e-6 * value);
 
 Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row) {
   const double seconds = row.Seconds().value;
-  const std::string spread = std::isfinite(row.Spread())
-                                 ? fmt::format("{:.1f} %", 100 * row.Spread())
+  const std::string spread = std::isfinite(row.RelativeHalfWidth())
+                                 ? fmt::format("{:.1f} %", 100 * row.RelativeHalfWidth())
                                  : "unknown";
   return {row.scene,
           row.target,

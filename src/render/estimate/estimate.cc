@@ -157,7 +157,7 @@ class PixelGrid {
     return total;
   }
 
-  bool Stopped() const { return stop_ != nullptr && *stop_; }
+  bool IsStopped() const { return stop_ != nullptr && *stop_; }
 
   bool IsBlack() const {
     return std::ranges::all_of(pixels_,
@@ -172,7 +172,7 @@ class PixelGrid {
   template <class Body>
   void ForRows(const Body& body) const {
     ParallelFor(static_cast<std::size_t>(height_), [&](std::size_t y) {
-      if (!Stopped()) body(int(y));
+      if (!IsStopped()) body(int(y));
     });
   }
   // Calls body(index) for the known pixels around (x, y), itself included.
@@ -332,7 +332,7 @@ ErrorEstimate EstimateError(const PixelRect& window,
                             double dependents, const std::atomic<bool>* stop) {
   const PixelGrid grid(window, dependents, pixel, stop);
   const Sums sums = grid.Total();
-  if (grid.Stopped()) return {};
+  if (grid.IsStopped()) return {};
   if (sums.pixels > 0 && sums.pixels < window.pixels()) {
     return EstimateOfPartialImage(sums.pixels, window.pixels());
   }
@@ -347,7 +347,7 @@ ErrorEstimate EstimateError(const PixelRect& window,
   const int x = window.x0 + int(sums.max_upper_at) % window.width();
   const int y = window.y0 + int(sums.max_upper_at) / window.width();
   const int more = MoreSamples(grid);
-  if (grid.Stopped()) return {};
+  if (grid.IsStopped()) return {};
   out.why = fmt::format(
       "rare bright samples, mainly at pixel ({}, {}), may make it {:.2g} times as large; "
       "{}, or a strategy that finds them (`lanelight advise`)",

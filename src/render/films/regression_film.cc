@@ -215,8 +215,8 @@ RegressionFilm::Scatter RegressionFilm::ScatterOf(const ControlledColors& colors
 }
 
 // Corrects one half with coefficients of the other.
-void RegressionFilm::Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples,
-                         int half) {
+void RegressionFilm::StoreCoefficients(const Values (&b)[3], std::size_t pixel,
+                                       std::uint64_t samples, int half) {
   Fitted& out = fitted_[pixel];
   const auto side = std::size_t(half);
   const Products& sums = products_[pixel][side];
@@ -250,7 +250,7 @@ void RegressionFilm::FitBlock(const ControlledColors& colors,
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       Values b[3];
       for (int c = 0; c < 3; ++c) own[i].Fit(block, c, b[c]);
-      Use(b, pixels[i], colors.samples[pixels[i]], 1 - half);
+      StoreCoefficients(b, pixels[i], colors.samples[pixels[i]], 1 - half);
     }
   }
 }

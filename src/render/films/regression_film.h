@@ -150,7 +150,8 @@ class RegressionFilm {
   void AddHalf(std::size_t pixel, std::uint32_t half, const ControlledSamples& samples,
                std::uint32_t begin, std::span<const float[kFunctions]> phi);
   void FitBlock(const ControlledColors& colors, std::span<const std::size_t> pixels);
-  void Use(const Values (&b)[3], std::size_t pixel, std::uint64_t samples, int half);
+  void StoreCoefficients(const Values (&b)[3], std::size_t pixel, std::uint64_t samples,
+                         int half);
 
   PixelRect window_;
   SampleGroups groups_;

@@ -148,10 +148,10 @@ void Checkpoint::CheckNotTooMany(const Films& films) const {
   }
 }
 
-bool Checkpoint::Due() const { return Milliseconds() >= next_; }
+bool Checkpoint::IsDue() const { return Milliseconds() >= next_; }
 
 // Afterwards the render may change what is in memory.
-void Checkpoint::Keep(RunState& state) {
+void Checkpoint::Save(RunState& state) {
   const Clock::time_point start = Clock::now();
   if (writing_.valid()) kept_ = writing_.get();
   if (state.finished && !settings_.finished) {
@@ -160,10 +160,10 @@ void Checkpoint::Keep(RunState& state) {
   }
   last_.reset();
   if (!settings_.path.empty()) last_ = Copy(state);
-  writing_ = std::async(std::launch::async, [this, watch = Watch(state)] {
-    const bool watched = !watch || Try(watch);
+  writing_ = std::async(std::launch::async, [this, watch = WatchWriter(state)] {
+    const bool watched = !watch || WriteOrReport(watch);
     const bool wanted = last_ != nullptr;
-    const bool kept = wanted && Try([this] { last_->Write(settings_.path); });
+    const bool kept = wanted && WriteOrReport([this] { last_->Write(settings_.path); });
     if (watched && kept == wanted) reported_.clear();
     if (kept) last_.reset();  // as much memory as the film has
     return kept;
@@ -180,7 +180,7 @@ std::unique_ptr<StateCopy> Checkpoint::Copy(RunState& state) const {
   return std::make_unique<StateCopy>(content);
 }
 
-std::function<void()> Checkpoint::Watch(RunState& state) const {
+std::function<void()> Checkpoint::WatchWriter(RunState& state) const {
   FilmAccumulator& film = state.films.film();
   // The image of before is better than one with holes.
   if (settings_.watch.empty() || SampledPixels(film) < PixelsOf(tiles_)) return {};
@@ -213,7 +213,7 @@ std::function<void()> Checkpoint::Watch(RunState& state) const {
   };
 }
 
-bool Checkpoint::Try(const std::function<void()>& write) {
+bool Checkpoint::WriteOrReport(const std::function<void()>& write) {
   try {
     write();
     return true;

@@ -90,8 +90,8 @@ class Checkpoint : public Checkpointer {
   bool resumed() const { return from_ != nullptr; }
 
   bool Restore(RunState& state) override;
-  bool Due() const override;
-  void Keep(RunState& state) override;
+  bool IsDue() const override;
+  void Save(RunState& state) override;
   /// Waits for the last state to be written. If that fails, writes it to the temporary
   /// directory. Returns messages about that.
   std::vector<std::string> Finish();
@@ -107,10 +107,10 @@ class Checkpoint : public Checkpointer {
   void CheckNotTooMany(const Films& films) const;
   std::unique_ptr<StateCopy> Copy(RunState& state) const;
   /// Returns the function that writes the image so far; empty if none is asked for.
-  std::function<void()> Watch(RunState& state) const;
+  std::function<void()> WatchWriter(RunState& state) const;
   /// Calls write(). Reports an exception to on_problem, each message once until a write
   /// succeeds. Returns whether it succeeded.
-  bool Try(const std::function<void()>& write);
+  bool WriteOrReport(const std::function<void()>& write);
 
   const Job& job_;
   CheckpointSettings settings_;

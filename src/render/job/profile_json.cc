@@ -98,7 +98,7 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"counters",
        {{"available", result.counters},
         {"note",
-         result.counter_error ? Json(WhyNoCounters(result.counter_error)) : Json()}}},
+         result.counter_error ? Json(CountersProblem(result.counter_error)) : Json()}}},
       {"trace",
        {{"events", TraceEvents(result.trace)},
         {"dropped", DroppedEvents(result.trace)}}}};

@@ -150,7 +150,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   }
   if (checkpoint) {
     out.problems = checkpoint->Finish();
-    out.state_kept = checkpoint->kept();
+    out.is_checkpoint_saved = checkpoint->kept();
   }
   if (shown.display) shown.display->Finish(film);
   if (hooks.on_rendered) hooks.on_rendered();

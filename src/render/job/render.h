@@ -41,7 +41,7 @@ struct Rendering {
   RenderReport report;
   nlohmann::json json;                // the report, if the targets have one
   std::vector<std::string> problems;  // of writing; see ResultWriter
-  bool state_kept = false;            // the last state is on the disk
+  bool is_checkpoint_saved = false;   // the last state is on the disk
 };
 
 /// Renders the job, estimates the error, and writes images and report; `scene`: name of

@@ -184,7 +184,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
       {"rays_per_second", double(rays) / seconds},
       {"stopped_early", r.stopped_early},
       {"stop_reason", Name(r.stop_reason)},
-      {"looks", r.looks},
+      {"looks", r.num_checks},
       {"error", ToJson(report.error)},
       {"control", ControlJson(r.control)},
       {"health",

@@ -26,9 +26,9 @@ class QuotedNames {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '#') {
-        Until('\n', at_);
+        ScanUntil('\n', at_);
       } else if (c == '"') {
-        TakeString();
+        ScanString();
       } else if (IsLetter(c)) {
         HashWord();
       } else {
@@ -45,7 +45,7 @@ class QuotedNames {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   }
   // Returns the text between `from` and the next `end`, and moves there.
-  std::string_view Until(char end, std::size_t from) {
+  std::string_view ScanUntil(char end, std::size_t from) {
     at_ = std::min(text_.find(end, from), text_.size());
     return text_.substr(from, at_ - from);
   }
@@ -54,9 +54,9 @@ class QuotedNames {
     while (at_ < text_.size() && IsLetter(text_[at_])) ++at_;
     directive_ = text_.substr(from, at_ - from);
   }
-  void TakeString() {
+  void ScanString() {
     constexpr std::size_t kLongest = 1024;
-    const std::string_view name = Until('"', at_ + 1);
+    const std::string_view name = ScanUntil('"', at_ + 1);
     ++at_;
     const bool is_name = name.size() < kLongest && name.find('.') != name.npos;
     if (is_name && directive_ != "Film") names_.push_back(name);

@@ -27,7 +27,7 @@ RenderSettings SettingsInForce(const Job& job) {
   s.crop = {w.x0, w.y0, w.x1, w.y1};
   s.aov = job.plan.options.auxiliary != Auxiliary::kNone;
   s.gbuffer = film.gbuffer;
-  s.points = job.scene.strategy.points;
+  s.sampler = job.scene.strategy.sampler;
   s.max_depth = int(job.plan.options.max_depth);
   s.transport = job.scene.transport() == Transport::kSpectral
                     ? TransportSetting::kSpectral

@@ -83,7 +83,8 @@ std::vector<Setting> Contents() {
                OfScene(fmt::format("'{}'", kDefaultStrategyName))},
               ChangesType{}, &S::strategy, kSceneFlag),
       Declare({"sampler", "", "Sample points", "those of the strategy"},
-              NamesOf<Points>(kNumPoints), &S::points, kSceneFlag | kReported),
+              NamesOf<SampleSequence>(kNumSampleSequences), &S::sampler,
+              kSceneFlag | kReported),
       Declare({"transport", "",
                "Colours that paths carry: RGB or wavelengths; scene: wavelengths if a "
                "material or light has a spectrum",
@@ -187,7 +188,7 @@ std::optional<std::string> TargetType::Read(const std::string& text) const {
 std::string TargetType::Right(const std::string& text) const {
   // Cells of a sweep may be for other machines, whose targets are among the names then.
   if (Names() != AvailableTargets()) return NamesType::Right(text);
-  return "available: " + WhyNoTarget(text);
+  return "available: " + TargetProblem(text);
 }
 
 }  // namespace lanelight

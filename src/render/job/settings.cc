@@ -136,7 +136,7 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
     throw InputError(fmt::format("a wavefront of {} paths is not supported: 1 to {}",
                                  settings.wavefront, kMaxWavefront));
   }
-  if (settings.points) scene.strategy.points = *settings.points;
+  if (settings.sampler) scene.strategy.sampler = *settings.sampler;
   if (DecidesByDefault(settings, scene)) scene.strategy.decide = Decide::kPilot;
   Apply(settings.strategy, scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;

@@ -52,7 +52,7 @@ struct RenderSettings {
   std::optional<std::array<int, 4>> crop;  // x0, y0, x1, y1 in pixels, end exclusive
   std::optional<int> max_depth;
   std::optional<std::uint64_t> seed;
-  std::optional<Points> points;
+  std::optional<SampleSequence> sampler;
   StrategyChanges strategy;  // to the scene's
   DefaultDecision decision = DefaultDecision::kNever;
   std::optional<Scattering> scattering;

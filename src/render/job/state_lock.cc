@@ -25,7 +25,7 @@ StateLock::StateLock(const std::string& path,
   do {
     lock_.reset();
     file_.emplace(LinkTarget(path) + ".lock");
-    if (!file_->locking()) {
+    if (!file_->supports_locks()) {
       on_problem(
           fmt::format("{}: this file system has no locks: make sure that no other "
                       "process writes '{}'",
@@ -34,7 +34,7 @@ StateLock::StateLock(const std::string& path,
       file_.reset();
       return;
     }
-    lock_ = file_->Take("state");
+    lock_ = file_->TryLock("state");
     if (!lock_) {
       const std::string who = file_->Note();
       throw InputError(fmt::format(

@@ -32,7 +32,7 @@ bool EmitsCarried(const OwnSpectrum& spectrum) {
 }
 
 // Why these strategies do not go with wavelengths; empty if they do.
-std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
+std::string ReasonForRgb(std::span<const Strategy> strategies, bool disperses) {
   for (const Strategy& s : strategies) {
     if (s.reuse != Reuse::kNone && disperses) {
       return "reuse=block does not support dispersive glass";
@@ -42,7 +42,7 @@ std::string Refusal(std::span<const Strategy> strategies, bool disperses) {
 }
 
 // Says why the scene does not go with wavelengths; empty if it does.
-std::string Refusal(const SceneDescription& scene) {
+std::string ReasonForRgb(const SceneDescription& scene) {
   const auto dark = [](const auto& light) { return !EmitsCarried(light.spectrum); };
   if (std::ranges::any_of(scene.lights, dark) ||
       std::ranges::any_of(scene.area_lights, dark) ||
@@ -64,8 +64,8 @@ TransportChoice ChooseTransport(const SceneDescription& scene,
   if (!user) return {.why = "nothing in the scene has a spectrum"};
   const std::string has =
       user->what + (user->disperses ? " disperses" : " has a spectrum");
-  std::string refusal = Refusal(strategies, user->disperses);
-  if (refusal.empty()) refusal = Refusal(scene);
+  std::string refusal = ReasonForRgb(strategies, user->disperses);
+  if (refusal.empty()) refusal = ReasonForRgb(scene);
   if (refusal.empty()) return {Transport::kSpectral, has, {}, false};
   return {Transport::kRgb, fmt::format("{}, though {}", refusal, has), user->where, true};
 }

@@ -111,7 +111,7 @@ void MpiGroup::Gather(std::string_view bytes, const Receiver& receive) {
 void MpiGroup::Collect(std::string_view bytes, const Receiver& receive) {
   std::uint64_t size = bytes.size();
   const std::span<char> head(reinterpret_cast<char*>(&size), sizeof(size));
-  if (!leads()) {
+  if (!is_leader()) {
     Send(head, 0);
     return Send(bytes, 0);
   }
@@ -187,7 +187,7 @@ int MpiGroup::Leave(int exit_code) {
 }
 
 int MpiGroup::Fail(int exit_code, const std::string& message) {
-  if (leads()) {
+  if (is_leader()) {
     if (ranks() > 1) MPI_Abort(MPI_COMM_WORLD, exit_code);
     MPI_Finalize();
     return exit_code;

@@ -9,7 +9,7 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-[[noreturn]] void Refuse(const std::string& message) {
+[[noreturn]] void ThrowUnsupported(const std::string& message) {
   throw InputError("strategy: " + message);
 }
 
@@ -17,21 +17,21 @@ using Notes = std::vector<std::string>;
 void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   if (s.reuse == Reuse::kNone) return;
   if (plan.HasAll({Feature::kReuse, Feature::kSpectralFilm})) {
-    Refuse(
+    ThrowUnsupported(
         "reuse=block does not work with Film \"spectral\": its blocks share colours, not "
         "wavelengths; use reuse=none, or Film \"rgb\"");
   }
   if (plan.HasAll({Feature::kReuse, Feature::kDispersion})) {
-    Refuse(
+    ThrowUnsupported(
         "reuse=block does not support dispersive glass with --transport spectral; use "
         "--transport rgb");
   }
   if (s.Splits()) {
-    Refuse(std::string("reuse=block does not support split paths (roulette=") +
-           Name(s.roulette) + "); use roulette=throughput");
+    ThrowUnsupported(std::string("reuse=block does not support split paths (roulette=") +
+                     Name(s.roulette) + "); use roulette=throughput");
   }
   if (s.control != Control::kNone) {
-    Refuse(
+    ThrowUnsupported(
         std::string("control=") + Name(s.control) +
         " needs samples of single paths, which reuse=block combines: use one of the two");
   }
@@ -133,9 +133,10 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   NotePaths(checked);
   if (s.control == Control::kRegression && !plan.Has(Feature::kRegressionControl)) {
     checked.Note("control=regression", ": nothing scatters");
-  } else if (s.control == Control::kRegression && s.points != Points::kIndependent) {
+  } else if (s.control == Control::kRegression &&
+             s.sampler != SampleSequence::kIndependent) {
     notes.push_back(
-        std::string("control=regression gains little with points=") + Name(s.points) +
+        std::string("control=regression gains little with points=") + Name(s.sampler) +
         ", which integrate polynomials well already: use it with points=independent");
   }
   return notes;

@@ -112,8 +112,8 @@ void AddPhases(const PreparedScene& scene, const Stages& registered, Plan& plan)
   for (const PhaseId id : {PhaseId::kPaths, PhaseId::kTile, PhaseId::kBlock}) {
     AddPhase(id, plan.features, registered, plan);
   }
-  if (!SeesLightsApart(scene)) return;
-  FeatureSet features = SeenLightFeatures(scene, plan.options);
+  if (!RendersLightsSeparately(scene)) return;
+  FeatureSet features = VisibleLightFeatures(scene, plan.options);
   AddPhase(PhaseId::kVisibleLights, features, registered, plan);
   // A path with other wavelengths sees no other lights.
   if (!features.Has(Feature::kSpectral)) return;

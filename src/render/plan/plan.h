@@ -60,7 +60,7 @@ struct PlanOptions {
   std::optional<FeatureSet> training;
   /// Keeps the strategy's points and path reuse in a training pass, so that its samples
   /// depend on each other as those of a render do.
-  bool own_points = false;
+  bool has_own_sequences = false;
   /// Replaces the scene's strategy: what a training tries or has chosen.
   std::optional<Strategy> strategy;
 };

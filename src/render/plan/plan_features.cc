@@ -104,7 +104,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   }
   f.Add(AuxiliaryFeatures(options.auxiliary));
   if (f.Has(Feature::kGbuffer) && HasSurfaces(f)) f.Add(Feature::kUv);
-  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.sampler));
   f.Add(TurnsOn(strategy.pairs));
   if (strategy.control != Control::kNone && f.Has(Feature::kScatters)) {
     f.Add(TurnsOn(strategy.control));
@@ -117,8 +117,8 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
 Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options) {
   Strategy strategy = options.strategy.value_or(scene.strategy);
   if (!options.training) return strategy;
-  if (!options.own_points) {
-    strategy.points = Points::kIndependent;
+  if (!options.has_own_sequences) {
+    strategy.sampler = SampleSequence::kIndependent;
     strategy.reuse = Reuse::kNone;
   }
   strategy.pairs = Pairs::kNone;
@@ -126,16 +126,16 @@ Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options)
   return strategy;
 }
 
-FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options) {
+FeatureSet VisibleLightFeatures(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy strategy = PlannedStrategy(scene, options);
   FeatureSet f = scene.features();
   RemoveScattering(f);
-  f.Add(TurnsOn(strategy.points));
+  f.Add(TurnsOn(strategy.sampler));
   f.Add(TurnsOn(strategy.pairs));
   return f;
 }
 
-bool SeesLightsApart(const PreparedScene& scene) {
+bool RendersLightsSeparately(const PreparedScene& scene) {
   const FeatureSet& f = scene.features();
   return scene.strategy.visible_lights == VisibleLights::kApart &&
          !f.Has(Feature::kMedia) &&              // which dim what is seen

@@ -27,11 +27,11 @@ bool SamplesFlatLights(const FeatureSet& features);
 bool SamplesOfLightDiffer(const FeatureSet& features);
 
 /// Returns whether directly visible lights are integrated apart.
-bool SeesLightsApart(const PreparedScene& scene);
+bool RendersLightsSeparately(const PreparedScene& scene);
 
 /// Returns the features of camera rays that end at the light they see: a subset of
 /// PlanFeatures(), with the same sample points.
-FeatureSet SeenLightFeatures(const PreparedScene& scene, const PlanOptions& options);
+FeatureSet VisibleLightFeatures(const PreparedScene& scene, const PlanOptions& options);
 
 /// Throws InputError for a strategy that cannot work on this scene, saying what would.
 /// Returns explanations of choices that have no effect on it.

@@ -30,12 +30,12 @@ std::string FeaturesText(const FeatureSet& features) {
 
 // Returns the parameters of the plan's strategy; omits what no stage reads.
 std::string ParametersText(const Strategy& s, const FeatureSet& features) {
-  const SamplerParameters points = MakeSamplerParameters(s.points);
+  const SamplerParameters sampler = MakeSamplerParameters(s.sampler);
   const AntitheticParameters pairs = MakeAntitheticParameters(s);
   const MisParameters mis = MakeMisParameters(s);
   const SampleGroups groups = GroupsOf(s);
   std::string text = fmt::format("points {} {} pairs {} {} groups {} {} mis {} {} {}",
-                                 points.group_shift, points.pmj02 != nullptr,
+                                 sampler.group_shift, sampler.pmj02 != nullptr,
                                  pairs.dimensions, pairs.depths, groups.unit,
                                  groups.replicates, mis.square, mis.linear, mis.hits);
   if (features.Has(Feature::kReuse)) {
@@ -70,7 +70,7 @@ std::string PlanKey(const PreparedScene& scene, const Plan& plan) {
       CompensatesEnvironment(scene.strategy)) {
     key += " environment compensated";
   }
-  if (SeesLightsApart(scene)) key += " seen lights apart";
+  if (RendersLightsSeparately(scene)) key += " seen lights apart";
   return key + fmt::format(" lights {:016x}", HashLights(*scene.chances));
 }
 

@@ -45,7 +45,7 @@ inline std::uint64_t SamplesToTransfer(const RankLoad& from, const RankLoad& to)
 /// compute it from the same sums, so they meet at about the same time.
 class PollInterval {
  public:
-  std::chrono::duration<double> UntilNext() const {
+  std::chrono::duration<double> TimeUntilNext() const {
     return std::chrono::duration<double>(until_next_);
   }
   /// Takes the sum of the status of all ranks.

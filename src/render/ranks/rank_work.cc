@@ -33,9 +33,9 @@ std::string ToString(const Value& value) {
 class WorkerWatch : public TaskWatcher {
  public:
   explicit WorkerWatch(const std::atomic<bool>* stop) : signal_(stop) {}
-  bool Interrupted() const override { return signal_.Stopped(); }
-  bool Stopped() const override { return signal_.Stopped() || stopped_; }
-  bool Cancelled() const override { return signal_.Cancelled() || cancelled_; }
+  bool IsInterrupted() const override { return signal_.IsStopped(); }
+  bool IsStopped() const override { return signal_.IsStopped() || stopped_; }
+  bool IsCancelled() const override { return signal_.IsCancelled() || cancelled_; }
   void TaskDone() override {}
   void Update(const RankStatus& all) {
     stopped_ = all.stopped > 0;
@@ -57,7 +57,7 @@ class RankWork::OwnRound {
         round_(round),
         watcher_(watcher),
         rendered_before_(RenderedSamples()) {
-    total_ = scheduler().Missing(scheduler().Snapshot(), round.end);
+    total_ = scheduler().MissingSamples(scheduler().Snapshot(), round.end);
     Start();
   }
 
@@ -74,13 +74,13 @@ class RankWork::OwnRound {
   }
   std::vector<TileProgress> Release(std::uint64_t samples) {
     std::vector<TileProgress> tiles = scheduler().Release(samples);
-    total_ -= scheduler().Missing(tiles, round_.end);
+    total_ -= scheduler().MissingSamples(tiles, round_.end);
     return tiles;
   }
-  void Adopt(const std::vector<TileProgress>& tiles) {
+  void AddTiles(const std::vector<TileProgress>& tiles) {
     if (tiles.empty()) return;
-    scheduler().Adopt(tiles);
-    total_ += scheduler().Missing(tiles, round_.end);
+    scheduler().AddTiles(tiles);
+    total_ += scheduler().MissingSamples(tiles, round_.end);
     if (running_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) Start();
   }
 
@@ -174,14 +174,14 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
                             const OnStatus& on_status) {
   std::optional<Clock::time_point> signal;
   const StopPredicate should_stop = [&] {
-    if (!group_.leads() || !watcher.Interrupted()) return false;
+    if (!group_.is_leader() || !watcher.IsInterrupted()) return false;
     if (!signal) signal = Clock::now();
     return SecondsSince(*signal) > kAnswerSeconds;
   };
   OwnRound own(*this, round, watcher);
   PollInterval interval;
   for (std::uint64_t step = 0;; ++step) {
-    const bool done = own.Wait(interval.UntilNext());
+    const bool done = own.Wait(interval.TimeUntilNext());
     RankStatus status = Status(round, watcher, done);
     status.left = own.load().left;
     auto all = group_.Sum(status, should_stop);
@@ -193,14 +193,14 @@ RankStatus RankWork::Render(const Round& round, TaskWatcher& watcher,
     if (all->busy == 0) return *all;
     // All ranks have the same status, and decide alike.
     if (all->failed + all->interrupted + all->stopped > 0) continue;
-    aborted_ = !Balance(step, own, should_stop);
+    aborted_ = !BalanceRanks(step, own, should_stop);
     if (aborted_) return {};
   }
 }
 
 // Returns false if it gave up on the other rank.
-bool RankWork::Balance(std::uint64_t step, OwnRound& own,
-                       const StopPredicate& should_stop) {
+bool RankWork::BalanceRanks(std::uint64_t step, OwnRound& own,
+                            const StopPredicate& should_stop) {
   const int partner = BalancePartner(group_.rank(), group_.ranks(), step);
   if (partner < 0) return true;
   RankLoad mine = own.load(), theirs;
@@ -214,7 +214,7 @@ bool RankWork::Balance(std::uint64_t step, OwnRound& own,
   SerializeTiles(own.Release(samples), tiles(), films_, packed);
   const auto bytes = group_.Swap(partner, std::move(packed), should_stop);
   if (!bytes) return false;
-  own.Adopt(DeserializeTiles(*bytes, tiles(), films_));
+  own.AddTiles(DeserializeTiles(*bytes, tiles(), films_));
   return true;
 }
 
@@ -222,9 +222,9 @@ RankStatus RankWork::Status(const Round& round, const TaskWatcher& watcher,
                             bool done) const {
   RankStatus status;
   status.failed = done && problem_;
-  status.interrupted = watcher.Interrupted();
-  status.stopped = watcher.Stopped();
-  status.cancelled = watcher.Cancelled();
+  status.interrupted = watcher.IsInterrupted();
+  status.stopped = watcher.IsStopped();
+  status.cancelled = watcher.IsCancelled();
   status.busy = !done;
   status.behind = !done || threads_.Levels().minimum < round.end;
   status.samples = threads_.RenderedSamples();
@@ -237,13 +237,13 @@ void RankWork::Gather() {
   other_counts_ = {};
   other_levels_ = {};
   for (int piece = MaxPieces(0); piece > 0; --piece) {
-    group_.Gather("", [this](int, std::string_view bytes) { ReceivePiece(bytes); });
+    group_.Gather("", [this](int, std::string_view bytes) { ReceiveTiles(bytes); });
   }
   gathered_ = true;
 }
 
 // Adds the counts of a worker and some of its tiles.
-void RankWork::ReceivePiece(std::string_view bytes) {
+void RankWork::ReceiveTiles(std::string_view bytes) {
   RunCounts counts;
   LL_CHECK_GE(bytes.size(), sizeof(counts));
   std::memcpy(&counts, bytes.data(), sizeof(counts));
@@ -252,7 +252,7 @@ void RankWork::ReceivePiece(std::string_view bytes) {
       LevelsOf(DeserializeTiles(bytes.substr(sizeof(counts)), tiles(), films_)));
 }
 
-void RankWork::SendPieces() {
+void RankWork::SendTiles() {
   const std::vector<TileProgress> owned = threads_.scheduler().Snapshot();
   const auto pieces = InPieces(owned, tiles());
   RunCounts counts = threads_.Counts();
@@ -291,7 +291,7 @@ void RankWork::Serve(const std::function<void(const Round&)>& begin,
     const Command command = Share({});
     if (command.order == Order::kLeave) break;
     if (command.order == Order::kGather) {
-      SendPieces();
+      SendTiles();
       continue;
     }
     begin(command.round);

@@ -37,7 +37,7 @@ class RankWork : public RoundRunner {
   std::uint64_t RenderedSamples() const override {
     return threads_.RenderedSamples() + rendered_elsewhere_;
   }
-  bool Stopped() const override { return stopped_; }
+  bool IsStopped() const override { return stopped_; }
   void Finish() override;
 
   /// Renders for the leader until it finishes; on workers. Calls begin(round) before each
@@ -58,9 +58,9 @@ class RankWork : public RoundRunner {
   Command Share(Command command);
   RankStatus Render(const Round& round, TaskWatcher& watcher, const OnStatus& on_status);
   RankStatus Status(const Round& round, const TaskWatcher& watcher, bool done) const;
-  bool Balance(std::uint64_t step, OwnRound& own, const StopPredicate& should_stop);
-  void SendPieces();
-  void ReceivePiece(std::string_view bytes);
+  bool BalanceRanks(std::uint64_t step, OwnRound& own, const StopPredicate& should_stop);
+  void SendTiles();
+  void ReceiveTiles(std::string_view bytes);
   int MaxPieces(int own);
   const std::vector<PixelRect>& tiles() const { return threads_.scheduler().tiles(); }
 

@@ -42,7 +42,7 @@ struct Runner {
   }
 
   void Start();
-  void Keep(bool finished);
+  void Save(bool finished);
   RunResult Result();
   /// All of a run, for a worker.
   void Serve(const RunStart& start, const std::atomic<bool>* stop);
@@ -100,13 +100,13 @@ bool Runner::Restore() {
   return true;
 }
 
-void Runner::Keep(bool finished) {
+void Runner::Save(bool finished) {
   Work().Gather();
   RunState state = {
       {Counts(), strategy.trained(), strategy.training(), strategy.Tables()},
       films,
       finished};
-  context->options.checkpointer->Keep(state);
+  context->options.checkpointer->Save(state);
 }
 
 RunCounts Runner::Counts() {
@@ -129,7 +129,8 @@ void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
     strategy.Restore(std::move(training), learned.tables);
   }
   ranks->AssignTiles(start.have_samples, min_tile_side);
-  ranks->Serve([this](const Round& round) { strategy.BeginWith(round.begin); }, stop);
+  ranks->Serve([this](const Round& round) { strategy.SetFirstSample(round.begin); },
+               stop);
 }
 
 RunResult Runner::Result() {
@@ -140,7 +141,7 @@ RunResult Runner::Result() {
   static_cast<RunCounts&>(result) = Counts();
   result.stop_reason = watch->Reason();
   result.stopped_early = result.stop_reason == StopReason::kInterrupted;
-  result.looks = schedule->Checks();
+  result.num_checks = schedule->Checks();
   strategy.Describe(result);
   result.control = films.film().Control();
   result.parts = EmptyParts();
@@ -166,13 +167,13 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
   Runner run(scene, plan, options, film);
   run.Start();
   Checkpointer* const checkpointer = options.checkpointer;
-  while (!run.watch->Ended()) {
+  while (!run.watch->HasEnded()) {
     const auto round = run.schedule->Next();
     if (!round) break;
-    run.strategy.BeginWith(round->begin);
+    run.strategy.SetFirstSample(round->begin);
     run.Work().RunRound(*round, *run.watch);
-    if (!run.watch->Ended()) {
-      if (checkpointer != nullptr && checkpointer->Due()) run.Keep(false);
+    if (!run.watch->HasEnded()) {
+      if (checkpointer != nullptr && checkpointer->IsDue()) run.Save(false);
       run.watch->ShowIfDue();
     }
     // The round may have been stopped before its end.
@@ -181,7 +182,7 @@ RunResult Run(const PreparedScene& scene, const Plan& plan, const RunOptions& op
   run.watch->Report();
   run.Work().Gather();
   // The last state is kept too, also where another rank has failed.
-  if (checkpointer != nullptr) run.Keep(run.watch->Reason() != StopReason::kInterrupted);
+  if (checkpointer != nullptr) run.Save(run.watch->Reason() != StopReason::kInterrupted);
   run.Work().Finish();
   return run.Result();
 }

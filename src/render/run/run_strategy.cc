@@ -66,7 +66,7 @@ RunParameters RunStrategy::Parameters() const {
   return run;
 }
 
-void RunStrategy::BeginWith(std::uint64_t first) {
+void RunStrategy::SetFirstSample(std::uint64_t first) {
   run_.seed = SeedOf(options_.seed, first);
 }
 
@@ -97,7 +97,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
   training_.seconds = clock_.Seconds();
   training_.cpu_seconds = clock_.CpuSeconds();
   // Interrupted training is repeated when the run is resumed.
-  if (!StopWatcher(options.stop).Stopped()) UseTraining();
+  if (!StopWatcher(options.stop).IsStopped()) UseTraining();
 }
 
 void RunStrategy::Restore(TrainingOutcome training,

@@ -30,7 +30,7 @@ class RunStrategy {
   const Plan& plan() const { return plan_; }
   const RunParameters& run() const { return run_; }
   /// Sets the seed of the kernels for rounds from this sample on.
-  void BeginWith(std::uint64_t first);
+  void SetFirstSample(std::uint64_t first);
 
   /// Returns the samples that a training is planned for; 0 if the strategy needs none.
   std::uint64_t PlannedTraining() const;

@@ -30,20 +30,20 @@ bool RunWatch::OutOfTime() const {
          context_.clock.Elapsed() >= budget - schedule_.reserved();
 }
 
-bool RunWatch::Ended() {
+bool RunWatch::HasEnded() {
   every_pixel_ = context_.work.Done() > 0;
-  return Interrupted() || OutOfTime() || cancelled_;
+  return IsInterrupted() || OutOfTime() || cancelled_;
 }
 
-bool RunWatch::Stopped() const {
+bool RunWatch::IsStopped() const {
   const Checkpointer* const checkpointer = context_.options.checkpointer;
-  return Interrupted() || OutOfTime() || cancelled_ || ShowDue() ||
-         (checkpointer != nullptr && checkpointer->Due());
+  return IsInterrupted() || OutOfTime() || cancelled_ || ShowDue() ||
+         (checkpointer != nullptr && checkpointer->IsDue());
 }
 
-bool RunWatch::Cancelled() const {
+bool RunWatch::IsCancelled() const {
   // Without a budget only a stop matters, and clocks need not be read.
-  const bool stopped = Interrupted();
+  const bool stopped = IsInterrupted();
   if (!stopped && context_.options.seconds <= 0) return false;
   if (limit_->IsOver(stopped, every_pixel_, context_.clock.Elapsed())) {
     cancelled_ = true;
@@ -56,7 +56,7 @@ StopReason RunWatch::Reason() const {
   if (schedule_.hopeless()) return StopReason::kHopeless;
   // A signal after the last sample does not count.
   if (context_.work.Done() >= context_.limit()) return StopReason::kSamples;
-  return Interrupted() ? StopReason::kInterrupted : StopReason::kTime;
+  return IsInterrupted() ? StopReason::kInterrupted : StopReason::kTime;
 }
 
 double RunWatch::Fraction(double seconds, std::uint64_t samples) const {
@@ -71,7 +71,7 @@ double RunWatch::Fraction(double seconds, std::uint64_t samples) const {
 
 void RunWatch::TaskDone() {
   const RunOptions& options = context_.options;
-  if (options.seconds > 0) limit_->Ended(context_.clock.Elapsed());
+  if (options.seconds > 0) limit_->NoteTaskEnd(context_.clock.Elapsed());
   if (!options.on_progress) return;
   std::unique_lock lock(progress_mutex_, std::try_to_lock);
   if (!lock || SecondsSince(last_report_) < 0.1) return;

@@ -27,20 +27,20 @@ class RunWatch : public TaskWatcher {
   /// be called.
   void Start();
   /// Returns, between rounds, whether the run ends before all samples are done.
-  bool Ended();
+  bool HasEnded();
   /// Calls RunOptions::on_film between rounds, if it is due; in one process only.
   void ShowIfDue();
   /// Returns why the run has ended.
   StopReason Reason() const;
 
   /// Returns whether a signal came, to this process or another rank.
-  bool Interrupted() const override {
+  bool IsInterrupted() const override {
     const std::atomic<bool>* const stop = context_.options.stop;
     return (stop != nullptr && stop->load(std::memory_order_relaxed)) ||
-           context_.work.Stopped();
+           context_.work.IsStopped();
   }
-  bool Stopped() const override;
-  bool Cancelled() const override;
+  bool IsStopped() const override;
+  bool IsCancelled() const override;
   void TaskDone() override;
   /// Reports the progress now.
   void Report();

@@ -38,7 +38,7 @@ Round RoundAfter(std::uint64_t done, std::uint32_t per_task, std::uint32_t unit)
   return {done, done + samples, std::min(samples, per_task)};
 }
 
-std::uint32_t Pace::Whole(double samples) const {
+std::uint32_t Pace::RoundedSamples(double samples) const {
   const double units = std::floor(samples / tasks_.unit);
   const double maximum = tasks_.per_task / tasks_.unit;
   return std::uint32_t(std::clamp(units, 1.0, std::max(1.0, maximum))) * tasks_.unit;
@@ -48,9 +48,9 @@ Round Pace::Next(std::uint64_t done, double elapsed) const {
   if (speed_ == 0) return {done, done + tasks_.unit, tasks_.unit};
   // Seconds of one sample of all pixels of a tile.
   const double tile = tasks_.threads / (speed_ * double(tasks_.tiles));
-  const double maximum = Reach(elapsed) / 2;
+  const double maximum = RemainingSamples(elapsed) / 2;
   const std::uint32_t per_task =
-      Whole(std::min(maximum, kMaxTaskFraction * budget_ / tile));
+      RoundedSamples(std::min(maximum, kMaxTaskFraction * budget_ / tile));
   const auto ranges = std::uint64_t(std::max(1.0, maximum / per_task));
   return {done, done + per_task * ranges, per_task};
 }
@@ -59,7 +59,7 @@ void Pace::AddMeasurement(std::uint64_t samples, double seconds) {
   speed_ = double(samples) / std::max(seconds, 1e-6);
 }
 
-double Pace::Reach(double elapsed) const {
+double Pace::RemainingSamples(double elapsed) const {
   return std::max(0.0, speed_ * (budget_ - elapsed));
 }
 

@@ -51,10 +51,10 @@ class Pace {
   /// Notes that a round of so many samples per pixel took `seconds`.
   void AddMeasurement(std::uint64_t samples, double seconds);
   /// Returns the samples per pixel that the time left allows; 0 before the first round.
-  double Reach(double elapsed) const;
+  double RemainingSamples(double elapsed) const;
 
  private:
-  std::uint32_t Whole(double samples) const;
+  std::uint32_t RoundedSamples(double samples) const;
 
   double budget_;
   Tasks tasks_;

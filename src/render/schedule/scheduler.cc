@@ -35,7 +35,7 @@ void Scheduler::Begin(const Round& round, const Limits& limits) {
 std::optional<SampleRange> Scheduler::Next(const TaskWatcher& watcher) {
   std::unique_lock lock(mutex_);
   const std::uint64_t ahead = std::uint64_t{round_.per_task} * limits_.ranges_per_tile;
-  while (!cancelled_ && !watcher.Stopped()) {
+  while (!cancelled_ && !watcher.IsStopped()) {
     bool left = false;
     for (std::size_t i = 0; i < begun_.size(); ++i) {
       const std::size_t tile = (next_ + i) % begun_.size();
@@ -54,7 +54,8 @@ std::optional<SampleRange> Scheduler::Next(const TaskWatcher& watcher) {
   return std::nullopt;
 }
 
-void Scheduler::Done(const SampleRange& range, TaskSamples& samples, const Merge& merge) {
+void Scheduler::FinishRange(const SampleRange& range, TaskSamples& samples,
+                            const Merge& merge) {
   std::unique_lock lock(mutex_);
   std::uint64_t& done = done_[range.tile];
   if (range.first != done) {
@@ -94,7 +95,7 @@ std::vector<TileProgress> Scheduler::Snapshot() const {
 
 void Scheduler::Resume(const std::vector<TileProgress>& tiles) {
   std::ranges::fill(done_, kNotOwned);
-  Adopt(tiles);
+  AddTiles(tiles);
 }
 
 std::vector<TileProgress> Scheduler::Release(std::uint64_t samples) {
@@ -115,14 +116,14 @@ std::vector<TileProgress> Scheduler::Release(std::uint64_t samples) {
   return released;
 }
 
-void Scheduler::Adopt(const std::vector<TileProgress>& tiles) {
+void Scheduler::AddTiles(const std::vector<TileProgress>& tiles) {
   const std::lock_guard lock(mutex_);
   for (const TileProgress& tile : tiles) done_[tile.tile] = begun_[tile.tile] = tile.done;
   ended_.notify_all();
 }
 
-std::uint64_t Scheduler::Missing(const std::vector<TileProgress>& tiles,
-                                 std::uint64_t end) const {
+std::uint64_t Scheduler::MissingSamples(const std::vector<TileProgress>& tiles,
+                                        std::uint64_t end) const {
   std::uint64_t samples = 0;
   for (const TileProgress& tile : tiles) {
     samples += (end - std::min(end, tile.done)) * tiles_[tile.tile].pixels();

@@ -59,7 +59,7 @@ class Scheduler {
   /// Takes the samples of a rendered range: calls merge(samples) with them and with those
   /// that have waited for them, or moves them out of `samples` until it is their turn.
   using Merge = std::function<void(TaskSamples& samples)>;
-  void Done(const SampleRange& range, TaskSamples& samples, const Merge& merge);
+  void FinishRange(const SampleRange& range, TaskSamples& samples, const Merge& merge);
   /// Begins no more ranges; threads that wait in Next() return.
   void Cancel();
 
@@ -72,9 +72,10 @@ class Scheduler {
   /// over tiles and pixels, and returns them.
   std::vector<TileProgress> Release(std::uint64_t samples);
   /// Owns these tiles in addition.
-  void Adopt(const std::vector<TileProgress>& tiles);
+  void AddTiles(const std::vector<TileProgress>& tiles);
   /// Returns the samples that these tiles lack to `end` samples per pixel.
-  std::uint64_t Missing(const std::vector<TileProgress>& tiles, std::uint64_t end) const;
+  std::uint64_t MissingSamples(const std::vector<TileProgress>& tiles,
+                               std::uint64_t end) const;
 
  private:
   /// Marks a tile that another rank owns.

@@ -68,8 +68,8 @@ void ThreadWork::RunRound(const Round& round, TaskWatcher& watcher) {
         TaskSamples& out = runner_.Samples();
         if (!runner_.Run(*range, tile, watcher, out)) return scheduler_->Cancel();
         rendered_samples_ += out.counts.samples;
-        scheduler_->Done(*range, out,
-                         [&](TaskSamples& samples) { Merge(range->tile, samples); });
+        scheduler_->FinishRange(
+            *range, out, [&](TaskSamples& samples) { Merge(range->tile, samples); });
         watcher.TaskDone();
       }
     } catch (...) {

@@ -54,7 +54,7 @@ class RoundRunner {
   virtual std::uint64_t RenderedSamples() const = 0;
   /// Returns whether another process was interrupted or has failed; no more rounds begin
   /// then.
-  virtual bool Stopped() const { return false; }
+  virtual bool IsStopped() const { return false; }
   /// Ends the work of other processes. Throws RankFailure if one of them has failed.
   virtual void Finish() {}
 

@@ -69,14 +69,14 @@ PathSamples ReadRecords(TrainingSamples samples) {
   return out;
 }
 
-ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
-                      const TrainingWork& work) {
+PilotImage EstimatePilotImage(const PreparedScene& scene, const TrainingSamples& samples,
+                              const TrainingWork& work) {
   return {std::uint32_t(scene.view->film.width), std::uint32_t(scene.view->film.height),
           work.pixels, samples.colors};
 }
 
 double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
-                      const ImageGuess& image, std::span<const std::size_t> places) {
+                      const PilotImage& image, std::span<const std::size_t> places) {
   const std::uint32_t n = samples.observations;  // of a pixel
   Vec3d sum, squares, weight;
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -104,7 +104,7 @@ double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
 }
 
 std::vector<double> RelativeVariances(const TrainingSamples& samples,
-                                      const TrainingWork& work, const ImageGuess& image) {
+                                      const TrainingWork& work, const PilotImage& image) {
   std::vector<double> variances;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     variances.push_back(VarianceOfMean(samples, work, image, std::span(&i, 1)));
@@ -113,7 +113,7 @@ std::vector<double> RelativeVariances(const TrainingSamples& samples,
 }
 
 double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
-                             const ImageGuess& image) {
+                             const PilotImage& image) {
   std::vector<Part> parts;
   for (std::size_t i = 0; i < work.pixels.size(); ++i) {
     double weight = 0;
@@ -139,7 +139,7 @@ double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixe
 }
 
 std::vector<double> SinglePathVariances(const TrainingSamples& samples,
-                                        const TrainingWork& work, const ImageGuess& image,
+                                        const TrainingWork& work, const PilotImage& image,
                                         const PathValues& values, float exposure,
                                         std::vector<double> variances) {
   LL_CHECK_EQ(samples.planes, NumPlanes(PlaneGroup::kSinglePath));

@@ -38,24 +38,24 @@ struct PathSamples : TrainingSamples {
 PathSamples ReadRecords(TrainingSamples samples);
 
 /// Estimates the image from the samples of `work`.
-ImageGuess GuessImage(const PreparedScene& scene, const TrainingSamples& samples,
-                      const TrainingWork& work);
+PilotImage EstimatePilotImage(const PreparedScene& scene, const TrainingSamples& samples,
+                              const TrainingWork& work);
 
 /// Returns the variance of the mean of some pixels of `work` (their places in it), for
 /// one sample in each, as relative errors weigh it: the variance of the means of
 /// observations, times the samples of one.
 double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
-                      const ImageGuess& image, std::span<const std::size_t> places);
+                      const PilotImage& image, std::span<const std::size_t> places);
 
 /// Returns VarianceOfMean of each pixel by itself.
 std::vector<double> RelativeVariances(const TrainingSamples& samples,
-                                      const TrainingWork& work, const ImageGuess& image);
+                                      const TrainingWork& work, const PilotImage& image);
 
 /// Returns the variance with roulette on the throughput over that without, from the
 /// records of a pass without (PathRecord::Risk); omits the worst thousandth of the
 /// pixels.
 double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
-                             const ImageGuess& image);
+                             const PilotImage& image);
 
 /// Returns the value about which a pass with these values takes the moments of a pixel (y
 /// * width + x), as radiance: its brightness, by PathValues::inverse_pixel.
@@ -71,7 +71,7 @@ double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixe
 /// its way leave as it is. A difference is taken to have the colour of the image. Of
 /// single pixels the result may be negative.
 std::vector<double> SinglePathVariances(const TrainingSamples& samples,
-                                        const TrainingWork& work, const ImageGuess& image,
+                                        const TrainingWork& work, const PilotImage& image,
                                         const PathValues& values, float exposure,
                                         std::vector<double> variances);
 

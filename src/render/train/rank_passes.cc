@@ -36,13 +36,13 @@ struct RankPasses::Head {
   }
 };
 
-RankPasses::Head RankPasses::OwnHead(const TrainingSamples& samples) const {
-  return {samples.rays_closest, samples.rays_shadow, signal_.Stopped()};
+RankPasses::Head RankPasses::OwnHeader(const TrainingSamples& samples) const {
+  return {samples.rays_closest, samples.rays_shadow, signal_.IsStopped()};
 }
 
 std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,
                                 const TrainingSamples& samples) const {
-  const Head head = OwnHead(samples);
+  const Head head = OwnHeader(samples);
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof(head));
   ForEachTask(begins, group_.rank(), group_.ranks(), samples,
               [&bytes](const auto* values, std::size_t count) {
@@ -54,8 +54,8 @@ std::string RankPasses::OwnPart(const std::vector<std::size_t>& begins,
 
 void RankPasses::Exchange(const std::vector<std::size_t>& begins,
                           TrainingSamples& samples) {
-  Head sum = OwnHead(samples);
-  group_.Gather(group_.leads() ? "" : OwnPart(begins, samples),
+  Head sum = OwnHeader(samples);
+  group_.Gather(group_.is_leader() ? "" : OwnPart(begins, samples),
                 [&](int rank, std::string_view bytes) {
                   const auto read = [&bytes](auto* to, std::size_t count) {
                     const std::size_t size = count * sizeof(*to);

@@ -35,7 +35,7 @@ class RankPasses {
  private:
   struct Head;
 
-  Head OwnHead(const TrainingSamples& samples) const;
+  Head OwnHeader(const TrainingSamples& samples) const;
   std::string OwnPart(const std::vector<std::size_t>& begins,
                       const TrainingSamples& samples) const;
 

@@ -27,7 +27,8 @@ using Squares = std::vector<std::vector<std::size_t>>;
 
 // Places of pixels in the work that count: light that the camera sees at the edge of a
 // lamp is integrated apart in the image, but not in a trial.
-std::vector<bool> Counted(const TriedStrategy& baseline, const TrainingWork& work) {
+std::vector<bool> PixelsWithoutLightEdges(const TriedStrategy& baseline,
+                                          const TrainingWork& work) {
   std::vector<bool> counted(work.pixels.size(), true);
   const Plan plan = MakePlan(baseline.scene, baseline.options);
   RunParameters run = MakeRunParameters(baseline.scene, plan);
@@ -75,7 +76,7 @@ std::vector<double> Summed(const std::vector<double>& variances, const Squares& 
   return out;
 }
 
-bool Takes(const PreparedScene& scene, const PlanOptions& options) {
+bool IsReusePlanned(const PreparedScene& scene, const PlanOptions& options) {
   try {
     return MakePlan(scene, options).features.Has(Feature::kReuse);
   } catch (const InputError&) {
@@ -90,8 +91,8 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
                                          const TrainingWork& work, double must_gain) {
   const TrainingSamples plain = Render(baseline, baseline.options, work);
   const TrainingSamples shared = Render(baseline, blocks, work);
-  const ImageGuess image = GuessImage(scene_, plain, work);
-  const std::vector<bool> counted = Counted(baseline, work);
+  const PilotImage image = EstimatePilotImage(scene_, plain, work);
+  const std::vector<bool> counted = PixelsWithoutLightEdges(baseline, work);
   const Squares tiles = SquaresOf(scene_, work, counted, kReuseTile);
   const Squares squares = SquaresOf(scene_, work, counted, kSquare);
   const auto by_tiles = [&](const TrainingSamples& samples, double price) {
@@ -112,8 +113,8 @@ TriedBlocks StrategyTrial::CompareBlocks(const TriedStrategy& baseline,
   out.filtered =
       std::exp(GainOf(by_squares(shared, kReusePrice), by_squares(plain, 1)).log);
   const double clear = out.gain.minimum - kGainStandardErrors * out.gain.standard_error;
-  out.gains_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
-  out.pays = out.gains_per_pixel && out.filtered > kMinFilteredGain;
+  out.has_gain_per_pixel = clear > std::log(kMinChangeGain) && out.per_pixel > must_gain;
+  out.is_efficient = out.has_gain_per_pixel && out.filtered > kMinFilteredGain;
   return out;
 }
 
@@ -126,13 +127,13 @@ std::vector<TriedBlocks> StrategyTrial::TryBlocks(const TriedStrategy& baseline,
   const double must_gain = chosen.splits ? gain : kMinChangeGain;
   for (const char* const changes : {"reuse=block", "reuse=block:32"}) {
     const PlanOptions blocks = WithChanges(beside.scene, beside.options, changes);
-    if (!Takes(beside.scene, blocks)) break;
+    if (!IsReusePlanned(beside.scene, blocks)) break;
     const TrainingWork work = MakeTileWork(scene_, samples, kBlockSpp);
     const TriedBlocks found = CompareBlocks(beside, blocks, work, must_gain);
-    if (watcher_.Stopped()) break;
+    if (watcher_.IsStopped()) break;
     tried.push_back(found);
     tried.back().changes = changes;
-    if (found.pays || !found.gains_per_pixel) break;
+    if (found.is_efficient || !found.has_gain_per_pixel) break;
   }
   return tried;
 }

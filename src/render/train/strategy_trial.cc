@@ -34,7 +34,7 @@ bool IsConverged(const std::vector<double>& variances) {
 
 // Averages two estimates of the same; but one that has seen fewer bright samples adds
 // nothing, and may be negative where it is all noise.
-TrialMeasure Both(const TrialMeasure& own, TrialMeasure single) {
+TrialMeasure MeanOfMeasures(const TrialMeasure& own, TrialMeasure single) {
   if (single.Variance() < own.Variance()) return own;
   for (std::size_t i = 0; i < own.variances.size(); ++i) {
     single.variances[i] = (own.variances[i] + single.variances[i]) / 2;
@@ -102,7 +102,7 @@ bool TriedStrategy::IgnoresWorstPixels() const {
   return milder_roulette && (IsCarriedByFew() || IsFew(baseline.variances));
 }
 
-double TriedStrategy::Beyond(double must_gain, double standard_errors) const {
+double TriedStrategy::SignificantLogGain(double must_gain, double standard_errors) const {
   const TrialGain gain = EfficiencyGain();
   const double must = std::log(must_gain);
   if (gain.minimum - standard_errors * gain.standard_error <= must || MissesLight()) {
@@ -143,8 +143,9 @@ void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_
   image_.reset();
 }
 
-TrainingOutcome StrategyTrial::Learn(const TriedStrategy& tried, std::uint64_t planned,
-                                     StrategyTables& tables) {
+TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
+                                             std::uint64_t planned,
+                                             StrategyTables& tables) {
   const Plan plan = MakePlan(tried.scene, tried.options);
   if (!NeedsTraining(plan)) return {};
   TrainingOptions options = training_;
@@ -161,7 +162,7 @@ TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
                                       const TrainingWork& work) {
   TrainingPass pass = {tried.scene, options,   &tried.tables,
                        seed_,       &watcher_, training_.ranks};
-  pass.options.own_points = true;
+  pass.options.has_own_sequences = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();
   spent_.rays += samples.rays();
@@ -185,12 +186,12 @@ TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
 bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& baseline) {
   if (!tried.has_learned) {
     // Training may have changed the strategy.
-    const TrainingOutcome learned = Learn(tried, planned_, tried.tables);
+    const TrainingOutcome learned = TrainStrategy(tried, planned_, tried.tables);
     tried.options = WithChanges(tried.scene, tried.options, learned.changes);
     tried.has_learned = true;
   }
-  if (!Stopped()) Measure(tried, baseline);
-  return !Stopped();
+  if (!IsStopped()) Measure(tried, baseline);
+  return !IsStopped();
 }
 
 void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline) {
@@ -198,9 +199,9 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   const bool records = RecordsSinglePaths(tried, baseline);
   if (records) options.training = FeatureSet{Feature::kRecordsSinglePaths};
   const TrainingSamples samples = Render(tried, options, work_);
-  if (Stopped()) return;
+  if (IsStopped()) return;
   // Weights are those of the image that the baseline strategy shows.
-  if (!image_) image_ = GuessImage(scene_, samples, work_);
+  if (!image_) image_ = EstimatePilotImage(scene_, samples, work_);
   tried.measure = {tried.price * samples.Cost(),
                    RelativeVariances(samples, work_, *image_)};
   tried.light = LightOf(samples, tried.measure);
@@ -215,7 +216,7 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   single.variances =
       SinglePathVariances(samples, work_, *image_, tried.tables.path_values,
                           ExposureOf(scene_), tried.measure.variances);
-  tried.baseline = Both(baseline.measure, std::move(single));
+  tried.baseline = MeanOfMeasures(baseline.measure, std::move(single));
 }
 
 }  // namespace lanelight

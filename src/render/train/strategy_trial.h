@@ -104,7 +104,7 @@ struct TriedStrategy {
   TrialGain Gain() const;
   /// Returns the logarithm of its gain over `must_gain` if that is clear by so many
   /// standard errors, and it neither misses light nor is carried by few pixels; else 0.
-  double Beyond(double must_gain, double standard_errors) const;
+  double SignificantLogGain(double must_gain, double standard_errors) const;
 };
 
 /// Prepares a change of the strategy of `options` for a trial. Strategies that are tried
@@ -115,7 +115,7 @@ TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& option
 /// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
 struct TriedBlocks {
   const char* changes = "";  // as in --strategy
-  bool gains_per_pixel = false, pays = false;
+  bool has_gain_per_pixel = false, is_efficient = false;
   /// Relative efficiency by pixels, and by squares of 8 x 8 pixels: errors of the pixels
   /// of a block have much in common, so a filter removes less of them.
   TrialGain gain;
@@ -150,10 +150,10 @@ class StrategyTrial {
                                      std::uint64_t samples);
 
   /// Trains the strategy for so many planned samples.
-  TrainingOutcome Learn(const TriedStrategy& tried, std::uint64_t planned,
-                        StrategyTables& tables);
+  TrainingOutcome TrainStrategy(const TriedStrategy& tried, std::uint64_t planned,
+                                StrategyTables& tables);
 
-  bool Stopped() const { return watcher_.Stopped(); }
+  bool IsStopped() const { return watcher_.IsStopped(); }
   /// Returns the samples of one pass.
   std::uint64_t samples() const { return work_.samples(); }
   /// Returns samples and rays of all passes so far.
@@ -173,7 +173,7 @@ class StrategyTrial {
   const std::uint64_t planned_;
   const StopWatcher watcher_;
   TrainingWork work_;
-  std::optional<ImageGuess> image_;
+  std::optional<PilotImage> image_;
   TrainingOutcome spent_;
 };
 

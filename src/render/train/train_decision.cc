@@ -71,9 +71,9 @@ class Decider {
     } else {
       chosen = Compare();
     }
-    if (!trial_.Stopped() && planned_ / kCompared >= kMinComparedSamples)
+    if (!trial_.IsStopped() && planned_ / kCompared >= kMinComparedSamples)
       TryBlocksBeside(*chosen);
-    if (!trial_.Stopped()) TrainFor(*chosen);
+    if (!trial_.IsStopped()) TrainFor(*chosen);
     outcome_.samples = trial_.spent().samples;
     outcome_.rays = trial_.spent().rays;
     return outcome_;
@@ -111,7 +111,7 @@ class Decider {
          trial_.TryBlocks(entries_.front(), chosen, gain, planned_ / kTiled)) {
       note_ += fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", blocks.changes,
                            blocks.per_pixel, blocks.filtered);
-      if (!blocks.pays) continue;
+      if (!blocks.is_efficient) continue;
       reused.changes = JoinedChanges(reused.changes, blocks.changes);
       chosen = std::move(reused);
     }
@@ -122,7 +122,7 @@ class Decider {
     double maximum = 0;
     for (TriedStrategy& entry : entries_) {
       if (entry.changes.empty()) continue;
-      const double beyond = entry.Beyond(kMinChangeGain, kStandardErrors);
+      const double beyond = entry.SignificantLogGain(kMinChangeGain, kStandardErrors);
       if (beyond <= maximum) continue;
       maximum = beyond;
       chosen = &entry;
@@ -145,7 +145,8 @@ class Decider {
   void TrainFor(TriedStrategy& chosen) {
     const std::string changes = JoinedChanges(chosen.changes, "decide=none");
     chosen.options = WithChanges(scene_, options_, changes);
-    const TrainingOutcome out = trial_.Learn(chosen, training_.planned_samples, tables_);
+    const TrainingOutcome out =
+        trial_.TrainStrategy(chosen, training_.planned_samples, tables_);
     outcome_.changes = JoinedChanges(changes, out.changes);
     outcome_.note =
         fmt::format("rendered with {}; {}{}{}",

@@ -75,7 +75,7 @@ class Pilot {
       outcome_.changes = Change(Roulette::kThroughput);
     }
     const PathSamples recorded = RecordPass();
-    if (!efficiency_ || watcher_.Stopped()) return outcome_;
+    if (!efficiency_ || watcher_.IsStopped()) return outcome_;
     Compare(recorded);
     return outcome_;
   }
@@ -96,8 +96,8 @@ class Pilot {
 
   // The colour of the image: brightness weighs the channels with it.
   void WeighChannels(const TrainingWork& few) {
-    const ImageGuess image =
-        GuessImage(scene_, Pass(kMeasure, Roulette::kThroughput, few), few);
+    const PilotImage image =
+        EstimatePilotImage(scene_, Pass(kMeasure, Roulette::kThroughput, few), few);
     for (int c = 0; c < 3; ++c) values_.channel[c] = image.Channel(c);
   }
 
@@ -107,7 +107,7 @@ class Pilot {
                                 std::uint64_t{work_.samples()} * 2);
     WeighChannels(FewOf(work_));
     const PathSamples samples = Pass(kRecord, Roulette::kThroughput, work_);
-    image_ = std::make_unique<ImageGuess>(GuessImage(scene_, samples, work_));
+    image_ = std::make_unique<PilotImage>(EstimatePilotImage(scene_, samples, work_));
     values_.inverse_pixel = image_->Inverse(!efficiency_);
     CellRecords records(values_.grid.cells());
     if (!image_->black()) Deposit(samples, records);
@@ -128,7 +128,7 @@ class Pilot {
     for (std::size_t i = 0; i < samples.records.size(); ++i) {
       const PathRecord& r = samples.records[i];
       const double maximum =
-          ImageGuess::kClamp * image_->Brightness(work_.pixels[i / work_.spp]);
+          PilotImage::kClamp * image_->Brightness(work_.pixels[i / work_.spp]);
       for (int k = 0; k < kRecordedVertices; ++k) {
         const PathRecord::Vertex& v = r.vertices[k];
         if (v.cell == kNoCell || !(v.at > 0)) continue;
@@ -160,7 +160,7 @@ class Pilot {
 
   // The better of no roulette and roulette on the throughput. Without roulette paths may
   // be very long: then a few of them have to do, and what they promise must be clear.
-  Candidate BetterPlain(Candidate plain) {
+  Candidate BetterPlainRoulette(Candidate plain) {
     TrainingWork work = FewOf(work_);
     PathSamples samples = Pass(kRecord, Roulette::kNone, work);
     const bool cheap = samples.Cost() < 3 * plain.cost;
@@ -180,9 +180,9 @@ class Pilot {
   void Compare(const PathSamples& recorded) {
     const Candidate throughput = Measure(Roulette::kThroughput, recorded);
     const Candidate splitting = MeasureSplitting(throughput);
-    if (options_.keep_roulette || watcher_.Stopped()) return;
-    const Candidate plain = BetterPlain(throughput);
-    if (watcher_.Stopped()) return;
+    if (options_.keep_roulette || watcher_.IsStopped()) return;
+    const Candidate plain = BetterPlainRoulette(throughput);
+    if (watcher_.IsStopped()) return;
     const Roulette chosen = IsClearlyBetter(splitting, plain, kMargin)
                                 ? Roulette::kEfficiency
                                 : plain.roulette;
@@ -204,7 +204,7 @@ class Pilot {
   const bool efficiency_;
   std::uint64_t samples_ = 0;  // that one pass may take
   TrainingWork work_;
-  std::unique_ptr<ImageGuess> image_;
+  std::unique_ptr<PilotImage> image_;
   TrainingOutcome outcome_;
   double gain_of_none_ = 0;  // over roulette on the throughput
 };

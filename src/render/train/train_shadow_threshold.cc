@@ -55,7 +55,7 @@ TrainingOutcome TrainShadowThreshold(const TrainingContext& context) {
   ShadowThreshold& pixel_threshold = context.tables.shadow_threshold;
   pixel_threshold.inverse.clear();  // the pass traces every ray
   const TrainingSamples pass = ShadowPass(context, work);
-  const ImageGuess image = GuessImage(context.scene, pass, work);
+  const PilotImage image = EstimatePilotImage(context.scene, pass, work);
   const double variance = BaselineVariance(RelativeVariances(pass, work, image));
   const double fraction = kShadowRayCost / std::max(pass.Cost(), kShadowRayCost);
   const Film& film = context.scene.view->film;

@@ -36,7 +36,7 @@ class Pass {
       : scene_(pass.scene),
         plan_(MakePlan(scene_, pass.options)),
         strategy_(PlannedStrategy(scene_, plan_.options)),
-        own_points_(GroupsOf(strategy_).replicates),
+        has_own_sequences_(GroupsOf(strategy_).replicates),
         run_(Parameters(pass)),
         work_(work),
         ranks_(pass.ranks),
@@ -45,7 +45,7 @@ class Pass {
     wavefronts_.resize(std::size_t(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
-    samples_.observations = own_points_ ? kReplicates : work.spp;
+    samples_.observations = has_own_sequences_ ? kReplicates : work.spp;
     LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
     samples_.recorded.resize(work.samples() * std::size_t(samples_.planes));
   }
@@ -90,7 +90,7 @@ class Pass {
     run.seed = pass.seed ^ 0x5bd1e995u;  // apart from the image's
     run.tables = pass.tables;
     // Without the strategy's points every sample is independent.
-    if (!own_points_) run.points.group_shift = 0;
+    if (!has_own_sequences_) run.sampler.group_shift = 0;
     return run;
   }
 
@@ -126,7 +126,7 @@ class Pass {
   const PreparedScene& scene_;
   const Plan plan_;
   const Strategy strategy_;
-  const bool own_points_;
+  const bool has_own_sequences_;
   const RunParameters run_;
   const TrainingWork& work_;
   RankPasses* const ranks_;

@@ -49,7 +49,7 @@ struct TrainingSamples {
   std::vector<float> recorded;  // the planes behind the colour, sample by sample
   int planes = 0;               // how many these are
   // Independent observations of each pixel, with equally many samples
-  // (PlanOptions::own_points).
+  // (PlanOptions::has_own_sequences).
   std::uint32_t observations = 1;
   std::uint64_t rays_closest = 0, rays_shadow = 0;
 

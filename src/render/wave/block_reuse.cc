@@ -42,9 +42,9 @@ class Placer {
 };
 
 // Copies live columns of `paths` that are in `fields` to columns of `to`.
-KeptColumns Keep(FieldSet fields, const PathColumns& paths, PathColumns& to,
-                 Placer& placer) {
-  KeptColumns kept;
+StoredColumns Keep(FieldSet fields, const PathColumns& paths, PathColumns& to,
+                   Placer& placer) {
+  StoredColumns kept;
 #define X(type, name, ...)                                                      \
   if (paths.name != nullptr && fields.Has(Field::name)) {                       \
     placer.Place(to.name);                                                      \

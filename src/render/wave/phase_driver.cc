@@ -38,7 +38,7 @@ bool RunPhase(Wave& wave, const Phase& phase, StageClock* clock,
     wave.BeginWave();
     if (clock != nullptr) clock->StartWave();
     RunOnce(wave, phase, clock);
-    if (watcher != nullptr && watcher->Cancelled()) return false;
+    if (watcher != nullptr && watcher->IsCancelled()) return false;
   }
   return true;
 }

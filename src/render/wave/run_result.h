@@ -67,8 +67,8 @@ const char* Name(StopReason reason);
 /// Counts are of all ranks: seconds of this Run, processor seconds of all threads.
 struct RunResult : RunCounts {
   StopReason stop_reason = StopReason::kSamples;
-  int looks = 0;  // at which the error was compared with the target
-  int ranks = 1;  // processes; profiles and memory are of this one
+  int num_checks = 0;  // at which the error was compared with the target
+  int ranks = 1;       // processes; profiles and memory are of this one
   std::uint64_t bytes_between_ranks = 0;
   std::vector<StageProfile> stages;      // in execution order
   std::vector<StageProfile> parts;       // of tasks, by TaskPart

@@ -78,9 +78,9 @@ class Checkpointer {
   virtual bool Restore(RunState& state) = 0;
   /// Returns whether Keep is due; called often, from any thread. Tasks in flight are then
   /// finished, and others wait.
-  virtual bool Due() const = 0;
+  virtual bool IsDue() const = 0;
   /// Keeps the state. No task is in flight; pixels may have different numbers of samples.
-  virtual void Keep(RunState& state) = 0;
+  virtual void Save(RunState& state) = 0;
 };
 
 }  // namespace lanelight

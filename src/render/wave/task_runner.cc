@@ -111,7 +111,7 @@ void TaskRunner::AddVisibleLights(const SampleRange& range, const PixelRect& rec
   StageClock* const clock = space.Clock();
   visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
   const bool corrected =
-      visible_lights_->Correct(seen, *space.visible_lights, clock, out.counts);
+      visible_lights_->CorrectSamples(seen, *space.visible_lights, clock, out.counts);
   if (clock && corrected) clock->FinishPart(TaskPart::kVisibleLights, seen.stride);
 }
 

@@ -13,12 +13,12 @@ class TaskWatcher {
  public:
   virtual ~TaskWatcher() = default;
   /// Returns whether tasks that have not begun are omitted.
-  virtual bool Stopped() const = 0;
+  virtual bool IsStopped() const = 0;
   virtual void TaskDone() = 0;
   /// Returns whether a signal has stopped the work: tasks in flight must end soon.
-  virtual bool Interrupted() const { return false; }
+  virtual bool IsInterrupted() const { return false; }
   /// Returns whether tasks in flight are cancelled (TimeLimit); called after each wave.
-  virtual bool Cancelled() const { return false; }
+  virtual bool IsCancelled() const { return false; }
 };
 
 /// Decides when tasks in flight are cancelled: a path may take minutes, or never end (a
@@ -35,7 +35,7 @@ class TimeLimit {
 
   /// Notes that a task has ended, `now` seconds into the run. Safe from any thread, as is
   /// IsOver.
-  void Ended(double now) { last_ = now; }
+  void NoteTaskEnd(double now) { last_ = now; }
   /// Returns whether tasks in flight are to be cancelled: kAfterStop seconds after a stop
   /// (`stopped`) or the budget. While pixels have no sample yet (not `every_pixel`), time
   /// may be over without a stop; tasks then go on as long as one ends within Wait().
@@ -66,11 +66,11 @@ class StopWatcher : public TaskWatcher {
   /// `stop` is set by a signal; null: never.
   explicit StopWatcher(const std::atomic<bool>* stop) : stop_(stop) {}
 
-  bool Stopped() const override { return stop_ != nullptr && *stop_; }
+  bool IsStopped() const override { return stop_ != nullptr && *stop_; }
   void TaskDone() override {}
-  bool Interrupted() const override { return Stopped(); }
-  bool Cancelled() const override {
-    if (!Stopped()) return false;
+  bool IsInterrupted() const override { return IsStopped(); }
+  bool IsCancelled() const override {
+    if (!IsStopped()) return false;
     return limit_.IsOver(true, false, watch_.Seconds());
   }
 

@@ -179,8 +179,9 @@ void VisibleLightEdges::FindIn(const PixelRect& rect, VisibleLightRays& rays,
   }
 }
 
-bool VisibleLightEdges::Correct(const VisibleLightTask& task, VisibleLightRays& rays,
-                                StageClock* clock, RunCounts& counts) const {
+bool VisibleLightEdges::CorrectSamples(const VisibleLightTask& task,
+                                       VisibleLightRays& rays, StageClock* clock,
+                                       RunCounts& counts) const {
   const std::vector<std::uint32_t>& edges = edges_[task.tile];
   if (edges.empty()) return false;
   const std::uint64_t each =

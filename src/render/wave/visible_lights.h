@@ -77,15 +77,15 @@ struct VisibleLightSamples {
   std::uint32_t rays = 1;
 
   /// Samples that take turns.
-  std::uint32_t Turn() const {
+  std::uint32_t SamplesPerRound() const {
     return groups.unit * (groups.replicates ? kReplicates : 1);
   }
   /// Of the stream, for the paths [begin, end) and those that take turns with them.
   std::uint64_t Begin(std::uint64_t begin) const {
-    return begin / Turn() * Turn() * rays;
+    return begin / SamplesPerRound() * SamplesPerRound() * rays;
   }
   std::uint64_t End(std::uint64_t end) const {
-    return (end + Turn() - 1) / Turn() * Turn() * rays;
+    return (end + SamplesPerRound() - 1) / SamplesPerRound() * SamplesPerRound() * rays;
   }
   /// Calls body(sample) for the rays * unit samples of the stream that path i takes the
   /// mean of; paths of one unit share theirs.
@@ -113,8 +113,8 @@ class VisibleLightEdges {
             StageClock* clock);
   /// Corrects the samples of a task if its tile has edges, and counts the rays. Safe from
   /// several threads. Returns whether anything was done.
-  bool Correct(const VisibleLightTask& task, VisibleLightRays& rays, StageClock* clock,
-               RunCounts& counts) const;
+  bool CorrectSamples(const VisibleLightTask& task, VisibleLightRays& rays,
+                      StageClock* clock, RunCounts& counts) const;
 
   /// Returns the pixels of a tile with edges, as places in its TilePixels.
   const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }

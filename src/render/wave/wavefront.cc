@@ -53,8 +53,8 @@ RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   run.width = std::uint32_t(scene.view->film.width);
   run.height = std::uint32_t(scene.view->film.height);
   const Strategy strategy = PlannedStrategy(scene, plan.options);
-  run.points = MakeSamplerParameters(strategy.points);
-  run.points.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
+  run.sampler = MakeSamplerParameters(strategy.sampler);
+  run.sampler.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
   run.pairs = MakeAntitheticParameters(strategy);
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);

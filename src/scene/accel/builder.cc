@@ -51,7 +51,7 @@ class TreeBuilder {
     n.capacity = leaf;
     if (middle != range.begin) {
       n.child = tree_.AddPair();
-      const ItemRange second = ShareRoom(range, middle);
+      const ItemRange second = DistributeRoom(range, middle);
       const auto left = [&] { Build(n.child, range, leaf, depth + 1); };
       const auto right = [&] { Build(n.child + 1, second, leaf, depth + 1); };
       if (n.end - n.begin > kSerial) {
@@ -88,8 +88,10 @@ class TreeBuilder {
           {.leaf_size = block, .overlap = may_cut, .one_axis = one_axis_});
     }
     if (count <= leaf_size_) {
-      const bool pays = split.axis < 0 || split.cost + limit_.node_cost * area >= area;
-      if (pays && (!limit_.fits || limit_.fits(items, count, block))) return range.begin;
+      const bool is_cheaper =
+          split.axis < 0 || split.cost + limit_.node_cost * area >= area;
+      if (is_cheaper && (!limit_.fits || limit_.fits(items, count, block)))
+        return range.begin;
     }
     if (may_cut && depth < kMaxSahDepth && split.overlap > kOverlap * area) {
       const SpatialSplit cut =
@@ -125,7 +127,7 @@ class TreeBuilder {
 
   // Makes `range` the part before `middle` and returns the rest, with the room shared in
   // proportion to the areas: large boxes have most to gain from cuts.
-  ItemRange ShareRoom(ItemRange& range, std::uint32_t middle) {
+  ItemRange DistributeRoom(ItemRange& range, std::uint32_t middle) {
     ItemRange second{middle, range.end, range.limit};
     range.end = range.limit = middle;
     if (second.room() == 0) return second;

@@ -53,7 +53,7 @@ class Reinserter {
         large_(FindLarge()) {}
 
   // Makes the moves that gain most; returns their number.
-  std::size_t Round() {
+  std::size_t MakeBestMoves() {
     std::vector<Move> moves(large_.size());
     ParallelForRange(moves.size(), kSearchGrain, [&](std::size_t begin, std::size_t end) {
       std::vector<Open> stack;
@@ -64,7 +64,7 @@ class Reinserter {
       return a.gain != b.gain ? a.gain > b.gain : a.rank < b.rank;
     });
     std::size_t made = 0;
-    for (const Move& m : moves) made += Try(m);
+    for (const Move& m : moves) made += MoveIfBetter(m);
     return made;
   }
 
@@ -120,10 +120,10 @@ class Reinserter {
     std::uint32_t above = Parent(from), other = beside;
     float saved = Area(above);  // that node is not needed then
     AccelBox rest;              // what `above` holds without the subtree
-    int looks = kMaxVisitedNodes;
+    int visits = kMaxVisitedNodes;
     for (;;) {
       stack.assign(1, {other, saved});
-      VisitChildren(from, beside, stack, looks, best);
+      VisitChildren(from, beside, stack, visits, best);
       rest.Extend(tree_[other].box);
       if (above == 0) return best;
       if (above != Parent(from)) saved += Area(above) - rest.HalfArea();
@@ -133,10 +133,10 @@ class Reinserter {
   }
 
   void VisitChildren(std::uint32_t from, std::uint32_t beside, std::vector<Open>& stack,
-                     int& looks, Move& best) const {
+                     int& visits, Move& best) const {
     const AccelBox& box = tree_[from].box;
     const float area = box.HalfArea();
-    while (!stack.empty() && --looks >= 0) {
+    while (!stack.empty() && --visits >= 0) {
       const auto [at, saved] = stack.back();
       stack.pop_back();
       if (!(saved - area > best.gain)) continue;  // no box there is smaller
@@ -154,7 +154,7 @@ class Reinserter {
   }
 
   // Earlier moves may have changed what lies here and there: what is gained is measured.
-  bool Try(const Move& m) {
+  bool MoveIfBetter(const Move& m) {
     const std::uint32_t beside = Sibling(m.from), above = Parent(m.from);
     if (m.to == beside || m.to == above || IsIn(m.to, m.from)) return false;
     const int higher = std::max(tree_[m.from].height, tree_[m.to].height);
@@ -170,18 +170,18 @@ class Reinserter {
     const std::uint32_t above = Parent(from), pair = from & ~1u;
     const BinaryNode moved = tree_[from], sibling = tree_[Sibling(from)];
     double change = -double{Area(above)};
-    Put(above, sibling);
+    PlaceNode(above, sibling);
     if (above != 0) change += Refit(Parent(above));
     const BinaryNode neighbour = tree_[to];
-    Put(pair, neighbour);
-    Put(pair | 1, moved);
+    PlaceNode(pair, neighbour);
+    PlaceNode(pair | 1, moved);
     tree_[to].child = pair;
     owner_[pair / 2] = to;
     tree_[to].box = AccelBox();
     return change + Refit(to);
   }
 
-  void Put(std::uint32_t at, const BinaryNode& node) {
+  void PlaceNode(std::uint32_t at, const BinaryNode& node) {
     tree_[at] = node;
     if (!node.IsLeaf()) owner_[node.child / 2] = at;
     changed_.push_back(at);  // as the place may be where it was
@@ -221,7 +221,7 @@ void ReinsertSubtrees(BinaryTree& tree) {
   std::vector<std::uint32_t> changed;
   Reinserter reinserter(tree, changed);
   for (int i = 0; i < kRounds; ++i) {
-    if (reinserter.Round() == 0) break;
+    if (reinserter.MakeBestMoves() == 0) break;
   }
   std::ranges::sort(changed);
   changed.erase(std::ranges::unique(changed).begin(), changed.end());

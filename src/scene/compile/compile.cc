@@ -199,7 +199,7 @@ CompiledScene CompileScene(const SceneDescription& description,
     RequireUvAlpha(description, placement, scene.textures);
   }
   scene.lights = CompileLights(description, placement, compiled, scene.notes, spectra);
-  if (spectra != nullptr) scene.spectra = spectra->Take();
+  if (spectra != nullptr) scene.spectra = spectra->Finish();
   MakeAlpha(placement, compiled, scene);
   PlaceMedia(placement, compiled, scene.media);
   NoteLargeEmitters(placement, scene.notes);

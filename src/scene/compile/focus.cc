@@ -36,17 +36,17 @@ double RadiusOf(const PlacedShape& sphere) {
   return sphere.shape->radius * sphere.transform.UniformScale();
 }
 
-Foot FootOf(const PlacedShape& sphere, Vec3d eye) {
-  return FootOn(sphere.transform.Point({0, 0, 0}), RadiusOf(sphere), eye);
+NearestPoint FootOf(const PlacedShape& sphere, Vec3d eye) {
+  return NearestPointOn(sphere.transform.Point({0, 0, 0}), RadiusOf(sphere), eye);
 }
 
-bool IsLarge(const PlacedShape& sphere, const Foot& foot) {
+bool IsLarge(const PlacedShape& sphere, const NearestPoint& foot) {
   return foot.distance * kFocusRange < RadiusOf(sphere);
 }
 
 // A large sphere is seen as its nearest point.
 ShapeInView SphereInView(const PlacedShape& placed, const Box& box, Vec3d eye) {
-  const Foot foot = FootOf(placed, eye);
+  const NearestPoint foot = FootOf(placed, eye);
   if (!IsLarge(placed, foot)) return {Farthest(box, eye), box};
   ShapeInView seen{foot.distance, {}};
   seen.box.Add(foot.point);
@@ -112,7 +112,7 @@ Box NearPart(const std::vector<ShapeInView>& all) {
 
 }  // namespace
 
-Foot FootOn(Vec3d center, double radius, Vec3d eye) {
+NearestPoint NearestPointOn(Vec3d center, double radius, Vec3d eye) {
   const Vec3d out = eye - center;
   const double length = std::hypot(out.x, out.y, out.z);
   const Vec3d n = length > 0 ? out / length : Vec3d{0, 0, 1};
@@ -132,7 +132,7 @@ void SeparateLargeSpheres(Placement& placement) {
 void NoteLargeEmitters(const Placement& placement, std::vector<Note>& notes) {
   for (const PlacedShape& placed : placement.spheres) {
     const double radius = RadiusOf(placed);
-    const Foot foot = FootOf(placed, placement.eye);
+    const NearestPoint foot = FootOf(placed, placement.eye);
     if (!(foot.distance * kMaxEmitterRange < radius)) continue;
     notes.push_back(
         {placed.shape->where,

@@ -18,11 +18,11 @@ namespace lanelight {
 inline constexpr double kFocusRange = 64;
 
 /// Point of a sphere that is nearest to `eye`, and its distance.
-struct Foot {
+struct NearestPoint {
   Vec3d point;
   double distance = 0;
 };
-Foot FootOn(Vec3d center, double radius, Vec3d eye);
+NearestPoint NearestPointOn(Vec3d center, double radius, Vec3d eye);
 
 /// Needs `eye`. Moves the spheres to be compiled as LargeSphereRecords from `spheres` to
 /// `large_spheres`: those whose surface is nearer to the eye than radius / kFocusRange.

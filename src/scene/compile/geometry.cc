@@ -92,7 +92,7 @@ void CompileMeshes(const std::vector<Job>& jobs,
     }
   });
   if (!has_normals.load()) g.normals = {};
-  g.turned_tangents = std::ranges::any_of(
+  g.rotated_tangents = std::ranges::any_of(
       jobs, [](const Job& job) { return job.placed->mesh->rotates_tangents; });
 }
 

@@ -190,7 +190,7 @@ void AddSpectra(LightList& lights, SpectrumRows& spectra) {
   for (std::size_t i = 0; i < lights.table.lights.size(); ++i) {
     const LightRecord& light = lights.table.lights[i];
     if (HasColors(light)) {
-      spectra.NeedSigmoids();
+      spectra.AddSigmoidTables();
       lights.table.spectrum.push_back(-1);
       continue;
     }

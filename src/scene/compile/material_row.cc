@@ -23,7 +23,7 @@ void AddMaterialSpectra(const MaterialRow& row, SpectrumRows& spectra,
   const bool metal = HasTrait(row.kind, kMetallic);
   const ColorBound bound = metal ? ColorBound::kUnbounded : ColorBound::kReflectance;
   const auto by_path = [&] {
-    spectra.NeedSigmoids();
+    spectra.AddSigmoidTables();
     if (row.color_scale != 1) return PathColor::kScaledReflectance;
     if (!metal) return PathColor::kReflectance;
     return row.by_reflectance ? PathColor::kMetalExtinction : PathColor::kUnbounded;

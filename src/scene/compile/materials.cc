@@ -69,9 +69,10 @@ class Builder {
       LL_CHECK_GE(side, 0);
       LL_CHECK_LT(static_cast<std::size_t>(side), d_.materials.size());
       if (d_.materials[static_cast<std::size_t>(side)].kind == MaterialKind::kInterface) {
-        RefuseMaterial(m,
-                       "mixing with an \"interface\" material is not supported; for a "
-                       "cut-out use the shape's \"alpha\" parameter");
+        ThrowUnsupportedMaterial(
+            m,
+            "mixing with an \"interface\" material is not supported; for a "
+            "cut-out use the shape's \"alpha\" parameter");
       }
     }
     const FloatValue amount = build_.constants().Fold(m.mix_amount);

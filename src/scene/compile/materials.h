@@ -119,7 +119,7 @@ class RowBuilder {
 };
 
 /// Throws InputError at the material, with its name.
-[[noreturn]] void RefuseMaterial(const Material& m, const std::string& what);
+[[noreturn]] void ThrowUnsupportedMaterial(const Material& m, const std::string& what);
 
 /// Returns the reflected fraction of light that arrives along the normal.
 Rgb HeadOnAlbedo(const MeasuredReflectance& measured);

@@ -50,7 +50,7 @@ class MeasuredBuilder {
       record.reflectance = Grid(m.reflectance, 3 * slices);
     }
     table_.records.push_back(record);
-    table_.any_turns |= !m.isotropic();
+    table_.any_anisotropic |= !m.isotropic();
   }
 
  private:

@@ -136,7 +136,7 @@ bool IsTooFar(Vec3d p) {
   return !(a.x <= kFarthest && a.y <= kFarthest && a.z <= kFarthest);
 }
 
-[[noreturn]] void RefuseFar(const SourceLocation& where, const char* what) {
+[[noreturn]] void ThrowTooFar(const SourceLocation& where, const char* what) {
   throw InputError(where,
                    fmt::format("{} reaches beyond {:g} units from the origin of the "
                                "world, the supported range: scale the scene down",
@@ -172,7 +172,7 @@ Box UnionOfBoxes(const std::vector<PlacedShape>& shapes) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const std::optional<Box>& box = boxes[i];
     if (!box || (!box->empty() && (IsTooFar(box->min) || IsTooFar(box->max)))) {
-      RefuseFar(shapes[i].shape->where, "this shape");
+      ThrowTooFar(shapes[i].shape->where, "this shape");
     }
     all.Add(*box);
   }
@@ -308,7 +308,7 @@ void PlaceInstances(const SceneDescription& d, const TextureConstants& constants
     if (use.placed.bounds.empty()) continue;
     const Box box = BoxOf(instance, use.placed.bounds);
     if (box.empty() || IsTooFar(box.min) || IsTooFar(box.max)) {
-      RefuseFar(instance.where, "this instance");
+      ThrowTooFar(instance.where, "this instance");
     }
     if (use.copied) continue;  // the bounds of its copies are tighter
     (instance.end ? placement.instances : still)

@@ -55,7 +55,7 @@ LargeSphereRecord CompileLargeSphere(const PlacedShape& placed, const WorldFrame
   const SphereRecord sphere = CompileSphere(placed, frame, material);
   const Vec3d center = placed.transform.Point({0, 0, 0});
   const double radius = placed.shape->radius * placed.transform.UniformScale();
-  const Foot foot = FootOn(center, radius, eye);
+  const NearestPoint foot = NearestPointOn(center, radius, eye);
   auto record = MakeRecord<LargeSphereRecord>(placed, material);
   Store(frame.Point(foot.point), record.point);
   Store((foot.point - center) / radius, record.normal);

@@ -32,7 +32,7 @@ Rgb Clamped(Rgb c, double largest) {
 
 void CheckEta(const Material& m) {
   if (m.interface_eta > 0 && std::isfinite(m.interface_eta)) return;
-  RefuseMaterial(
+  ThrowUnsupportedMaterial(
       m, fmt::format("index of refraction {}; it must be positive", m.interface_eta));
 }
 
@@ -57,7 +57,7 @@ double Extinction(double r) {
 
 }  // namespace
 
-void RefuseMaterial(const Material& m, const std::string& what) {
+void ThrowUnsupportedMaterial(const Material& m, const std::string& what) {
   throw InputError(m.where,
                    (m.name.empty() ? "" : "material \"" + m.name + "\": ") + what);
 }

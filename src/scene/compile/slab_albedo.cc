@@ -142,7 +142,7 @@ double Largest(const Matrix& a) {
 }
 
 // Returns the reflectance of a half space, by doubling a layer until nothing passes.
-Matrix Deep(Layer layer) {
+Matrix HalfSpaceReflectance(Layer layer) {
   for (int i = 0; i < kMaxDoublings && Largest(layer.t) > 1e-7; ++i) {
     const Matrix many = Solve(OneMinus(layer.r * layer.r), layer.t);
     const Matrix back = layer.t * layer.r * many;
@@ -166,7 +166,7 @@ double NodeOf(std::size_t entry) {
 double SlabReflectance(double albedo, double g, double eta) {
   if (albedo >= 1) return 1;
   const Streams d = MakeStreams(eta);
-  const Matrix deep = Deep(ThinLayer(albedo, g, d));
+  const Matrix deep = HalfSpaceReflectance(ThinLayer(albedo, g, d));
   // By reciprocity, this is the light that leaves along the normal under light from all
   // directions.
   const std::size_t n = d.mu.size();

@@ -138,7 +138,7 @@ std::int32_t SpectrumRows::Append(std::initializer_list<std::vector<float>> rows
   return first;
 }
 
-void SpectrumRows::NeedSigmoids() {
+void SpectrumRows::AddSigmoidTables() {
   if (!table_.sigmoids.empty()) return;
   for (const auto& row : PolynomialThrough()) {
     for (double v : row) table_.polynomial.push_back(static_cast<float>(v));

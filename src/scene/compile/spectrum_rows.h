@@ -34,9 +34,9 @@ class SpectrumRows {
   /// Appends the rows of a medium; returns the index of the first.
   std::int32_t Append(std::initializer_list<std::vector<float>> rows);
   /// Adds the tables for colours that vary by path.
-  void NeedSigmoids();
+  void AddSigmoidTables();
 
-  SpectrumTable Take() { return std::move(table_); }
+  SpectrumTable Finish() { return std::move(table_); }
 
  private:
   std::int32_t Intern(const std::vector<float>& row);

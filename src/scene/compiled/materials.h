@@ -44,7 +44,7 @@ struct MeasuredTable {
   AlignedVector<MeasuredRecord> records;
   AlignedVector<float> values;
   AlignedVector<std::int32_t> of_material;  // record of each material; empty without any
-  bool any_turns = false;                   // a record has
+  bool any_anisotropic = false;             // a record has
 };
 
 /// Transmittance of a (rough) dielectric coat seen from outside, tabulated over

@@ -135,8 +135,8 @@ struct Geometry {
   AlignedVector<float>
       normals;  // 9 per triangle (3 vertices); empty without kVertexNormals.
                 // Unit; triangles without normals hold their face normal.
-  bool turned_tangents = false;  // some triangles are kRotatedTangents
-  AlignedVector<float> uvs;      // 6 per triangle; empty if not needed
+  bool rotated_tangents = false;  // some triangles are kRotatedTangents
+  AlignedVector<float> uvs;       // 6 per triangle; empty if not needed
   AlignedVector<SphereRecord> spheres;
   AlignedVector<DiskRecord> disks;
   AlignedVector<PlaneRecord> planes;

@@ -127,7 +127,7 @@ void RunReady(ParseState& state) {
   }
 }
 
-void RequireNothingWaits(const ParseState& state) {
+void RequireAllResolved(const ParseState& state) {
   if (state.waiting.empty()) return;
   std::map<NameKey, const WaitingStatement*> definitions;
   for (const auto& [place, statement] : state.waiting) {

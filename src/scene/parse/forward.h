@@ -50,7 +50,7 @@ void RunReady(ParseState& state);
 
 /// Throws InputError for the first statement in the file that still waits: the name is
 /// defined nowhere, or by itself.
-void RequireNothingWaits(const ParseState& state);
+void RequireAllResolved(const ParseState& state);
 
 /// Returns the index of medium `name`, which may be defined later.
 Index UseMedium(ParseState& state, const std::string& name, const SourceLocation& where);

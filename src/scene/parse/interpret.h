@@ -62,7 +62,7 @@ struct NamedFile {
 /// Returns the file; an empty name is an InputError.
 NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view name);
 /// Returns a file that must be given, or throws InputError.
-NamedFile NeedFile(const ParseState& state, ParamSet& params, std::string_view name);
+NamedFile RequireFile(const ParseState& state, ParamSet& params, std::string_view name);
 
 // interpret_subsurface.cc -----------------------------------------------------------
 /// Appends the medium in a material "subsurface" of index `eta`; returns its index.

@@ -67,7 +67,7 @@ void CheckLenses(ParseState& state, ParamSet& params, const Param& file,
 }
 
 void ReadRealistic(ParseState& state, ParamSet& params, Camera& camera) {
-  const NamedFile file = NeedFile(state, params, "lensfile");
+  const NamedFile file = RequireFile(state, params, "lensfile");
   camera.aperture_diameter = params.Float("aperturediameter", 1, {1e-6, kHuge});
   camera.focal_distance = params.Float("focusdistance", 10, {1e-30, kHuge});
   camera.aperture = params.String("aperture", "");

@@ -144,7 +144,7 @@ void ReadInfinite(ParseState& state, ParamSet& params, Light* light) {
 // The image decides on the factor that gives the light its power.
 void ReadImageLight(ParseState& state, ParamSet& params, Light* light) {
   light->power = Target(params, "power");
-  const NamedFile file = NeedFile(state, params, "filename");
+  const NamedFile file = RequireFile(state, params, "filename");
   light->where = file.param->where;  // where a missing image is reported
   light->image_path = file.path;
 }

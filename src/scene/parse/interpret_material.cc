@@ -181,7 +181,7 @@ void ReadSubsurface(ParseState& state, ParamSet& params, Material* material) {
 }
 
 void ReadMeasured(ParseState& state, ParamSet& params, Material* material) {
-  const NamedFile file = NeedFile(state, params, "filename");
+  const NamedFile file = RequireFile(state, params, "filename");
   if (!state.options.allow_files) {
     params.Fail(*file.param, "reading files is disabled here");
   }

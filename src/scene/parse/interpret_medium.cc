@@ -77,7 +77,7 @@ void ReadCloud(ParseState& state, ParamSet& params, Medium* medium) {
 }
 
 void ReadNanoVdb(ParseState& state, ParamSet& params, Medium* medium) {
-  const auto [file, path] = NeedFile(state, params, "filename");
+  const auto [file, path] = RequireFile(state, params, "filename");
   if (!state.options.allow_files) {
     throw InputError(file->where,
                      "found the NanoVDB file {}, but reading files is disabled here",

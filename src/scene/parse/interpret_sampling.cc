@@ -53,12 +53,15 @@ void InterpretLightSampler(ParseState& state, ParamSet& params) {
 }  // namespace
 
 void InterpretSampler(ParseState& state, const std::string& type, ParamSet& params) {
-  static constexpr std::pair<const char*, Points> kSamplers[] = {
-      {"zsobol", Points::kSobol},         {"independent", Points::kIndependent},
-      {"paddedsobol", Points::kSobol},    {"sobol", Points::kSobol},
-      {"halton", Points::kHalton},        {"pmj02bn", Points::kPmj02},
-      {"stratified", Points::kStratified}};
-  const Points points = Lookup(kSamplers, type, params.where(), "sampler");
+  static constexpr std::pair<const char*, SampleSequence> kSamplers[] = {
+      {"zsobol", SampleSequence::kSobol},
+      {"independent", SampleSequence::kIndependent},
+      {"paddedsobol", SampleSequence::kSobol},
+      {"sobol", SampleSequence::kSobol},
+      {"halton", SampleSequence::kHalton},
+      {"pmj02bn", SampleSequence::kPmj02},
+      {"stratified", SampleSequence::kStratified}};
+  const SampleSequence sequence = Lookup(kSamplers, type, params.where(), "sampler");
   Sampler sampler = state.scene.sampler;
   if (type == "stratified") {
     constexpr int kMaxStrata = 32768;
@@ -75,7 +78,7 @@ void InterpretSampler(ParseState& state, const std::string& type, ParamSet& para
   }
   params.CheckAllUsed();
   state.scene.sampler = sampler;
-  state.scene.strategy.points = points;
+  state.scene.strategy.sampler = sequence;
 }
 
 void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& params) {

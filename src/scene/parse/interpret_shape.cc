@@ -66,7 +66,7 @@ double EdgeLength(ParseState& state, ParamSet& params) {
 }
 
 void ReadPly(ParseState& state, ParamSet& params, Shape*) {
-  const NamedFile file = NeedFile(state, params, "filename");
+  const NamedFile file = RequireFile(state, params, "filename");
   MeshRequest request{file.path, file.param->where, state.open_object,
                       state.OpenShapes().size()};
   request.world_from_object = state.graphics.ctm;
@@ -202,7 +202,7 @@ void AddShape(ParseState& state, const std::string& type, ParamSet& params,
 
 // Why a shape that moves in the file cannot move here; empty if it can.
 std::string ReasonNotMoving(const ParseState& state, ShapeKind kind, Index material) {
-  if (const char* why = WhyCannotMove(kind)) return why;
+  if (const char* why = MotionProblem(kind)) return why;
   const bool emits = state.graphics.area_light != kNone && state.open_object == kNone &&
                      state.scene.materials[material].kind != MaterialKind::kInterface;
   return emits ? "an area light cannot move: light is sampled where it is at the start"

@@ -72,7 +72,7 @@ void ReadEncoding(ParamSet& params, Texture* texture) {
 }
 
 void ReadImage(ParseState& state, ParamSet& params, Texture* texture) {
-  const NamedFile file = NeedFile(state, params, "filename");
+  const NamedFile file = RequireFile(state, params, "filename");
   texture->path = file.path;
   texture->where = file.param->where;  // where a missing image is reported
   texture->wrap = params.Choice<WrapMode>(

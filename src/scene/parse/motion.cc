@@ -58,7 +58,7 @@ void Fit(double from, double to, Transform* start, EndTransform* end) {
 
 }  // namespace
 
-const char* WhyCannotMove(ShapeKind kind) {
+const char* MotionProblem(ShapeKind kind) {
   if (kind == ShapeKind::kCurves) {
     return "a curve cannot move: rays meet curves in the world, where they have no "
            "instances";
@@ -113,7 +113,7 @@ void PlaceMovingShapes(ParseState& state) {
     const Instance instance = instances[i];
     if (instance.end) {
       for (const Shape& shape : state.scene.objects[instance.object].shapes) {
-        const char* why = WhyCannotMove(shape.kind);
+        const char* why = MotionProblem(shape.kind);
         if (why != nullptr) state.Unsupported(instance.where, why);
       }
     }

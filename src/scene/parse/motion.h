@@ -10,7 +10,7 @@
 namespace lanelight {
 
 /// Why shapes of a kind stay where they are at the start, or null: they can move.
-const char* WhyCannotMove(ShapeKind kind);
+const char* MotionProblem(ShapeKind kind);
 
 /// A note that a thing of this kind stays at the start, if the current transforms differ.
 void NoteIgnoredMotion(ParseState& state, const SourceLocation& where,

@@ -38,17 +38,18 @@ ParamSet::ParamSet(std::string object, SourceLocation where, ParamList own,
       inherited_(std::move(inherited)),
       notes_(notes) {}
 
-std::string ParamSet::About(const Param& param, const std::string& message) const {
+std::string ParamSet::ParameterMessage(const Param& param,
+                                       const std::string& message) const {
   return fmt::format("{}, in {} of {}", message, Quoted(Typed(param.type, param.name)),
                      object_);
 }
 
 void ParamSet::Fail(const Param& param, const std::string& message) const {
-  throw InputError(param.where, About(param, message));
+  throw InputError(param.where, ParameterMessage(param, message));
 }
 
 void ParamSet::Warn(const Param& param, const std::string& message) const {
-  notes_->push_back({param.where, About(param, message), false, true});
+  notes_->push_back({param.where, ParameterMessage(param, message), false, true});
 }
 
 const Param* ParamSet::Find(std::string_view name,
@@ -83,7 +84,7 @@ const Param& ParamSet::Need(std::string_view name, ParamType type) {
   throw InputError(where_, "{} has no \"{}\"", object_, Typed(type, name));
 }
 
-const Param* ParamSet::Single(std::string_view name, ParamType type) {
+const Param* ParamSet::FindSingle(std::string_view name, ParamType type) {
   const Param* param = Find(name, {type});
   if (param == nullptr) return nullptr;
   const std::size_t wanted = type == ParamType::kPoint3 ? 3 : 1;
@@ -100,38 +101,38 @@ void ParamSet::CheckLimits(const Param& param, Limits limits) const {
 }
 
 double ParamSet::Float(std::string_view name, double absent, Limits limits) {
-  const Param* param = Single(name, ParamType::kFloat);
+  const Param* param = FindSingle(name, ParamType::kFloat);
   if (param == nullptr) return absent;
   CheckLimits(*param, limits);
   return param->numbers[0];
 }
 
 int ParamSet::Integer(std::string_view name, int absent, Limits limits) {
-  const Param* param = Single(name, ParamType::kInteger);
+  const Param* param = FindSingle(name, ParamType::kInteger);
   if (param == nullptr) return absent;
   CheckLimits(*param, limits);
   return static_cast<int>(param->numbers[0]);
 }
 
 bool ParamSet::Bool(std::string_view name, bool absent) {
-  const Param* param = Single(name, ParamType::kBool);
+  const Param* param = FindSingle(name, ParamType::kBool);
   return param == nullptr ? absent : param->bools[0];
 }
 
 std::string ParamSet::String(std::string_view name, const std::string& absent) {
-  const Param* param = Single(name, ParamType::kString);
+  const Param* param = FindSingle(name, ParamType::kString);
   return param == nullptr ? absent : param->strings[0];
 }
 
 Vec3d ParamSet::Point3(std::string_view name, Vec3d absent) {
-  const Param* param = Single(name, ParamType::kPoint3);
+  const Param* param = FindSingle(name, ParamType::kPoint3);
   return param == nullptr ? absent : Triples(*param)[0];
 }
 
 std::size_t ParamSet::ChoiceOf(std::string_view name,
                                const std::vector<std::string>& choices,
                                const char* unknown) {
-  const Param* param = Single(name, ParamType::kString);
+  const Param* param = FindSingle(name, ParamType::kString);
   if (param == nullptr) return 0;
   auto it = std::find(choices.begin(), choices.end(), param->strings[0]);
   if (it == choices.end() && unknown != nullptr) {

@@ -130,8 +130,8 @@ class ParamSet {
   void Warn(const Param& param, const std::string& message) const;
 
  private:
-  std::string About(const Param& param, const std::string& message) const;
-  const Param* Single(std::string_view name, ParamType type);
+  std::string ParameterMessage(const Param& param, const std::string& message) const;
+  const Param* FindSingle(std::string_view name, ParamType type);
   void CheckLimits(const Param& param, Limits limits) const;
   // The position of a string in `choices`; 0 if it is not given.
   std::size_t ChoiceOf(std::string_view name, const std::vector<std::string>& choices,

@@ -120,7 +120,7 @@ SceneDescription Finish(ParseState& state, const SourceLocation& end) {
   if (!state.in_world) {
     throw InputError(end, "the file ends without WorldBegin, so it describes no scene");
   }
-  RequireNothingWaits(state);
+  RequireAllResolved(state);
   RequireSlotsDefined(state);
   PlaceMovingShapes(state);
   state.scene.film.imaging_ratio =

@@ -89,7 +89,7 @@ NamedFile FileOf(const ParseState& state, ParamSet& params, std::string_view nam
   return {param, ResolvePath(state, file)};
 }
 
-NamedFile NeedFile(const ParseState& state, ParamSet& params, std::string_view name) {
+NamedFile RequireFile(const ParseState& state, ParamSet& params, std::string_view name) {
   params.Need(name, ParamType::kString);
   return FileOf(state, params, name);
 }

@@ -114,7 +114,7 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
   });
 }
 
-ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
+PilotImage::PilotImage(std::uint32_t width, std::uint32_t height,
                        std::span<const std::uint32_t> pixels,
                        std::span<const Vec3f> samples)
     : width_(width),
@@ -142,12 +142,12 @@ ImageGuess::ImageGuess(std::uint32_t width, std::uint32_t height,
   Blur(sums);
 }
 
-void ImageGuess::Sum::Add(const Sum& other, double weight) {
+void PilotImage::Sum::Add(const Sum& other, double weight) {
   for (int c = 0; c < 3; ++c) color[c] += weight * other.color[c];
   count += weight * other.count;
 }
 
-void ImageGuess::Blur(const std::vector<Sum>& sums) {
+void PilotImage::Blur(const std::vector<Sum>& sums) {
   const int columns = static_cast<int>(columns_), rows = static_cast<int>(rows_);
   tiles_.resize(sums.size());
   for (int y = 0; y < rows; ++y) {
@@ -167,24 +167,24 @@ void ImageGuess::Blur(const std::vector<Sum>& sums) {
   }
 }
 
-float ImageGuess::Channel(int c) const {
+float PilotImage::Channel(int c) const {
   // A channel that is black, or nearly, weighs what one of a hundredth of the mean would.
   return static_cast<float>(black() ? 1.0 / 3
                                     : Mean() / 3 / std::max(mean_[c], 0.01 * Mean()));
 }
 
-double ImageGuess::ErrorWeight(std::uint32_t pixel, int c) const {
+double PilotImage::ErrorWeight(std::uint32_t pixel, int c) const {
   const double color = Tile(pixel).color[c];
   return black() ? 0 : 1 / (color * color + epsilon_);
 }
 
-double ImageGuess::Brightness(std::uint32_t pixel) const {
+double PilotImage::Brightness(std::uint32_t pixel) const {
   double sum = 0;
   for (int c = 0; c < 3; ++c) sum += double{Channel(c)} * Tile(pixel).color[c];
   return sum;
 }
 
-AlignedVector<float> ImageGuess::Inverse(bool faithful) const {
+AlignedVector<float> PilotImage::Inverse(bool faithful) const {
   const double epsilon = faithful ? Mean() * Mean() / 400 : epsilon_;
   AlignedVector<float> inverse(std::size_t{width_} * height_ * 3);
   for (std::uint32_t i = 0; i < width_ * height_ && !black(); ++i) {

@@ -62,12 +62,12 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
 /// Colours of the pixels of an image from a few samples: means over tiles of 8x8 pixels,
 /// blurred over their neighbours. A sample counts at most kClamp times the mean of the
 /// image.
-class ImageGuess {
+class PilotImage {
  public:
   static constexpr double kClamp = 20;
 
   /// samples[i]: of pixel pixels[i / (samples.size() / pixels.size())], y * width + x.
-  ImageGuess(std::uint32_t width, std::uint32_t height,
+  PilotImage(std::uint32_t width, std::uint32_t height,
              std::span<const std::uint32_t> pixels, std::span<const Vec3f> samples);
 
   bool black() const { return !(mean_[0] + mean_[1] + mean_[2] > 0); }

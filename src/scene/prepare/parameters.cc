@@ -29,7 +29,7 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
   const char* const what = pairs ? "pairs" : "points";
   const std::uint64_t own = units / kReplicates, rest = units % kReplicates;
-  const std::uint64_t maximum = std::uint64_t{1} << LogSequence(strategy.points);
+  const std::uint64_t maximum = std::uint64_t{1} << LogSequence(strategy.sampler);
   if (own + (rest > 0) > maximum) {
     const std::uint64_t cycle = maximum * kReplicates;
     const std::uint64_t rounds = (units + cycle - 1) / cycle;
@@ -48,10 +48,10 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
 
 }  // namespace
 
-SamplerParameters MakeSamplerParameters(Points points) {
+SamplerParameters MakeSamplerParameters(SampleSequence sampler) {
   SamplerParameters p;
-  p.group_shift = LogSequence(points);
-  if (points == Points::kPmj02) p.pmj02 = Pmj02Table().data();
+  p.group_shift = LogSequence(sampler);
+  if (sampler == SampleSequence::kPmj02) p.pmj02 = Pmj02Table().data();
   return p;
 }
 
@@ -94,18 +94,18 @@ std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features)
   return features.Has(Feature::kLightCandidates) ? strategy.candidates : 1;
 }
 
-std::uint32_t LogSequence(Points points) {
-  switch (points) {
-    case Points::kIndependent:
+std::uint32_t LogSequence(SampleSequence sampler) {
+  switch (sampler) {
+    case SampleSequence::kIndependent:
       return 0;
-    case Points::kPmj02:
-      return std::bit_width(kPmj02Points) - 1;
-    case Points::kHalton:
-      return 12;               // below 3^8: see kernels/points/halton-inl.h
-    case Points::kStratified:  // beyond, floats have no room for more strata
-    case Points::kCmj:
-    case Points::kSobol:
-    case Points::kLattice:
+    case SampleSequence::kPmj02:
+      return std::bit_width(kPmj02SequenceLength) - 1;
+    case SampleSequence::kHalton:
+      return 12;                       // below 3^8: see kernels/samplers/halton-inl.h
+    case SampleSequence::kStratified:  // beyond, floats have no room for more strata
+    case SampleSequence::kCmj:
+    case SampleSequence::kSobol:
+    case SampleSequence::kLattice:
       return 20;
   }
   return 0;
@@ -116,7 +116,7 @@ SampleGroups GroupsOf(const Strategy& strategy) {
   groups.unit = strategy.pairs == Pairs::kAntithetic ? 2 : 1;
   // Pairs of which the fit of control=regression knows single samples have no variance of
   // their own: those of four turns say it.
-  groups.replicates = strategy.points != Points::kIndependent ||
+  groups.replicates = strategy.sampler != SampleSequence::kIndependent ||
                       (groups.unit == 2 && strategy.control == Control::kRegression);
   groups.dependents = Dependents(strategy);
   return groups;
@@ -125,8 +125,8 @@ SampleGroups GroupsOf(const Strategy& strategy) {
 std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
   const bool pairs = strategy.pairs == Pairs::kAntithetic;
   const std::uint64_t units = pairs ? (spp + 1) / 2 : spp;
-  std::string text = Name(strategy.points);
-  if (strategy.points != Points::kIndependent) {
+  std::string text = Name(strategy.sampler);
+  if (strategy.sampler != SampleSequence::kIndependent) {
     if (spp == 0) {
       text += fmt::format(", {} randomisations", kReplicates);
     } else if (units < 2 * kReplicates) {

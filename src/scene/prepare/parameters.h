@@ -10,7 +10,7 @@
 
 namespace lanelight {
 
-SamplerParameters MakeSamplerParameters(Points points);
+SamplerParameters MakeSamplerParameters(SampleSequence sampler);
 AntitheticParameters MakeAntitheticParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
@@ -18,7 +18,7 @@ RouletteParameters MakeRouletteParameters(const Strategy& strategy);
 std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features);
 
 /// Returns log2 of the number of points of one randomisation.
-std::uint32_t LogSequence(Points points);
+std::uint32_t LogSequence(SampleSequence sampler);
 
 /// Returns the groups that count as one observation.
 SampleGroups GroupsOf(const Strategy& strategy);

@@ -113,11 +113,12 @@ void MakePmj02(std::uint64_t seed, std::span<std::uint32_t> out) {
 
 std::span<const std::uint32_t> Pmj02Table() {
   static const std::vector<std::uint32_t> table = [] {
-    std::vector<std::uint32_t> all(std::size_t{2} * kPmj02Points * kPmj02Sequences);
+    std::vector<std::uint32_t> all(std::size_t{2} * kPmj02SequenceLength *
+                                   kPmj02Sequences);
     for (std::uint32_t s = 0; s < kPmj02Sequences; ++s) {
       MakePmj02(0x7061746873ull + s,
-                std::span(all).subspan(std::size_t{2} * kPmj02Points * s,
-                                       std::size_t{2} * kPmj02Points));
+                std::span(all).subspan(std::size_t{2} * kPmj02SequenceLength * s,
+                                       std::size_t{2} * kPmj02SequenceLength));
     }
     return all;
   }();

@@ -9,7 +9,7 @@
 namespace lanelight {
 
 /// Points of one stored sequence.
-inline constexpr std::uint32_t kPmj02Points = 1024;
+inline constexpr std::uint32_t kPmj02SequenceLength = 1024;
 /// Stored sequences: points of 2^32 u0, 2^32 u1, one sequence after the other.
 inline constexpr std::uint32_t kPmj02Sequences = 8;
 

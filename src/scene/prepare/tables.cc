@@ -13,7 +13,7 @@ StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   return tables;
 }
 
-AlignedVector<float> InverseShadowThreshold(const ImageGuess& image, std::uint32_t pixels,
+AlignedVector<float> InverseShadowThreshold(const PilotImage& image, std::uint32_t pixels,
                                             double relative, double exposure) {
   AlignedVector<float> inverse;
   if (image.black() || !(relative > 0)) return inverse;

@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-class ImageGuess;      // src/scene/prepare/estimate_path_values.h
+class PilotImage;      // src/scene/prepare/estimate_path_values.h
 struct PreparedScene;  // src/scene/prepare/prepared_scene.h
 
 /// Cells of a box, times the six dominant directions of the normal.
@@ -28,7 +28,7 @@ struct PathValues {
   /// Brightness is sum_c channel[c] c: all channels count alike in the mean of the image,
   /// as they do in a relative error.
   float channel[3] = {1.0f / 3, 1.0f / 3, 1.0f / 3};
-  AlignedVector<float> inverse_pixel;  // ImageGuess::Inverse
+  AlignedVector<float> inverse_pixel;  // PilotImage::Inverse
   /// adjoint: the mean estimate. efficiency: sqrt(E[estimate^2] / cost).
   AlignedVector<float> survive;
   /// efficiency: sqrt(variance of the estimate / cost).
@@ -53,7 +53,7 @@ struct ShadowThreshold {
 ///   threshold_c = sqrt(I_c^2 + epsilon) * relative,   3 inverse_c^2 = 1 / threshold_c^2
 /// relative: sqrt(relative variance of a sample * t / cost of a sample); 0 = trace all.
 /// exposure: factor from what rays carry to the colours that `image` was made of.
-AlignedVector<float> InverseShadowThreshold(const ImageGuess& image, std::uint32_t pixels,
+AlignedVector<float> InverseShadowThreshold(const PilotImage& image, std::uint32_t pixels,
                                             double relative, double exposure);
 
 struct StrategyTables {

@@ -25,11 +25,11 @@ enum class ReuseState : std::uint32_t {
   kMirrored  // its light sample is kept; what comes next has been found by a mirror
 };
 /// Returns whether the second vertex is offered to other paths.
-constexpr bool Serves(std::uint32_t state) {
+constexpr bool IsReusable(std::uint32_t state) {
   return state >= static_cast<std::uint32_t>(ReuseState::kSecond);
 }
 /// Returns whether, moreover, the radiance that it sends depends on the direction.
-constexpr bool ServesGlossily(std::uint32_t state) {
+constexpr bool IsReusableGlossy(std::uint32_t state) {
   return state > static_cast<std::uint32_t>(ReuseState::kSecond);
 }
 
@@ -119,7 +119,7 @@ struct GlossyColumns {
 };
 
 /// Columns of a path that are kept, and where.
-struct KeptColumns {
+struct StoredColumns {
   const std::uint32_t* from[kNumFields];
   std::uint32_t* to[kNumFields];
   std::uint32_t count = 0;
@@ -170,7 +170,7 @@ struct Block {
   // kernels that read surfaces read them there.
   Wave* first = nullptr;
   Wave* glossy_surface = nullptr;
-  KeptColumns first_columns, glossy_columns;
+  StoredColumns first_columns, glossy_columns;
 
   const std::uint32_t* records = nullptr;  // of the block
   std::uint32_t size = 0;                  // at most kMaxReusedPaths

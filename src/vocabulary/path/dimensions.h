@@ -3,7 +3,7 @@
 //
 // Every bounce has kDimensionsPerBounce of them, and every purpose a range of its own. A
 // new dimension takes a free number and changes no other.
-// tests/kernels/points/golden_test.cc holds values of each.
+// tests/kernels/samplers/golden_test.cc holds values of each.
 #pragma once
 
 #include <cstdint>

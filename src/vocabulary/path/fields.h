@@ -256,7 +256,7 @@ inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
                                          Field::coat_thickness, Field::coat_albedo_r,
                                          Field::coat_albedo_g,  Field::coat_albedo_b,
                                          Field::coat_g,         Field::eta};
-inline constexpr FieldSet kBouncePoints = {
+inline constexpr FieldSet kBounceNumbers = {
     Field::u_lobe,      Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
     Field::u_light_0,   Field::u_light_1,  Field::u_roulette, Field::u_shadow,
     Field::u_candidate, Field::u_medium_0, Field::u_medium_1};

@@ -126,7 +126,7 @@ struct RunParameters {
   float exposure = 1;  // factor from radiance to film
   FeatureSet features;
   SamplePlanes planes;  // of a finished sample
-  SamplerParameters points;
+  SamplerParameters sampler;
   AntitheticParameters pairs;
   MisParameters mis;
   RouletteParameters roulette;

@@ -19,8 +19,8 @@ inline float* ColorOf(const Wave& wave, std::uint32_t record) {
 inline float MaxSent(const Wave& wave, std::uint32_t record) {
   const Block& block = *wave.block;
   const std::uint32_t state = block.second.state[record];
-  if (!Serves(state)) return 0;
-  if (ServesGlossily(state)) return block.glossy.sent[record];
+  if (!IsReusable(state)) return 0;
+  if (IsReusableGlossy(state)) return block.glossy.sent[record];
   const float* color = ColorOf(wave, record);
   const std::size_t stride = wave.buffer.stride;
   return std::max({color[0], color[stride], color[2 * stride]});

@@ -37,7 +37,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(T, K, Mis, PLAIN, ({kSampledHittableLights}), "mis", "[:power|:balance]", "both, weighted by the power or balance heuristic (default)", \
     "sum_i w_i f / p_i, w_i = p_i^e / sum_j p_j^e, e = 2 or 1", "Veach and Guibas 1995")
 
-#define LANELIGHT_POINTS(X, T, K)                                                               \
+#define LANELIGHT_SAMPLE_SEQUENCES(X, T, K)                                                               \
   X(T, K, Independent, STAGE, ({}), "independent", "", "independent uniform numbers", \
     "variance sigma^2 / N", "Jarzynski and Olano 2020 (hash)")                            \
   X(T, K, Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
@@ -148,7 +148,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
 // Every axis, as in a strategy's text: X(type, member of Strategy, key, choices).
 #define LANELIGHT_AXES(X)                                                           \
   X(Directions, directions, "directions", LANELIGHT_DIRECTIONS)                     \
-  X(Points, points, "points", LANELIGHT_POINTS)                                     \
+  X(SampleSequence, sampler, "points", LANELIGHT_SAMPLE_SEQUENCES)                  \
   X(Pairs, pairs, "pairs", LANELIGHT_PAIRS)                                         \
   X(Control, control, "control", LANELIGHT_CONTROLS)                                \
   X(Roulette, roulette, "roulette", LANELIGHT_ROULETTES)                            \
@@ -176,7 +176,8 @@ enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 
 // Counts the choices of an axis.
 #define X(...) +1
-inline constexpr int kNumPoints = LANELIGHT_POINTS(X, Points, "points");
+inline constexpr int kNumSampleSequences =
+    LANELIGHT_SAMPLE_SEQUENCES(X, SampleSequence, "points");
 #undef X
 
 // The texts of the choices, in the order of their enumerators: kDirectionsNames, ...

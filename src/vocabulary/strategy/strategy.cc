@@ -50,7 +50,7 @@ std::string ToText(const Strategy& s) {
   if (s.directions == Directions::kMis) {
     text += fmt::format(":{}", kHeuristicNames[static_cast<int>(s.heuristic)]);
   }
-  text += fmt::format(",points={},pairs={}", Name(s.points), Name(s.pairs));
+  text += fmt::format(",points={},pairs={}", Name(s.sampler), Name(s.pairs));
   if (s.pairs == Pairs::kAntithetic) text += fmt::format(":{}", Name(s.paired));
   text += fmt::format(",control={}", Name(s.control));
   if (s.control != Control::kNone) {

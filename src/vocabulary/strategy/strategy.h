@@ -26,7 +26,7 @@ inline constexpr std::uint32_t kMinReusedPaths = 2, kMaxReusedPaths = 64;
 struct Strategy {
   Directions directions = Directions::kMis;
   Heuristic heuristic = Heuristic::kPower;  // of kMis
-  Points points = Points::kSobol;
+  SampleSequence sampler = SampleSequence::kSobol;
   Pairs pairs = Pairs::kNone;
   Paired paired = Paired::kAll;  // of kAntithetic
   Control control = Control::kNone;

@@ -17,18 +17,18 @@ TEST_CASE("a lock has one owner at a time", "[core][lock]") {
   const TemporaryFolder folder;
   // Two objects are like two processes: locks belong to open files.
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  CHECK(a.locking());
+  CHECK(a.supports_locks());
   {
-    const auto x = a.Take("x");
+    const auto x = a.TryLock("x");
     REQUIRE(x);
-    CHECK_FALSE(b.Take("x"));
-    CHECK(b.Take("y"));
-    const auto z = b.Take("z");
+    CHECK_FALSE(b.TryLock("x"));
+    CHECK(b.TryLock("y"));
+    const auto z = b.TryLock("z");
     CHECK(z);
-    CHECK_FALSE(a.Take("z"));
+    CHECK_FALSE(a.TryLock("z"));
   }
-  CHECK(b.Take("x"));
-  CHECK(a.Take("z"));
+  CHECK(b.TryLock("x"));
+  CHECK(a.TryLock("z"));
 }
 
 TEST_CASE("a moved lock has the new owner", "[core][lock]") {
@@ -36,16 +36,16 @@ TEST_CASE("a moved lock has the new owner", "[core][lock]") {
   const LockFile a(folder.File("a")), b(folder.File("a"));
   std::optional<ScopedLock> kept;
   {
-    auto x = a.Take("x");
+    auto x = a.TryLock("x");
     REQUIRE(x);
     kept = std::move(x);
   }
-  CHECK_FALSE(b.Take("x"));
-  kept = a.Take("y");
-  CHECK(b.Take("x"));
-  CHECK_FALSE(b.Take("y"));
+  CHECK_FALSE(b.TryLock("x"));
+  kept = a.TryLock("y");
+  CHECK(b.TryLock("x"));
+  CHECK_FALSE(b.TryLock("y"));
   kept.reset();
-  CHECK(b.Take("y"));
+  CHECK(b.TryLock("y"));
 }
 
 TEST_CASE("a lock is released with its object, however often the file is open",
@@ -55,15 +55,15 @@ TEST_CASE("a lock is released with its object, however often the file is open",
   const LockFile one(path);
   {
     const LockFile other(path);
-    const auto held = other.Take("x");
-    CHECK(held);
-    CHECK_FALSE(one.Take("x"));
+    const auto claim = other.TryLock("x");
+    CHECK(claim);
+    CHECK_FALSE(one.TryLock("x"));
     {
       const LockFile third(path);
     }  // whose end frees nothing of the second one's
-    CHECK_FALSE(one.Take("x"));
+    CHECK_FALSE(one.TryLock("x"));
   }
-  CHECK(one.Take("x"));
+  CHECK(one.TryLock("x"));
 }
 
 TEST_CASE("locks of a killed process are released immediately", "[core][lock]") {
@@ -75,22 +75,22 @@ TEST_CASE("locks of a killed process are released immediately", "[core][lock]") 
   REQUIRE(child >= 0);
   if (child == 0) {
     const LockFile file(path);
-    const auto held = file.Take("x");
-    const char taken = held ? 'y' : 'n';
-    if (write(ready[1], &taken, 1) == 1) pause();
+    const auto claim = file.TryLock("x");
+    const char is_locked = claim ? 'y' : 'n';
+    if (write(ready[1], &is_locked, 1) == 1) pause();
     _exit(1);
   }
-  char taken = 0;
-  REQUIRE(read(ready[0], &taken, 1) == 1);
-  CHECK(taken == 'y');
+  char is_locked = 0;
+  REQUIRE(read(ready[0], &is_locked, 1) == 1);
+  CHECK(is_locked == 'y');
   const LockFile own(path), other(path);
-  CHECK_FALSE(own.Take("x"));
+  CHECK_FALSE(own.TryLock("x"));
   kill(child, SIGKILL);
   // Until the kernel has closed the child's files.
-  const auto taken_over = own.Wait("x", [](double) { return true; });
-  CHECK(taken_over);
+  const auto takeover = own.Wait("x", [](double) { return true; });
+  CHECK(takeover);
   CHECK(waitpid(child, nullptr, 0) == child);
-  CHECK_FALSE(other.Take("x"));
+  CHECK_FALSE(other.TryLock("x"));
   close(ready[0]);
   close(ready[1]);
 }
@@ -98,7 +98,7 @@ TEST_CASE("locks of a killed process are released immediately", "[core][lock]") 
 TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  const auto held = a.Take("x");
+  const auto claim = a.TryLock("x");
   std::vector<double> waited;
   const auto keep_waiting = [&](double seconds) {
     waited.push_back(seconds);
@@ -115,15 +115,15 @@ TEST_CASE("waiting for a lock can be cancelled", "[core][lock]") {
 TEST_CASE("ten thousand locks use one file", "[core][lock]") {
   const TemporaryFolder folder;
   const LockFile a(folder.File("a")), b(folder.File("a"));
-  std::vector<ScopedLock> taken;
+  std::vector<ScopedLock> locks;
   for (int i = 0; i < 10000; ++i) {
-    auto lock = a.Take("cell " + std::to_string(i));
+    auto lock = a.TryLock("cell " + std::to_string(i));
     REQUIRE(lock);
-    taken.push_back(std::move(*lock));
+    locks.push_back(std::move(*lock));
   }
-  CHECK_FALSE(b.Take("cell 0"));
-  CHECK_FALSE(b.Take("cell 9999"));
-  CHECK(b.Take("cell 10000"));
+  CHECK_FALSE(b.TryLock("cell 0"));
+  CHECK_FALSE(b.TryLock("cell 9999"));
+  CHECK(b.TryLock("cell 10000"));
   CHECK(folder.Count() == 1);
 }
 

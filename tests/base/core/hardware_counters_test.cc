@@ -28,7 +28,7 @@ TEST_CASE("hardware counters are available, or the reason is given", "[counters]
   if (!group.available()) {
     CHECK(group.error() != 0);
     CHECK_FALSE(group.Read(&before));
-    CHECK_THAT(WhyNoCounters(group.error()), Contains("perf_event_open"));
+    CHECK_THAT(CountersProblem(group.error()), Contains("perf_event_open"));
     return;
   }
   if (!group.Read(&before)) return;  // other programs have taken them
@@ -48,7 +48,7 @@ TEST_CASE("a group of the kernel's own events is read in order", "[counters]") {
   const CounterEvent absent = {PERF_TYPE_SOFTWARE, 0xffffff};
   const CounterGroup group({clock, absent, faults, clock});
   if (!group.available()) {
-    WARN("skipped: " << WhyNoCounters(group.error()));
+    WARN("skipped: " << CountersProblem(group.error()));
     return;
   }
   CHECK(group.error() != 0);  // of the absent one
@@ -66,12 +66,12 @@ TEST_CASE("a group of the kernel's own events is read in order", "[counters]") {
 #endif
 
 TEST_CASE("missing hardware counters are reported with a remedy", "[counters]") {
-  CHECK_THAT(WhyNoCounters(EACCES),
+  CHECK_THAT(CountersProblem(EACCES),
              Contains("perf_event_paranoid") && Contains("EACCES"));
-  CHECK_THAT(WhyNoCounters(ENOENT), Contains("virtual"));
-  CHECK_THAT(WhyNoCounters(EBUSY), Contains("watchdog"));
-  CHECK_THAT(WhyNoCounters(ENOSYS), Contains("CONFIG_PERF_EVENTS"));
-  CHECK_THAT(WhyNoCounters(EINVAL), Contains("EINVAL"));
+  CHECK_THAT(CountersProblem(ENOENT), Contains("virtual"));
+  CHECK_THAT(CountersProblem(EBUSY), Contains("watchdog"));
+  CHECK_THAT(CountersProblem(ENOSYS), Contains("CONFIG_PERF_EVENTS"));
+  CHECK_THAT(CountersProblem(EINVAL), Contains("EINVAL"));
 }
 
 }  // namespace lanelight

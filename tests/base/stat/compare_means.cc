@@ -51,7 +51,8 @@ double DetectableBias(const ImageEstimate& a, const ImageEstimate& b, double lev
 
 }  // namespace
 
-ImageEstimate KnownImage(int width, int height, const std::function<Rgb(int, int)>& f) {
+ImageEstimate ExpectedImage(int width, int height,
+                            const std::function<Rgb(int, int)>& f) {
   ImageEstimate image = {width, height, 2, {}, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) image.mean.push_back(f(x, y));

@@ -21,7 +21,7 @@ struct ImageEstimate {
 };
 
 /// An image of known values, from a closed form f(x, y) at pixel (x, y).
-ImageEstimate KnownImage(int width, int height, const std::function<Rgb(int, int)>& f);
+ImageEstimate ExpectedImage(int width, int height, const std::function<Rgb(int, int)>& f);
 
 struct ImageTestOptions {
   int tile = 4;                   // pixels per side; the last tiles may be smaller

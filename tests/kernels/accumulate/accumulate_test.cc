@@ -262,7 +262,7 @@ TEST_CASE("a spectral film receives radiance before exposure and the wavelength 
   constexpr std::uint32_t kCount = 100;
   const EachTarget target;
   CompiledScene scene;
-  scene.spectra = SpectrumRows().Take();
+  scene.spectra = SpectrumRows().Finish();
   WaveFixture fixture(scene, kCapacity);
   std::vector<float> samples(std::size_t{kStride} * 7, kUntouched);
   AlignedVector<float> wavelength(kCapacity);

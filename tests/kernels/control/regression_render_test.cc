@@ -10,7 +10,7 @@ namespace lanelight::test {
 TEST_CASE("regression: renders of smooth light", "[control]") {
   const int size = 32;
   const std::vector<Vec3d> corners = PolygonCorners();
-  const auto exact = stat::KnownImage(size, size, [&](int x, int y) {
+  const auto exact = stat::ExpectedImage(size, size, [&](int x, int y) {
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
       const Vec3d p = FilmPoint(x + (k % 2 + 0.5) / 2, y + (k / 2 + 0.5) / 2, size);
@@ -40,7 +40,7 @@ TEST_CASE("regression: reflection and transmission of glass", "[control]") {
   b.AddEnvironment(Grey(5));
   const double once = closed_form::Fresnel(1, 1.5), reflected = 2 * once / (1 + once);
   const auto exact =
-      stat::KnownImage(8, 8, [&](int, int) { return Grey(1 + 4 * reflected); });
+      stat::ExpectedImage(8, 8, [&](int, int) { return Grey(1 + 4 * reflected); });
   const Rendered plain = RenderWith(b.Build(), "", 32);
   const Rendered fitted = RenderWith(b.Build(), "control=regression", 32);
   CHECK(stat::CompareMeans(Estimate(plain), exact, {8, 1e-6, 1e-6, 1e-7}).same);
@@ -72,7 +72,7 @@ TEST_CASE("regression: few samples, many images of a room", "[control]") {
     constexpr int kImages = 24;
     for (std::uint64_t seed = 0; seed < kImages; ++seed) {
       const stat::ImageEstimate one = Estimate(RenderWith(scene, strategy, 24, seed));
-      if (seed == 0) sum = stat::KnownImage(8, 8, [](int, int) { return Rgb(); });
+      if (seed == 0) sum = stat::ExpectedImage(8, 8, [](int, int) { return Rgb(); });
       sum.observations += one.observations;
       for (std::size_t i = 0; i < one.mean.size(); ++i) {
         sum.mean[i] += one.mean[i] / kImages;

@@ -50,7 +50,7 @@ double ExpectedFloor(bool holes) {
 double FloorBy(const SceneDescription& scene, const char* strategy) {
   TestRender options;
   options.spp = 1 << 18;
-  options.sampler = Points::kSobol;
+  options.sampler = SampleSequence::kSobol;
   options.strategy = strategy;
   return RenderDescription(scene, options).film.Mean(0, 0).x;
 }

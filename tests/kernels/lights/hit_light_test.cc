@@ -129,8 +129,8 @@ void CheckHit(const Hits& hits, std::uint32_t i) {
   if (index < 0) return hits.CheckGained(i, {}, 0);
   const NamedLight& light = hits.lights.lights[static_cast<std::size_t>(index)];
   // What is hit is not always what is nearest: a far side is seen through the near one.
-  const VisibleLight seen = Look(scene, light.record, hits.Origin(i), hits.Direction(i),
-                                 hits.variant.solid_angle);
+  const VisibleLight seen = FindVisibleLight(scene, light.record, hits.Origin(i),
+                                             hits.Direction(i), hits.variant.solid_angle);
   INFO(light.name << ", cosine " << seen.cosine);
   if (std::abs(seen.distance - p.t[i]) > 1e-5 * p.t[i]) return;
   if (seen.cosine < 0.03) return;  // rounding decides which side is seen
@@ -178,7 +178,8 @@ TEST_CASE("escaped rays add every environment with the MIS weight of hits", "[li
             shape != LightShape::kInfiniteImage) {
           continue;
         }
-        const VisibleLight seen = Look(all.scene, light.record, {}, hits.Direction(i));
+        const VisibleLight seen =
+            FindVisibleLight(all.scene, light.record, {}, hits.Direction(i));
         certain &= seen.met;
         sum += seen.radiance * hits.Weight(i, light.pmf * seen.pdf);
       }

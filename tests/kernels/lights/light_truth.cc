@@ -129,8 +129,8 @@ VisibleLight LookAtSky(const CompiledScene& scene, const LightRecord& light, Vec
 
 }  // namespace
 
-VisibleLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-                  Vec3d w, bool solid_angle) {
+VisibleLight FindVisibleLight(const CompiledScene& scene, const LightRecord& light,
+                              Vec3d from, Vec3d w, bool solid_angle) {
   VisibleLight seen;
   switch (static_cast<LightShape>(light.shape)) {
     case LightShape::kTriangle:

@@ -52,8 +52,8 @@ struct VisibleLight {
   Vec3d radiance;     // delta lights: radiance / pdf
 };
 /// solid_angle: triangles and rectangles are sampled by that, instead of by area.
-VisibleLight Look(const CompiledScene& scene, const LightRecord& light, Vec3d from,
-                  Vec3d w, bool solid_angle = false);
+VisibleLight FindVisibleLight(const CompiledScene& scene, const LightRecord& light,
+                              Vec3d from, Vec3d w, bool solid_angle = false);
 
 /// Solid angle under which the light is seen, and the integral of the direction over it;
 /// closed forms. Disks: from points of their axis only.

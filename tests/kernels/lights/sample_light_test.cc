@@ -122,7 +122,7 @@ void CheckSample(const Samples& s, std::uint32_t i) {
   const NamedLight& light = s.LightOf(i);
   const Vec3d from = {p.p_x[i], p.p_y[i], p.p_z[i]}, w = s.Direction(i);
   const VisibleLight seen =
-      Look(s.lights.scene, light.record, from, Normalize(w), s.solid_angle);
+      FindVisibleLight(s.lights.scene, light.record, from, Normalize(w), s.solid_angle);
   const auto shape = static_cast<LightShape>(light.record.shape);
   INFO(light.name << ", path " << i << ", cosine " << seen.cosine);
   CHECK(Length(w) == Approx(1).epsilon(1e-6));

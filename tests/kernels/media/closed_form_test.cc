@@ -56,7 +56,7 @@ TEST_CASE("media: transmittance through a sphere", "[media][closed-form]") {
     const double s = 2 * sigma;
     return 1 - disk + disk * 2 * (1 - (1 + s) * std::exp(-s)) / (s * s);
   };
-  const auto known = stat::KnownImage(1, 1, [&](int, int) {
+  const auto known = stat::ExpectedImage(1, 1, [&](int, int) {
     return Rgb{mean(kSigma.x), mean(kSigma.y), mean(kSigma.z)};
   });
   const auto result = stat::CompareMeans(image, known, {1, 1e-6, kFloatTolerance, 1e-7});
@@ -84,7 +84,7 @@ TEST_CASE("media: a white furnace", "[media][closed-form]") {
     b.AddSphere({0, 0, 0}, 1, dielectric ? b.AddDielectric(1) : AddInterface(b));
     Bound(b, AddMedium(b, MakeMedium({}, {1, 3, 6}, 0.5)), kNone);
     b.AddEnvironment(Grey(1));
-    const auto known = stat::KnownImage(4, 4, [](int, int) { return Grey(1); });
+    const auto known = stat::ExpectedImage(4, 4, [](int, int) { return Grey(1); });
     const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 4096), known,
                                            {4, 1e-6, kFloatTolerance, 1e-7});
     INFO("dielectric " << dielectric << ": " << result.ToString());

@@ -46,7 +46,7 @@ stat::ImageEstimate RenderPlainPaths(const SceneDescription& scene, std::uint64_
 }  // namespace
 
 TEST_CASE("media: shells of opposite colours in a white furnace", "[media]") {
-  const auto known = stat::KnownImage(4, 4, [](int, int) { return Grey(1); });
+  const auto known = stat::ExpectedImage(4, 4, [](int, int) { return Grey(1); });
   for (const bool grid : {false, true}) {
     const auto result = stat::CompareMeans(RenderPlainPaths(WhiteShells(grid), 16384),
                                            known, {4, 1e-6, kFloatTolerance, 1e-7});

@@ -41,7 +41,7 @@ struct Airlight {
     return sum / h * 3 * scattered / (4 * kPi);
   }
   stat::ImageEstimate Known() const {
-    return stat::KnownImage(1, 1, [&](int, int) {
+    return stat::ExpectedImage(1, 1, [&](int, int) {
       return Rgb{Channel(sigma_a.x, sigma_s.x), Channel(sigma_a.y, sigma_s.y),
                  Channel(sigma_a.z, sigma_s.z)};
     });

@@ -34,7 +34,7 @@ Spectrum GlowOf(double kelvin) {
 }
 
 stat::ImageTestResult AgainstKnown(const SceneDescription& scene, Rgb expected) {
-  const auto known = stat::KnownImage(4, 4, [&](int, int) { return expected; });
+  const auto known = stat::ExpectedImage(4, 4, [&](int, int) { return expected; });
   return stat::CompareMeans(RenderWavefront(scene, 1 << 14), known,
                             {4, 1e-6, 3e-3, 3e-3 * Luminance(expected)});
 }

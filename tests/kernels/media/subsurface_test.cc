@@ -67,7 +67,7 @@ stat::ImageTestResult CompareWith(const SceneDescription& scene, double value,
                                   std::uint64_t spp) {
   const Film& film = scene.film;
   const auto known =
-      stat::KnownImage(film.width, film.height, [&](int, int) { return Grey(value); });
+      stat::ExpectedImage(film.width, film.height, [&](int, int) { return Grey(value); });
   return stat::CompareMeans(RenderWavefront(scene, spp), known,
                             {film.width, 1e-6, 1e-3, 1e-7});
 }

@@ -21,7 +21,7 @@ Rgb SlabOf(Rgb emission) {
 }
 
 void CheckSlab(const SceneDescription& scene, Rgb expected) {
-  const auto known = stat::KnownImage(4, 4, [&](int, int) { return expected; });
+  const auto known = stat::ExpectedImage(4, 4, [&](int, int) { return expected; });
   const auto result = stat::CompareMeans(RenderWavefront(scene, 1 << 14), known,
                                          {4, 1e-6, kFloatTolerance, 1e-7});
   INFO(result.ToString());

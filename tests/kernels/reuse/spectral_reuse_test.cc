@@ -38,7 +38,7 @@ std::vector<int> TriplesOf(std::uint32_t pixel, std::uint32_t samples,
   WaveFixture f(scene, samples);
   f.run.seed = seed;
   f.run.width = 1000;
-  f.run.points.by_tile = true;
+  f.run.sampler.by_tile = true;
   PathColumns& p = f.wave.path;
   AlignedVector<float> wavelength(samples + 32);
   p.wavelength = wavelength.data();

@@ -74,8 +74,8 @@ stat::ImageEstimate ScalarTwin(double a, double q, bool divide, int n) {
 stat::ImageTestResult AgainstRoom(const stat::ImageEstimate& image, double albedo) {
   return stat::CompareMeans(
       image,
-      stat::KnownImage(image.width, image.height,
-                       [&](int, int) { return Grey(1 / (1 - albedo)); }),
+      stat::ExpectedImage(image.width, image.height,
+                          [&](int, int) { return Grey(1 / (1 - albedo)); }),
       {4, kFalseAlarm, kFloatTolerance, 0});
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("the image estimate follows its tiles", "[roulette]") {
       samples.push_back({v, v / 2, v / 4});
     }
   }
-  const ImageGuess guess(64, 32, pixels, samples);
+  const PilotImage guess(64, 32, pixels, samples);
   // All channels count alike.
   CHECK(guess.Channel(1) == Approx(2 * guess.Channel(0)));
   CHECK(guess.Channel(2) == Approx(4 * guess.Channel(0)));
@@ -158,7 +158,7 @@ TEST_CASE("the image estimate follows its tiles", "[roulette]") {
   double square = 0;
   for (int c = 0; c < 3; ++c) square += inverse[std::size_t(c)] * inverse[std::size_t(c)];
   CHECK(std::sqrt(square) * guess.Brightness(0) == Approx(1).epsilon(0.04));
-  CHECK(ImageGuess(64, 32, pixels, std::vector<Vec3f>(samples.size())).black());
+  CHECK(PilotImage(64, 32, pixels, std::vector<Vec3f>(samples.size())).black());
 }
 
 }  // namespace lanelight::test

@@ -116,7 +116,7 @@ TEST_CASE("the threshold of shadow rays depends on pixel and cost", "[roulette]"
     const float v = i % 24 < 8 ? 2.0f : i % 24 < 16 ? 1.0f : 0.5f;
     colors.push_back({v, v, v});
   }
-  const ImageGuess image(24, 8, pixels, colors);
+  const PilotImage image(24, 8, pixels, colors);
   const AlignedVector<float> once = InverseShadowThreshold(image, 24 * 8, 0.5, 1);
   REQUIRE(once.size() == 3 * 24 * 8);
   for (std::uint32_t pixel : {0u, 12u, 23u}) {
@@ -134,7 +134,7 @@ TEST_CASE("the threshold of shadow rays depends on pixel and cost", "[roulette]"
   const AlignedVector<float> other = InverseShadowThreshold(image, 24 * 8, 0.25, 3);
   CHECK(other[7] == Approx(6 * once[7]));
   CHECK(InverseShadowThreshold(image, 24 * 8, 0, 1).empty());
-  const ImageGuess black(24, 8, pixels, std::vector<Vec3f>(24 * 8));
+  const PilotImage black(24, 8, pixels, std::vector<Vec3f>(24 * 8));
   CHECK(InverseShadowThreshold(black, 24 * 8, 1, 1).empty());
 }
 

@@ -140,7 +140,7 @@ TEST_CASE("variances with and without splitting differ by second moments", "[rou
     samples.recorded.push_back(y);
     samples.recorded.push_back((y - 0.6f) * (y - 0.6f) + 0.08f);
   }
-  const ImageGuess image(1, 1, work.pixels, samples.colors);
+  const PilotImage image(1, 1, work.pixels, samples.colors);
   PathValues values;
   values.inverse_pixel.assign(3, 1 / (std::sqrt(3.0f) * 0.3f));
   CHECK(MomentsAbout(values, 0.5f, 0) == Approx(0.6));

@@ -109,7 +109,7 @@ TEST_CASE("split paths that keep their parent's weight are rejected", "[roulette
     }
     const double mean = sum / n, variance = (squares / n - mean * mean) / (n - 1);
     const stat::ImageEstimate image = {1, 1, double(n), {Grey(mean)}, {Grey(variance)}};
-    const auto exact = stat::KnownImage(1, 1, [](int, int) { return Grey(2); });
+    const auto exact = stat::ExpectedImage(1, 1, [](int, int) { return Grey(2); });
     CHECK(stat::CompareMeans(image, exact, {4, 1e-6, 0, 0}).same == divide);
   }
 }

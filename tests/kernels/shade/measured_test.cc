@@ -195,7 +195,7 @@ TEST_CASE("measured: materials of one file share its tables", "[compile][measure
   CHECK(table.of_material[1] == 0);
   CHECK(table.of_material[3] == 0);
   CHECK(table.of_material[2] == -1);
-  CHECK_FALSE(table.any_turns);
+  CHECK_FALSE(table.any_anisotropic);
   MeasuredTable empty;
   AddMeasured({other}, empty);
   CHECK(empty.of_material.empty());

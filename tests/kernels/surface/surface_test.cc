@@ -121,7 +121,7 @@ TEST_CASE("tangents of bilinear patches follow the normal under two mirrorings",
       Geometry g;
       g.triangles = {MakeTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})};
       g.triangles[0].flags = kRotatedTangents;
-      g.turned_tangents = true;
+      g.rotated_tangents = true;
       g.uvs = {0, 0, 1, 0, 0, 1};
       for (int i = 0; i < 9; ++i) g.normals.push_back(normal[i % 3]);
       const CompiledScene scene = MakeScene(std::move(g));

@@ -109,10 +109,11 @@ TEST_CASE("a strategy that misses light is not advised", "[advise]") {
   entry.measure = {1, std::vector<double>(1000, 0.01)};
   entry.baseline_light = {100, 1};
   entry.light = {99, 0.1};
-  CHECK(entry.Beyond(kMinChangeGain, 1.645) == Approx(std::log(100 / kMinChangeGain)));
+  CHECK(entry.SignificantLogGain(kMinChangeGain, 1.645) ==
+        Approx(std::log(100 / kMinChangeGain)));
   entry.light.sum = 96;
   CHECK(entry.MissesLight());
-  CHECK(entry.Beyond(kMinChangeGain, 1.645) == 0);
+  CHECK(entry.SignificantLogGain(kMinChangeGain, 1.645) == 0);
   // More than that may be the baseline strategy's lack.
   entry.light.sum = 104;
   CHECK_FALSE(entry.MissesLight());

@@ -14,7 +14,7 @@ namespace {
 
 class NoObserver : public PassObserver {
  public:
-  bool Due() const override { return false; }
+  bool IsDue() const override { return false; }
   void Observe() override {}
 };
 

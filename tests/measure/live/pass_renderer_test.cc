@@ -13,19 +13,19 @@ namespace {
 
 class PlainObserver : public PassObserver {
  public:
-  bool Due() const override { return false; }
+  bool IsDue() const override { return false; }
   void Observe() override {}
 };
 
 // Wants to look all the time.
 class QueryingObserver : public PassObserver {
  public:
-  bool Due() const override { return due_; }
+  bool IsDue() const override { return due_; }
   void Observe() override {
-    ++looks;
-    due_ = looks < 20;
+    ++snapshots;
+    due_ = snapshots < 20;
   }
-  int looks = 0;
+  int snapshots = 0;
 
  private:
   bool due_ = true;
@@ -74,7 +74,7 @@ TEST_CASE("passes are bit-identical to a single render", "[live]") {
       other.Pass(std::uint64_t(spp), observer, never);
       CHECK(renderer.spp() == std::uint64_t(spp));
     }
-    CHECK(querying.looks > 0);
+    CHECK(querying.snapshots > 0);
     renderer.Fit();
     CheckSameFilms(renderer.film(), WholeRender(live_scene, strategy, 16).film);
     CHECK(renderer.record().counts.samples == 16u * 32 * 24);
@@ -125,9 +125,10 @@ TEST_CASE("a renderer counts stages, rays per cell and errors", "[live]") {
   renderer.Pass(9, observer, never);
   renderer.Pass(16, observer, never);
   // 9 is too near to 8 to be worth the time.
-  REQUIRE(renderer.looks().size() == 2);
-  CHECK(renderer.looks()[1].spp == 16);
-  CHECK(renderer.looks()[1].error.relmse.low <= renderer.looks()[1].error.relmse.value);
+  REQUIRE(renderer.snapshots().size() == 2);
+  CHECK(renderer.snapshots()[1].spp == 16);
+  CHECK(renderer.snapshots()[1].error.relmse.low <=
+        renderer.snapshots()[1].error.relmse.value);
   std::uint64_t accumulated = 0;
   for (const StageProfile& stage_profile : renderer.stages()) {
     if (stage_profile.name == "accumulate") accumulated += stage_profile.items;

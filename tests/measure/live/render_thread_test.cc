@@ -25,11 +25,11 @@ class PretendedPage {
       come_.notify_all();
     });
   }
-  ~PretendedPage() { Leave(); }
+  ~PretendedPage() { RemoveSession(); }
 
   void Send(const std::string& message) { render_thread_.Receive(number_, message); }
-  void Leave() {
-    if (number_ != 0) render_thread_.Leave(number_);
+  void RemoveSession() {
+    if (number_ != 0) render_thread_.RemoveSession(number_);
     number_ = 0;
   }
   std::size_t Received() {
@@ -183,7 +183,7 @@ TEST_CASE("closed pages receive no messages, others do", "[live]") {
   leaves.Send(ChooseText(0, "default"));
   stays.Send(ChooseText(0, "paper-plain"));
   REQUIRE(leaves.UntilSpp(0, 4));
-  leaves.Leave();
+  leaves.RemoveSession();
   const std::size_t before = leaves.Received();
   REQUIRE(stays.UntilSpp(0, 32));
   CHECK(leaves.Received() == before);

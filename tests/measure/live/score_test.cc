@@ -12,19 +12,20 @@
 namespace lanelight::live {
 namespace {
 
-Look LookOf(Interval relmse, std::uint64_t spp, double seconds) {
-  Look look;
-  look.spp = spp;
-  look.seconds = seconds;
-  look.error.available = true;
-  look.error.relmse = relmse;
-  return look;
+EstimateSnapshot SnapshotOf(Interval relmse, std::uint64_t spp, double seconds) {
+  EstimateSnapshot snapshot;
+  snapshot.spp = spp;
+  snapshot.seconds = seconds;
+  snapshot.error.available = true;
+  snapshot.error.relmse = relmse;
+  return snapshot;
 }
 
 }  // namespace
 
 TEST_CASE("the efficiency ratio is of squared error times cost", "[live]") {
-  const Look a = LookOf({0.4, 0.2, 0.8}, 10, 3), b = LookOf({0.1, 0.1, 0.1}, 5, 6);
+  const EstimateSnapshot a = SnapshotOf({0.4, 0.2, 0.8}, 10, 3),
+                         b = SnapshotOf({0.1, 0.1, 0.1}, 5, 6);
   const Ratio time = EfficiencyOf(a, b, Pace::kTime);
   REQUIRE(time.available);
   CHECK(time.interval.value == Approx(0.4 * 3 / (0.1 * 6)));
@@ -36,7 +37,8 @@ TEST_CASE("the efficiency ratio is of squared error times cost", "[live]") {
 }
 
 TEST_CASE("the interval of a ratio combines the intervals of both errors", "[live]") {
-  const Look a = LookOf({1, 0.5, 3}, 1, 1), b = LookOf({1, 0.25, 2}, 1, 1);
+  const EstimateSnapshot a = SnapshotOf({1, 0.5, 3}, 1, 1),
+                         b = SnapshotOf({1, 0.25, 2}, 1, 1);
   const Ratio ratio = EfficiencyOf(a, b, Pace::kTime);
   CHECK(ratio.interval.low ==
         Approx(std::exp(-std::hypot(std::log(2.0), std::log(2.0)))));
@@ -46,9 +48,9 @@ TEST_CASE("the interval of a ratio combines the intervals of both errors", "[liv
 
 TEST_CASE("an unknown end of an interval is open, with the reason", "[live]") {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  Look a = LookOf({1, 0.5, kInfinite}, 1, 1);
+  EstimateSnapshot a = SnapshotOf({1, 0.5, kInfinite}, 1, 1);
   a.error.why = "few pixels carry it";
-  const Look b = LookOf({1, 0.5, 2}, 1, 1);
+  const EstimateSnapshot b = SnapshotOf({1, 0.5, 2}, 1, 1);
   const Ratio up = EfficiencyOf(a, b, Pace::kTime),
               down = EfficiencyOf(b, a, Pace::kTime);
   CHECK(up.interval.high == kInfinite);
@@ -57,7 +59,7 @@ TEST_CASE("an unknown end of an interval is open, with the reason", "[live]") {
   CHECK(down.interval.low == 0);
   CHECK(std::isfinite(down.interval.high));
   CHECK(down.why == "of B: few pixels carry it");
-  CHECK_FALSE(EfficiencyOf(LookOf({0, 0, 0}, 1, 1), b, Pace::kTime).available);
+  CHECK_FALSE(EfficiencyOf(SnapshotOf({0, 0, 0}, 1, 1), b, Pace::kTime).available);
 }
 
 // 400 pairs of images of independent normal noise whose errors differ threefold: the
@@ -66,7 +68,7 @@ TEST_CASE("an unknown end of an interval is open, with the reason", "[live]") {
 TEST_CASE("the interval of a ratio contains the true ratio", "[live]") {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  const auto look = [&](double deviation) {
+  const auto snapshot = [&](double deviation) {
     constexpr int kSide = 32, kObservations = 4;
     std::vector<PixelEstimate> pixels(kSide * kSide);
     for (PixelEstimate& p : pixels) {
@@ -83,7 +85,7 @@ TEST_CASE("the interval of a ratio contains the true ratio", "[live]") {
             (squares / kObservations - p.mean[c] * p.mean[c]) / (kObservations - 1);
       }
     }
-    Look out = LookOf({}, 1, 1);
+    EstimateSnapshot out = SnapshotOf({}, 1, 1);
     out.error = EstimateError({0, 0, kSide, kSide}, [&](int x, int y) {
       return pixels[static_cast<std::size_t>(y * kSide + x)];
     });
@@ -91,7 +93,7 @@ TEST_CASE("the interval of a ratio contains the true ratio", "[live]") {
   };
   int missed = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const Look a = look(0.3), b = look(0.1);
+    const EstimateSnapshot a = snapshot(0.3), b = snapshot(0.1);
     missed += !EfficiencyOf(a, b, Pace::kTime).interval.Contains(9);
   }
   CHECK(missed <= 38);
@@ -106,17 +108,17 @@ class SimulatedRace {
       : deviation_(deviation), random_(random), sums_(kSide * kSide) {}
 
   // Until every group has so many samples.
-  Look LookAt(std::uint64_t samples) {
+  EstimateSnapshot LookAt(std::uint64_t samples) {
     const double added = deviation_ * std::sqrt(double(samples - samples_));
     for (std::array<double, kGroups>& groups : sums_) {
       for (double& sum : groups) sum += added * normal_(random_);
     }
     samples_ = samples;
-    Look look = LookOf({}, kGroups * samples, 1);
-    look.error = EstimateError({0, 0, kSide, kSide}, [this](int x, int y) {
+    EstimateSnapshot snapshot = SnapshotOf({}, kGroups * samples, 1);
+    snapshot.error = EstimateError({0, 0, kSide, kSide}, [this](int x, int y) {
       return PixelOf(sums_[static_cast<std::size_t>(y * kSide + x)]);
     });
-    return look;
+    return snapshot;
   }
 
   // Mean squared error of the image as it is.
@@ -163,25 +165,25 @@ class SimulatedRace {
 // probability of 1e-4 (binomial).
 TEST_CASE("intervals of a comparison are simultaneously valid at all looks", "[live]") {
   std::mt19937 random(7);
-  constexpr int kRaces = 200, kLooks = 30;
+  constexpr int kRaces = 200, kSnapshots = 30;
   int missed = 0, missed_one_look = 0, wrong = 0;
   for (int race = 0; race < kRaces; ++race) {
     SimulatedRace a(0.2, random), b(0.2, random);
-    std::vector<Look> of_a, of_b;
-    bool holds = true, holds_one_look = true;
+    std::vector<EstimateSnapshot> of_a, of_b;
+    bool holds = true, covers_one_look = true;
     double samples = 2;
-    for (int look = 0; look < kLooks; ++look, samples *= 1.3) {
+    for (int snapshot = 0; snapshot < kSnapshots; ++snapshot, samples *= 1.3) {
       const auto n = static_cast<std::uint64_t>(samples);
-      if (look > 0 && n * 4 == of_a.back().spp) continue;
+      if (snapshot > 0 && n * 4 == of_a.back().spp) continue;
       of_a.push_back(a.LookAt(n));
       of_b.push_back(b.LookAt(n));
       const double truth = a.Error() / b.Error();
       holds &= EfficiencyOf(of_a, of_b, Pace::kSamples).interval.Contains(truth);
-      holds_one_look &=
+      covers_one_look &=
           EfficiencyOf(of_a.back(), of_b.back(), Pace::kSamples).interval.Contains(truth);
     }
     missed += !holds;
-    missed_one_look += !holds_one_look;
+    missed_one_look += !covers_one_look;
     wrong += EfficiencyOf(of_a, of_b, Pace::kSamples).ahead != Ahead::kUnknown;
   }
   INFO(missed << " races missed, " << missed_one_look << " with intervals for one look");
@@ -193,9 +195,9 @@ TEST_CASE("intervals of a comparison are simultaneously valid at all looks", "[l
 
 TEST_CASE("a certain verdict stays until the opposite is certain", "[live]") {
   const auto steady = [](double relmse, std::uint64_t spp) {
-    return LookOf({relmse, relmse / 1.1, relmse * 1.1}, spp, double(spp));
+    return SnapshotOf({relmse, relmse / 1.1, relmse * 1.1}, spp, double(spp));
   };
-  std::vector<Look> a = {steady(1, 8)}, b = {steady(1.05, 8)};
+  std::vector<EstimateSnapshot> a = {steady(1, 8)}, b = {steady(1.05, 8)};
   CHECK(EfficiencyOf(a, b, Pace::kSamples).ahead == Ahead::kUnknown);
   a.push_back(steady(0.5, 16));
   b.push_back(steady(0.2, 16));

@@ -122,15 +122,15 @@ Tally Measure(const SceneDescription& scene, TestRender t, int seeds,
 
 FilmAccumulator LongRender(const SceneDescription& scene, std::uint64_t spp) {
   TestRender t;
-  t.sampler = Points::kSobol;
+  t.sampler = SampleSequence::kSobol;
   t.spp = spp;
   t.seed = 12345;
   return RenderDescription(scene, t).film;
 }
 
-TestRender WithPoints(Points points, std::uint64_t spp) {
+TestRender WithSampler(SampleSequence sampler, std::uint64_t spp) {
   TestRender t;
-  t.sampler = points;
+  t.sampler = sampler;
   t.spp = spp;
   return t;
 }
@@ -140,8 +140,8 @@ TestRender WithPoints(Points points, std::uint64_t spp) {
 TEST_CASE("the Cornell box states its error", "[study]") {
   const SceneDescription scene = CornellBox();
   const FilmAccumulator reference = LongRender(scene, 2048);
-  for (Points points : {Points::kIndependent, Points::kSobol}) {
-    const Tally tally = Measure(scene, WithPoints(points, 32), 120, reference);
+  for (SampleSequence sampler : {SampleSequence::kIndependent, SampleSequence::kSobol}) {
+    const Tally tally = Measure(scene, WithSampler(sampler, 32), 120, reference);
     CHECK(tally.refused * 5 <= tally.renders);
     for (const IntervalCoverage& covered : {tally.relmse, tally.rmse}) {
       CHECK(covered.OftenEnough());
@@ -150,14 +150,14 @@ TEST_CASE("the Cornell box states its error", "[study]") {
     // Each mistake is found.
     CHECK_FALSE(tally.without_tail.OftenEnough());
     CHECK_FALSE(tally.wide.NotTooOften());
-    if (points == Points::kSobol) CHECK_FALSE(tally.ungrouped.OftenEnough());
+    if (sampler == SampleSequence::kSobol) CHECK_FALSE(tally.ungrouped.OftenEnough());
   }
 }
 
 TEST_CASE("the error interval includes directly visible light edges", "[study]") {
   const SceneDescription scene = CornellBox();
   const FilmAccumulator reference = LongRender(scene, 4096);
-  TestRender t = WithPoints(Points::kIndependent, 32);
+  TestRender t = WithSampler(SampleSequence::kIndependent, 32);
   t.strategy = "seen-lights=paths";
   const Tally tally = Measure(scene, t, 120, reference);
   CHECK(tally.refused * 20 <= tally.renders);
@@ -169,7 +169,7 @@ TEST_CASE("with rare bright samples the interval is valid or omitted", "[study]"
   const SceneDescription scene = Scene("scenes/lights.pbrt", 6);
   const FilmAccumulator reference = LongRender(scene, 4096);
   const Tally tally =
-      Measure(scene, WithPoints(Points::kIndependent, 16), 300, reference);
+      Measure(scene, WithSampler(SampleSequence::kIndependent, 16), 300, reference);
   CHECK(tally.refused > 0);
   CHECK(tally.relmse.OftenEnough());
   // Half as wide, they do not.
@@ -180,11 +180,12 @@ TEST_CASE("with rare bright samples the interval is valid or omitted", "[study]"
 TEST_CASE("the Cornell box states its error, at length", "[study][slow]") {
   const SceneDescription scene = CornellBox();
   const FilmAccumulator reference = LongRender(scene, 32768);
-  for (Points points : {Points::kIndependent, Points::kSobol, Points::kCmj,
-                        Points::kPmj02, Points::kHalton, Points::kLattice}) {
+  for (SampleSequence sampler :
+       {SampleSequence::kIndependent, SampleSequence::kSobol, SampleSequence::kCmj,
+        SampleSequence::kPmj02, SampleSequence::kHalton, SampleSequence::kLattice}) {
     for (std::uint64_t spp : {16, 50, 128}) {
       INFO(spp << " spp");
-      const Tally tally = Measure(scene, WithPoints(points, spp), 200, reference);
+      const Tally tally = Measure(scene, WithSampler(sampler, spp), 200, reference);
       CHECK(tally.refused * 5 <= tally.renders);
       CHECK(tally.relmse.OftenEnough());
       CHECK(tally.rmse.OftenEnough());

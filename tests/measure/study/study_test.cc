@@ -379,7 +379,7 @@ TEST_CASE("lists of strategies", "[study]") {
   REQUIRE(defaults.size() == 9);
   CHECK(defaults[8].strategy == defaults[7].strategy);  // the scene's own is the default
   Strategy own;
-  own.points = Points::kLattice;
+  own.sampler = SampleSequence::kLattice;
   const auto named = StudyStrategies(options, own);
   REQUIRE(named.size() == 9);
   CHECK(named[7].strategy == Strategy{});

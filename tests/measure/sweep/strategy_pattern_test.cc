@@ -41,7 +41,7 @@ TEST_CASE("strategy pattern: every value in braces", "[sweep]") {
 
 TEST_CASE("strategy pattern: a star is all choices", "[sweep]") {
   const auto all = ExpandStrategy("directions=bsdf,points=*", {});
-  CHECK(all.size() == kNumPoints);
+  CHECK(all.size() == kNumSampleSequences);
   CHECK(all[1].text == "directions=bsdf,points=stratified");
   CHECK(all[1].place.parameters.at("points") == "stratified");
 }
@@ -75,7 +75,7 @@ TEST_CASE("strategy pattern: values are strategies of the grid", "[sweep]") {
   CHECK(sweep.places.at("default").size() == 2);
   CHECK(sweep.places.at("points=cmj").size() == 1);
   CHECK(SweepOf("\"points=*\"", "[[exclude]]\nstrategy = \"points={cmj,halton}\"\n")
-            .cells.size() == kNumPoints - 2);
+            .cells.size() == kNumSampleSequences - 2);
   CHECK_THROWS_WITH(SweepOf("\"roulette=constant:{0.5, 0.50}\""),
                     Contains("is a duplicate"));
   CHECK_THROWS_WITH(SweepOf("\"points=*\", \"points=cmj\""), Contains("is a duplicate"));

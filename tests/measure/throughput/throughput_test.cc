@@ -85,7 +85,7 @@ TEST_CASE("rates are per second of the clock, and of processor time", "[throughp
   CHECK(row.Rate().value == Approx(double(row.counts.samples) / 2));
   CHECK(row.CpuRate().value == Approx(double(row.counts.samples) * 2));
   row.waiting_seconds = 1;  // beside the 3 seconds of processor time
-  CHECK(row.Waiting() == Approx(0.25));
+  CHECK(row.WaitingFraction() == Approx(0.25));
 }
 
 TEST_CASE("a busy machine is one whose load exceeds its cores, or where threads wait",

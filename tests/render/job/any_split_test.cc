@@ -5,7 +5,7 @@
 #include <random>
 
 #include "src/base/core/source_location.h"
-#include "tests/render/job/kept_render.h"
+#include "tests/render/job/checkpointed_render.h"
 
 namespace lanelight {
 namespace {
@@ -14,9 +14,9 @@ std::string Scene(const std::string& name) {
   return LANELIGHT_SOURCE_DIR "/scenes/" + name + ".pbrt";
 }
 
-KeptRender RenderOf(const std::string& scene, const std::string& strategy, int width = 48,
-                    int height = 40, std::uint64_t spp = 24) {
-  KeptRender r;
+CheckpointedRender RenderOf(const std::string& scene, const std::string& strategy,
+                            int width = 48, int height = 40, std::uint64_t spp = 24) {
+  CheckpointedRender r;
   r.scene = Scene(scene);
   r.settings.resolution = {width, height};
   r.settings.spp = spp;
@@ -24,7 +24,7 @@ KeptRender RenderOf(const std::string& scene, const std::string& strategy, int w
   return r;
 }
 
-std::vector<std::string> RenderParts(KeptRender r, int count,
+std::vector<std::string> RenderParts(CheckpointedRender r, int count,
                                      const TemporaryFolder& folder) {
   std::vector<std::string> paths;
   for (int i = 1; i <= count; ++i) {
@@ -39,7 +39,8 @@ std::vector<std::string> RenderParts(KeptRender r, int count,
 }
 
 // Stops again and again, with another number of threads each time.
-Outcome RenderInPieces(KeptRender r, unsigned seed, const TemporaryFolder& folder) {
+Outcome RenderInPieces(CheckpointedRender r, unsigned seed,
+                       const TemporaryFolder& folder) {
   std::mt19937 random(seed);
   r.checkpoint = {};
   r.checkpoint.path = folder.File("pieces");
@@ -56,10 +57,10 @@ Outcome RenderInPieces(KeptRender r, unsigned seed, const TemporaryFolder& folde
   return RenderKept(r);
 }
 
-void CheckCuts(const KeptRender& whole, std::vector<int> counts) {
+void CheckCuts(const CheckpointedRender& whole, std::vector<int> counts) {
   const Outcome expected = RenderKept(whole);
   for (int threads : {1, 3}) {
-    KeptRender other = whole;
+    CheckpointedRender other = whole;
     other.threads = threads;
     INFO(threads << " threads");
     CHECK((RenderKept(other) == expected));
@@ -92,19 +93,19 @@ TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts
 }
 
 TEST_CASE("any split: wavelengths that tiles share", "[cuts]") {
-  KeptRender r = RenderOf("cornell-box", "reuse=block:16");
+  CheckpointedRender r = RenderOf("cornell-box", "reuse=block:16");
   r.settings.transport = TransportSetting::kSpectral;
   CheckCuts(r, {3, 7});
 }
 
 TEST_CASE("any split: fits within blocks of pixels", "[cuts]") {
-  KeptRender r = RenderOf("cornell-box", "control=regression", 100, 70);
+  CheckpointedRender r = RenderOf("cornell-box", "control=regression", 100, 70);
   r.settings.crop = {5, 3, 90, 70};  // blocks that the window cuts
   CheckCuts(r, {3, 7});
 }
 
 TEST_CASE("any split: 64 parts, auxiliary planes", "[cuts]") {
-  KeptRender r = RenderOf("cornell-box", "");
+  CheckpointedRender r = RenderOf("cornell-box", "");
   r.settings.gbuffer = Gbuffer::kCamera;
   CheckCuts(r, {64});
 }
@@ -116,7 +117,7 @@ TEST_CASE("any split: buckets of wavelengths", "[cuts][buckets]") {
   const std::string film = "Film \"rgb\"";
   REQUIRE(text.find(film) != std::string::npos);
   text.replace(text.find(film), film.size(), "Film \"spectral\" \"integer nbuckets\" 5");
-  KeptRender r = RenderOf("prism", "");
+  CheckpointedRender r = RenderOf("prism", "");
   r.scene = folder.File("spectra.pbrt");
   std::ofstream(r.scene) << text;
   const Outcome whole = RenderKept(r);
@@ -137,7 +138,7 @@ TEST_CASE("any split: the matrix of scenes and strategies", "[cuts][slow]") {
 
 TEST_CASE("any split: refining a target in steps equals one render", "[cuts]") {
   TemporaryFolder folder;
-  KeptRender r = RenderOf("cornell-box", "");
+  CheckpointedRender r = RenderOf("cornell-box", "");
   r.settings.spp = 4096;
   r.settings.target_relmse = 0.02;
   const Outcome expected = RenderKept(r);
@@ -152,7 +153,7 @@ TEST_CASE("any split: refining a target in steps equals one render", "[cuts]") {
 }
 
 TEST_CASE("any split: planted, an extra sample or another seed is detected", "[cuts]") {
-  KeptRender r = RenderOf("cornell-box", "");
+  CheckpointedRender r = RenderOf("cornell-box", "");
   const Outcome expected = RenderKept(r);
   r.settings.spp = 25;
   CHECK_FALSE((RenderKept(r) == expected));

@@ -46,7 +46,7 @@ Buffer RenderBuffer(const char* space, double far = 0, std::uint64_t spp = 64,
                     double move = 0) {
   TestRender t;
   t.spp = spp;
-  t.sampler = Points::kSobol;
+  t.sampler = SampleSequence::kSobol;
   t.auxiliary = Auxiliary::kGbuffer;
   return {RenderText(Scene(space, far, move), t).film};
 }

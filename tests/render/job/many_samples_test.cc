@@ -30,12 +30,12 @@ struct Render {
   std::size_t peak = 0, buffers = 0;
 };
 
-Render RenderCrop(std::uint64_t spp, const std::string& points) {
+Render RenderCrop(std::uint64_t spp, const std::string& sampler) {
   RenderSettings settings;
   settings.spp = spp;
   settings.crop = {150, 150, 150 + kSide, 150 + kSide};
   settings.resolution = {400, 400};
-  if (points == "independent") settings.points = Points::kIndependent;
+  if (sampler == "independent") settings.sampler = SampleSequence::kIndependent;
   const Job job = PrepareJob(LANELIGHT_SOURCE_DIR "/scenes/cornell-box.pbrt", settings);
   FilmAccumulator film = MakeFilm(job);
   // A second thread may come to work, and need memory, in one render and not in another.
@@ -56,10 +56,10 @@ Render RenderCrop(std::uint64_t spp, const std::string& points) {
   return out;
 }
 
-void CheckFlat(std::uint64_t few, std::uint64_t many, const std::string& points) {
-  CAPTURE(few, many, points);
-  RenderCrop(few, points);  // what is allocated once, and kept
-  const Render first = RenderCrop(few, points), second = RenderCrop(many, points);
+void CheckFlat(std::uint64_t few, std::uint64_t many, const std::string& sampler) {
+  CAPTURE(few, many, sampler);
+  RenderCrop(few, sampler);  // what is allocated once, and kept
+  const Render first = RenderCrop(few, sampler), second = RenderCrop(many, sampler);
   REQUIRE(first.peak > 0);
   CHECK(second.peak < first.peak + (std::size_t{2} << 20));
   CHECK(second.buffers == first.buffers);
@@ -69,7 +69,7 @@ void CheckFlat(std::uint64_t few, std::uint64_t many, const std::string& points)
     CHECK(second.mean[c] > 0);
     CHECK(std::abs(first.mean[c] - second.mean[c]) <
           6 * std::hypot(first.error[c], second.error[c]));
-    if (points == "independent") {
+    if (sampler == "independent") {
       CHECK(second.error[c] == Approx(first.error[c] / gain).epsilon(0.1));
     }
   }

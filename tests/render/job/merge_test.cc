@@ -8,15 +8,15 @@
 #include "src/base/core/source_location.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/parts.h"
-#include "tests/render/job/kept_render.h"
+#include "tests/render/job/checkpointed_render.h"
 
 namespace lanelight {
 namespace {
 
 using Catch::Contains;
 
-KeptRender Small(const TemporaryFolder& folder, const std::string& name) {
-  KeptRender r;
+CheckpointedRender Small(const TemporaryFolder& folder, const std::string& name) {
+  CheckpointedRender r;
   r.scene = LANELIGHT_SOURCE_DIR "/scenes/cornell-box.pbrt";
   r.settings.resolution = {32, 24};
   r.settings.spp = 8;
@@ -24,12 +24,12 @@ KeptRender Small(const TemporaryFolder& folder, const std::string& name) {
   return r;
 }
 
-std::string StateOf(KeptRender r) {
+std::string StateOf(CheckpointedRender r) {
   RenderKept(r);
   return r.checkpoint.path;
 }
 
-std::string PartOf(KeptRender r, int index, int count) {
+std::string PartOf(CheckpointedRender r, int index, int count) {
   r.checkpoint.part = {index, count};
   r.checkpoint.path += "-" + std::to_string(index);
   return StateOf(r);
@@ -83,9 +83,9 @@ TEST_CASE("parts: every pixel is in exactly one", "[merge]") {
 
 TEST_CASE("merge: parts of other renders are refused with their names", "[merge]") {
   TemporaryFolder folder;
-  const KeptRender r = Small(folder, "a");
+  const CheckpointedRender r = Small(folder, "a");
   const std::string first = PartOf(r, 1, 2);
-  KeptRender seed = Small(folder, "b"), depth = Small(folder, "c"), scene = seed;
+  CheckpointedRender seed = Small(folder, "b"), depth = Small(folder, "c"), scene = seed;
   depth.settings.max_depth = 2;
   CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(depth, 2, 2)}); }),
              Contains("max_depth") && Contains("c-2"));
@@ -97,14 +97,14 @@ TEST_CASE("merge: parts of other renders are refused with their names", "[merge]
   CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(seed, 2, 2)}); }),
              Contains("lacks") && Contains("seed"));
   CHECK_THAT(ErrorOf([&] { MergeStates({first, first}); }), Contains("both have pixel"));
-  KeptRender three = Small(folder, "e");
+  CheckpointedRender three = Small(folder, "e");
   CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(three, 3, 3)}); }),
              Contains("both have pixel") && Contains("a-1") && Contains("e-3"));
 }
 
 TEST_CASE("merge: missing parts are counted, and the others are correct", "[merge]") {
   TemporaryFolder folder;
-  const KeptRender r = Small(folder, "a");
+  const CheckpointedRender r = Small(folder, "a");
   const std::string one = PartOf(r, 1, 3), three = PartOf(r, 3, 3);
   MergedRender merged = MergeStates({one, three});
   const std::size_t missing = TilesOfPart({0, 0, 32, 24}, {2, 3}).size();
@@ -114,7 +114,7 @@ TEST_CASE("merge: missing parts are counted, and the others are correct", "[merg
   CHECK(merged.missing == 32 * 24 - there);
   CHECK(missing > 0);
   CHECK(ResultOf(merged).stopped_early);
-  KeptRender whole = r;
+  CheckpointedRender whole = r;
   whole.checkpoint.path = folder.File("whole");
   const std::string state = StateOf(whole);
   const MergedRender all = MergeStates({state});
@@ -125,7 +125,7 @@ TEST_CASE("merge: missing parts are counted, and the others are correct", "[merg
 
 TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   TemporaryFolder folder;
-  KeptRender r = Small(folder, "a");
+  CheckpointedRender r = Small(folder, "a");
   std::vector<std::string> parts;
   for (int i = 1; i <= 4; ++i) parts.push_back(PartOf(r, i, 4));
   MergedRender left = MergeStates({parts[2], parts[0]});
@@ -136,7 +136,7 @@ TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   WriteMergedState(right, w);
   MergedRender both = MergeStates({w, l});
   WriteMergedState(both, all);
-  KeptRender plain = r;
+  CheckpointedRender plain = r;
   plain.checkpoint = {};
   CHECK((MergedOutcome({all}) == RenderKept(plain)));
   // On to more samples than the parts were asked for.
@@ -153,7 +153,7 @@ TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
 
 TEST_CASE("merge: the machines of all parts are named", "[merge]") {
   TemporaryFolder folder;
-  const KeptRender r = Small(folder, "a");
+  const CheckpointedRender r = Small(folder, "a");
   const auto part_of = [&](int index, const char* processor) {
     const std::string path = PartOf(r, index, 3);
     MergedRender part = MergeStates({path});
@@ -182,7 +182,7 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
   std::vector<std::string> states;
   double mean = 0;
   for (std::uint64_t seed : {3u, 1u, 2u}) {
-    KeptRender r = Small(folder, "seed-" + std::to_string(seed));
+    CheckpointedRender r = Small(folder, "seed-" + std::to_string(seed));
     r.settings.seed = seed;
     r.settings.spp = 16;
     states.push_back(StateOf(r));
@@ -201,7 +201,7 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
   MergedRender copy = MergeStates(states);
   CHECK_THAT(ErrorOf([&] { WriteMergedState(copy, folder.File("no")); }),
              Contains("several seeds"));
-  KeptRender odd = Small(folder, "odd");
+  CheckpointedRender odd = Small(folder, "odd");
   odd.settings.spp = 6;
   odd.settings.seed = 8;
   CHECK_THAT(ErrorOf([&] { MergeStates({states[0], StateOf(odd)}); }),
@@ -210,14 +210,15 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
 
 TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   TemporaryFolder folder;
-  KeptRender r = Small(folder, "a");
+  CheckpointedRender r = Small(folder, "a");
   StateOf(r);
   CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("exists") && Contains("--resume"));
   r.checkpoint.resume = Resume::kMust;
-  const auto refused = [&](const KeptRender& other, const char* what) {
+  const auto refused = [&](const CheckpointedRender& other, const char* what) {
     CHECK_THAT(ErrorOf([&] { RenderKept(other); }), Contains(what));
   };
-  KeptRender seed = r, size = r, strategy = r, fewer = r, aov = r, gbuffer = r, part = r;
+  CheckpointedRender seed = r, size = r, strategy = r, fewer = r, aov = r, gbuffer = r,
+                     part = r;
   seed.settings.seed = 2;
   refused(seed, "seed: the state has 0, this render 2");
   size.settings.resolution = {16, 24};
@@ -232,7 +233,7 @@ TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   refused(fewer, "more than the 4 asked for");
   part.checkpoint.part = {1, 2};
   refused(part, "another part");
-  KeptRender missing = r;
+  CheckpointedRender missing = r;
   missing.checkpoint.path = folder.File("nothing");
   refused(missing, "nothing");
   const std::string text = ReadWholeFile(r.checkpoint.path);

@@ -127,7 +127,7 @@ TEST_CASE("identities and reports have the settings in force", "[render]") {
   CHECK(reported.at("target_rmse") == 0.5);
   CHECK(reported.at("target_relmse") == nullptr);
   CHECK(reported.at("spp") == nullptr);
-  CHECK(reported.at("sampler") == Name(job.scene.strategy.points));
+  CHECK(reported.at("sampler") == Name(job.scene.strategy.sampler));
   CHECK(reported.at("depth") == "half");
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("a scene without surfaces has no surface stages", "[plan]") {
     stages += std::string(s.stage.name) + " ";
   CHECK(stages ==
         "generate points_camera_independent camera_perspective hits escape limit "
-        "accumulate pack ");
+        "accumulate compact ");
   CHECK(r.result.rays_shadow == 0);
 }
 

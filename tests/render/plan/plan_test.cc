@@ -27,7 +27,7 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
   SceneDescription description =
       ParseSceneText(kHead + "WorldBegin\n" + world, "test.pbrt", ".");
   if (!strategy.empty()) ApplyStrategy(strategy, {}, description.strategy);
-  description.strategy.points = Points::kIndependent;
+  description.strategy.sampler = SampleSequence::kIndependent;
   const PreparedScene scene = PrepareScene(description);
   PlanOptions options;
   options.max_depth = max_depth;
@@ -60,7 +60,7 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
                               "camera_perspective", "intersect_triangles", "hits",
                               "limit", "surface_triangle", "points_bounce_independent",
                               "route", "light_point", "shade_diffuse", "shadow_triangles",
-                              "connect", "roulette_throughput", "accumulate", "pack"});
+                              "connect", "roulette_throughput", "accumulate", "compact"});
   CHECK(Reason(plan, "intersect_spheres") == "no spheres");
   CHECK(Reason(plan, "light_select_table") == "no more than one light");
   for (Field absent :

@@ -136,12 +136,12 @@ TEST_CASE("every stage has a name of its own, a meaning and a kernel", "[registr
 TEST_CASE("a stage has the kernels of the target that it is asked for", "[registry]") {
   std::set<StageFn> kernels;
   for (const std::string& target : AvailableTargets()) {
-    const StageFn kernel = PackStage(SimdTarget(target)).resolve({});
-    CHECK(kernel == PackStage(SimdTarget(target)).resolve({}));
+    const StageFn kernel = CompactStage(SimdTarget(target)).resolve({});
+    CHECK(kernel == CompactStage(SimdTarget(target)).resolve({}));
     kernels.insert(kernel);
   }
   CHECK(kernels.size() == AvailableTargets().size());
-  CHECK(kernels.contains(PackStage({}).resolve({})));
+  CHECK(kernels.contains(CompactStage({}).resolve({})));
 }
 
 TEST_CASE("headers of kernels are guarded by their paths", "[registry]") {

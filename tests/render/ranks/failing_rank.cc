@@ -31,7 +31,7 @@ void Render(const char* scene, const char* state, RankGroup& group) {
     good_stage = job.plan.paths().stages[0].kernel;
     job.plan.phases[0].stages[0].kernel = FailingStage;
   }
-  if (!group.leads()) return ServeRender(job, group, nullptr);
+  if (!group.is_leader()) return ServeRender(job, group, nullptr);
   RenderTargets targets;
   targets.checkpoint.path = state;
   RenderHooks hooks;
@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   try {
     Render(argv[1], argv[2], *group);
   } catch (const std::exception& error) {
-    if (group->leads()) std::fprintf(stderr, "%s\n", error.what());
+    if (group->is_leader()) std::fprintf(stderr, "%s\n", error.what());
     return group->Fail(1, error.what());
   }
   return group->Leave(0);

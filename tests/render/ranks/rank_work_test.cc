@@ -53,8 +53,8 @@ struct RankFixture {
   }
 };
 
-std::uint64_t Missing(ThreadWork& threads, std::uint64_t spp) {
-  return threads.scheduler().Missing(threads.scheduler().Snapshot(), spp);
+std::uint64_t MissingSamples(ThreadWork& threads, std::uint64_t spp) {
+  return threads.scheduler().MissingSamples(threads.scheduler().Snapshot(), spp);
 }
 
 // Fails the rank of this thread.
@@ -65,7 +65,7 @@ void Expect(bool holds) {
 // Stops after so many tasks.
 struct CountingWatch : TaskWatcher {
   explicit CountingWatch(int maximum) : left(maximum) {}
-  bool Stopped() const override { return left <= 0; }
+  bool IsStopped() const override { return left <= 0; }
   void TaskDone() override { --left; }
   std::atomic<int> left;
 };
@@ -108,10 +108,10 @@ TEST_CASE("the leader counts the remaining samples of other ranks", "[ranks]") {
   workers_are_slow = true;
   OnRanks(3, [](RankGroup& group) {
     RankFixture own;
-    if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
+    if (!group.is_leader()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
     work.AssignTiles(false, 1);
-    if (!group.leads()) {
+    if (!group.is_leader()) {
       std::vector<std::uint64_t> firsts;
       work.Serve([&](const Round& round) { firsts.push_back(round.begin); }, nullptr);
       if (firsts != std::vector<std::uint64_t>{0, 0, 12})
@@ -146,11 +146,11 @@ TEST_CASE("moving tiles to a faster rank keeps the image bit-identical", "[ranks
   workers_are_slow = true;
   OnRanks(3, [&alone](RankGroup& group) {
     RankFixture own;
-    if (!group.leads()) own.plan.phases[0].stages[0].kernel = SlowStage;
+    if (!group.is_leader()) own.plan.phases[0].stages[0].kernel = SlowStage;
     RankWork work(group, own.clock, own.threads, own.films);
     work.AssignTiles(false, 1);
-    if (!group.leads()) return work.Serve([](const Round&) {}, nullptr);
-    const std::uint64_t dealt = Missing(own.threads, kSpp);
+    if (!group.is_leader()) return work.Serve([](const Round&) {}, nullptr);
+    const std::uint64_t dealt = MissingSamples(own.threads, kSpp);
     CHECK(dealt < kSpp * kPixels / 2);
     CountingWatch patient(1 << 30);
     work.RunRound({0, kSpp, 4}, patient);

@@ -77,7 +77,7 @@ class ThreadRank : public RankGroup {
   }
   void Gather(std::string_view bytes, const Receiver& receive) override {
     const auto all = exchange_.Exchange(rank_, std::string(bytes));
-    for (int r = 1; leads() && r < ranks(); ++r) {
+    for (int r = 1; is_leader() && r < ranks(); ++r) {
       gathered_ += all[static_cast<std::size_t>(r)].size();
       receive(r, all[static_cast<std::size_t>(r)]);
     }

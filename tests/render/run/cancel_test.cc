@@ -30,9 +30,9 @@ Shape "trianglemesh"
 )";
 
 struct Watcher : TaskWatcher {
-  bool Stopped() const override { return false; }
+  bool IsStopped() const override { return false; }
   void TaskDone() override { ++done; }
-  bool Cancelled() const override { return ++polls > after; }
+  bool IsCancelled() const override { return ++polls > after; }
   std::atomic<int> done{0};
   mutable std::atomic<int> polls{0};
   int after = 0;
@@ -65,7 +65,7 @@ TEST_CASE("a time limit ends half a second after a stop", "[put_down]") {
   TimeLimit limit;
   CHECK_FALSE(limit.IsOver(false, false, 1e9));
   CHECK_FALSE(limit.IsOver(true, false, 7));
-  limit.Ended(7.4);
+  limit.NoteTaskEnd(7.4);
   CHECK_FALSE(limit.IsOver(true, false, 7.4));
   CHECK(limit.IsOver(true, false, 7.6));
 }
@@ -78,7 +78,7 @@ TEST_CASE("a time limit with a budget waits for the first samples", "[put_down]"
   CHECK(limit.IsOver(false, true, 2.6));
   CHECK_FALSE(limit.IsOver(false, false, 3.9));
   CHECK(limit.IsOver(false, false, 4.1));
-  limit.Ended(4.0);
+  limit.NoteTaskEnd(4.0);
   CHECK_FALSE(limit.IsOver(false, false, 5.9));
   CHECK(limit.IsOver(false, false, 6.1));
   CHECK(TimeLimit(0.1).Wait() == 1);

@@ -4,7 +4,7 @@
 // all pixels are observations of one closed form.
 #include <catch2/catch.hpp>
 
-#include "tests/kernels/points/slope.h"
+#include "tests/kernels/samplers/slope.h"
 #include "tests/reference/closed_forms.h"
 #include "tests/reference/scenes.h"
 #include "tests/render/run/render_fixture.h"
@@ -50,13 +50,13 @@ Convergence Environment() {
 }
 
 // Root mean square error of green over the pixels of images of several seeds.
-double Rmse(const Convergence& c, Points points, std::uint64_t spp) {
+double Rmse(const Convergence& c, SampleSequence sampler, std::uint64_t spp) {
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     TestRender options;
     options.spp = spp;
     options.seed = seed;
-    options.sampler = points;
+    options.sampler = sampler;
     options.strategy = fmt::format("directions={},roulette=none", c.directions);
     const Rendered image = RenderDescription(c.scene, options);
     REQUIRE(image.result.health.Total() == 0);
@@ -70,11 +70,11 @@ double Rmse(const Convergence& c, Points points, std::uint64_t spp) {
 
 // From 4 to 1024 samples per pixel. Groups are a quarter of them, four per pixel, so the
 // order is that of the groups.
-double Slope(const Convergence& c, Points points) {
+double Slope(const Convergence& c, SampleSequence sampler) {
   std::vector<double> n, rmse;
   for (std::uint64_t spp = 4; spp <= 1024; spp *= 4) {
     n.push_back(double(spp));
-    rmse.push_back(Rmse(c, points, spp));
+    rmse.push_back(Rmse(c, sampler, spp));
   }
   return LogSlope(n, rmse);
 }
@@ -85,19 +85,19 @@ double Slope(const Convergence& c, Points points) {
 TEST_CASE("wavefront: orders of convergence of smooth integrands", "[convergence]") {
   for (const Convergence& c : {AreaLight(), Environment()}) {
     INFO(c.directions);
-    CHECK(Slope(c, Points::kIndependent) == Approx(-0.5).margin(0.05));
-    CHECK(Slope(c, Points::kStratified) <= -0.70);
-    CHECK(Slope(c, Points::kSobol) <= -0.90);
+    CHECK(Slope(c, SampleSequence::kIndependent) == Approx(-0.5).margin(0.05));
+    CHECK(Slope(c, SampleSequence::kStratified) <= -0.70);
+    CHECK(Slope(c, SampleSequence::kSobol) <= -0.90);
   }
 }
 
 TEST_CASE("wavefront: orders of convergence of the other samplers", "[convergence]") {
   for (const Convergence& c : {AreaLight(), Environment()}) {
     INFO(c.directions);
-    CHECK(Slope(c, Points::kPmj02) <= -0.90);
-    CHECK(Slope(c, Points::kCmj) <= -0.70);
-    CHECK(Slope(c, Points::kHalton) <= -0.70);
-    CHECK(Slope(c, Points::kLattice) <= -0.70);
+    CHECK(Slope(c, SampleSequence::kPmj02) <= -0.90);
+    CHECK(Slope(c, SampleSequence::kCmj) <= -0.70);
+    CHECK(Slope(c, SampleSequence::kHalton) <= -0.70);
+    CHECK(Slope(c, SampleSequence::kLattice) <= -0.70);
   }
 }
 

@@ -20,10 +20,10 @@ class LateStart : public Checkpointer {
     state.counts.samples = first_ * kWidth * kHeight;
     return true;
   }
-  bool Due() const override { return false; }
-  void Keep(RunState& state) override { columns = CopyColumns(state.films); }
+  bool IsDue() const override { return false; }
+  void Save(RunState& state) override { columns = CopyColumns(state.films); }
 
-  std::vector<KeptColumn> columns;
+  std::vector<ColumnCopy> columns;
 
  private:
   std::uint64_t first_;
@@ -41,7 +41,7 @@ std::vector<double> SumsOf(const std::string& strategy, std::uint64_t first,
   const Rendered out = Render(request);
   CHECK(out.result.samples == last * kWidth * kHeight);
   CHECK(out.result.stop_reason == StopReason::kSamples);
-  const KeptColumn& sums = checkpointer.columns[1];
+  const ColumnCopy& sums = checkpointer.columns[1];
   std::vector<double> values(sums.bytes.size() / sizeof(double));
   std::memcpy(values.data(), sums.bytes.data(), sums.bytes.size());
   return values;

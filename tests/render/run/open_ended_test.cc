@@ -70,8 +70,8 @@ TEST_CASE("a render stops once its error is below the target", "[open_ended]") {
     const ErrorEstimate e = EstimateError(r.film);
     CHECK(Reached({o.target, 0}, e));
     CHECK(e.relmse.value > o.target / 2);  // not by much
-    CHECK(r.result.looks >= 2);
-    CHECK(r.result.looks <= 24);  // up to 512 units
+    CHECK(r.result.num_checks >= 2);
+    CHECK(r.result.num_checks <= 24);  // up to 512 units
     CHECK(r.result.samples % (37 * 29) == 0);
     const std::uint64_t done = r.film.Samples(3, 3);
     CHECK(CheckFrom(done, r.film.groups().unit) == done);
@@ -140,8 +140,8 @@ TEST_CASE("a time budget gives every pixel a sample and ends", "[open_ended]") {
 }
 
 TEST_CASE("a render stopped at any time has variances", "[open_ended]") {
-  for (int i = 0; i < kNumPoints; ++i) {
-    const std::string points = Name(static_cast<Points>(i));
+  for (int i = 0; i < kNumSampleSequences; ++i) {
+    const std::string points = Name(static_cast<SampleSequence>(i));
     for (const char* pairs : {"", ",pairs=antithetic"}) {
       CAPTURE(points, pairs);
       const ThreadLimit limit(2);
@@ -184,7 +184,7 @@ TEST_CASE("a render stopped at any time has variances", "[open_ended]") {
 
 TEST_CASE("stopping at the target keeps the image unbiased", "[open_ended]") {
   TestRender t;
-  t.sampler = Points::kSobol;
+  t.sampler = SampleSequence::kSobol;
   t.spp = 8192;
   t.seed = 99;
   const Rendered truth = RenderText(LampScene(37, 29, 3), t);

@@ -24,9 +24,9 @@ Rendered RenderOnRanks(int ranks, const Request& request) {
   OnRanks(ranks, [&](RankGroup& group) {
     Request own = request;
     own.group = &group;
-    if (!group.leads()) own.checkpointer = nullptr;
+    if (!group.is_leader()) own.checkpointer = nullptr;
     Rendered rendered = resume::Render(own);
-    if (group.leads()) out.emplace(std::move(rendered));
+    if (group.is_leader()) out.emplace(std::move(rendered));
   });
   return std::move(*out);
 }

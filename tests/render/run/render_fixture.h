@@ -20,7 +20,7 @@ struct TestRender {
   std::uint64_t seed = 1;
   int threads = 2;
   std::uint32_t wavefront = 0;
-  Points sampler = Points::kIndependent;
+  SampleSequence sampler = SampleSequence::kIndependent;
   std::string strategy;  // on top of the scene's and `sampler`
   Auxiliary auxiliary = Auxiliary::kNone;
   bool keep_roulette = false;         // RunOptions
@@ -41,7 +41,7 @@ inline Rendered RenderDescription(const SceneDescription& description,
   compile.leaf_triangles = LeafTrianglesFor(TestTarget().lanes());  // as a render does
   PreparedScene scene = PrepareScene(description, compile);
   Strategy strategy = scene.strategy;
-  strategy.points = t.sampler;
+  strategy.sampler = t.sampler;
   ApplyStrategy(t.strategy, {}, strategy);
   scene = WithStrategy(scene, strategy);
   PlanOptions plan_options;

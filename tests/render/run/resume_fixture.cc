@@ -33,7 +33,7 @@ Rendered Render(const Request& request) {
     };
   }
   options.group = request.group;
-  if (options.group != nullptr && !options.group->leads()) {
+  if (options.group != nullptr && !options.group->is_leader()) {
     ServeRun(scene, plan, options, out.film);
   } else {
     out.result = Run(scene, plan, options, out.film);
@@ -46,7 +46,7 @@ bool Same(const RunResult& a, const RunResult& b) {
          a.rays_shadow == b.rays_shadow && a.health.Total() == b.health.Total() &&
          a.training.samples == b.training.samples && a.training.rays == b.training.rays &&
          a.training.note == b.training.note && a.roulette == b.roulette &&
-         a.looks == b.looks;
+         a.num_checks == b.num_checks;
 }
 
 Rendered RenderInParts(const Request& request, const std::vector<Request>& ends,

@@ -8,7 +8,7 @@
 
 #include "src/render/wave/run_state.h"
 #include "tests/render/run/render_fixture.h"
-#include "tests/render/wave/kept_state.h"
+#include "tests/render/wave/column_copies.h"
 
 namespace lanelight::resume {
 
@@ -16,8 +16,8 @@ inline constexpr int kWidth = 70, kHeight = 37;  // of the image
 
 /// The state that a run leaves.
 struct Rest : RunRecord {
-  bool taken = false;
-  std::vector<KeptColumn> columns;
+  bool is_saved = false;
+  std::vector<ColumnCopy> columns;
 };
 
 /// Puts the run down once it has been asked so often, and lets it end there or go on.
@@ -27,13 +27,13 @@ class InterruptingCheckpointer : public Checkpointer {
       : rest_(rest), limit_(max_calls), stops_(stops) {}
 
   bool Restore(RunState& state) override {
-    if (!rest_.taken) return false;
+    if (!rest_.is_saved) return false;
     PutColumns(rest_.columns, state.films);
     static_cast<RunRecord&>(state) = rest_;
     return true;
   }
-  bool Due() const override { return polls_.fetch_add(1) >= limit_; }
-  void Keep(RunState& state) override {
+  bool IsDue() const override { return polls_.fetch_add(1) >= limit_; }
+  void Save(RunState& state) override {
     rest_ = {state, true, CopyColumns(state.films)};
     kept_ += 1;
     polls_ = 0;

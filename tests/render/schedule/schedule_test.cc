@@ -86,7 +86,7 @@ TEST_CASE("a first round that takes too long is the only one", "[schedule]") {
   Pace pace(1, {100, 2, 32, 1});
   CHECK(pace.Next(0, 0).samples() == 1);
   pace.AddMeasurement(1, 5);
-  CHECK(pace.Reach(5) == 0);
+  CHECK(pace.RemainingSamples(5) == 0);
   CHECK(pace.Next(0, 5).samples() == 1);  // the caller sees that the time is over
 }
 

@@ -9,7 +9,7 @@ namespace lanelight {
 namespace {
 
 struct Watch : TaskWatcher {
-  bool Stopped() const override { return stopped; }
+  bool IsStopped() const override { return stopped; }
   void TaskDone() override {}
   std::atomic<bool> stopped{false};
 };
@@ -47,7 +47,7 @@ TEST_CASE("tiles are scheduled in order, each by one thread at a time", "[schedu
   const Watch watch;
   const auto end = [&](const SampleRange& range) {
     TaskSamples samples = SamplesOf(range);
-    scheduler.Done(range, samples, [](TaskSamples&) {});
+    scheduler.FinishRange(range, samples, [](TaskSamples&) {});
   };
   const auto a = scheduler.Next(watch), b = scheduler.Next(watch);
   CHECK(Is(a, 0, 0, 4));
@@ -76,8 +76,9 @@ TEST_CASE("samples that finish early are merged in order", "[scheduler]") {
   std::vector<std::uint64_t> merged;
   const auto end = [&](const SampleRange& range) {
     TaskSamples samples = SamplesOf(range);
-    scheduler.Done(range, samples,
-                   [&](TaskSamples& ready) { merged.push_back(ready.counts.samples); });
+    scheduler.FinishRange(range, samples, [&](TaskSamples& ready) {
+      merged.push_back(ready.counts.samples);
+    });
   };
   end(ranges[2]);
   end(ranges[1]);
@@ -105,7 +106,7 @@ TEST_CASE("a waiting thread is resumed or released", "[scheduler]") {
     if (stops) {
       scheduler.Cancel();
     } else {
-      scheduler.Done(*first, samples, [](TaskSamples&) {});
+      scheduler.FinishRange(*first, samples, [](TaskSamples&) {});
     }
     other.join();
     CHECK(second.has_value() == !stops);
@@ -119,7 +120,8 @@ TEST_CASE("ranges that were cancelled are scheduled again", "[scheduler]") {
   CHECK(scheduler.Next(watch));
   const auto second = scheduler.Next(watch);
   TaskSamples samples = SamplesOf(*second);
-  scheduler.Done(*second, samples, [](TaskSamples&) { FAIL("merged before the first"); });
+  scheduler.FinishRange(*second, samples,
+                        [](TaskSamples&) { FAIL("merged before the first"); });
   scheduler.Cancel();
   CHECK_FALSE(scheduler.Next(watch));
   CHECK(Levels(scheduler) == std::vector<std::uint64_t>{0});
@@ -128,7 +130,7 @@ TEST_CASE("ranges that were cancelled are scheduled again", "[scheduler]") {
   const auto again = scheduler.Next(watch);
   REQUIRE(Is(again, 0, 0, 4));
   samples = SamplesOf(*again);
-  scheduler.Done(*again, samples, [](TaskSamples&) {});
+  scheduler.FinishRange(*again, samples, [](TaskSamples&) {});
   CHECK(Levels(scheduler) == std::vector<std::uint64_t>{4});
   CHECK(Is(scheduler.Next(watch), 0, 4, 8));
 }
@@ -136,7 +138,7 @@ TEST_CASE("ranges that were cancelled are scheduled again", "[scheduler]") {
 TEST_CASE("a scheduler releases idle tiles and adopts tiles of others", "[scheduler]") {
   Scheduler scheduler(Tiles(4));
   scheduler.Resume({{0, 0}, {1, 0}, {2, 6}});  // tile 3 is of another rank
-  CHECK(scheduler.Missing(scheduler.Snapshot(), 8) == 18);
+  CHECK(scheduler.MissingSamples(scheduler.Snapshot(), 8) == 18);
   const Watch watch;
   scheduler.Begin({0, 8, 4}, {1, true});
   const auto first = scheduler.Next(watch);
@@ -146,7 +148,7 @@ TEST_CASE("a scheduler releases idle tiles and adopts tiles of others", "[schedu
   CHECK(released[0].tile == 1);
   CHECK(scheduler.Snapshot().size() == 2);
   CHECK(Is(scheduler.Next(watch), 2, 6, 8));
-  scheduler.Adopt({{3, 4}});
+  scheduler.AddTiles({{3, 4}});
   CHECK(Is(scheduler.Next(watch), 3, 4, 8));
   CHECK(scheduler.Snapshot().size() == 3);
 }

@@ -85,7 +85,7 @@ TEST_CASE("a gain carried by few bright samples is not chosen", "[decision]") {
   entry.paired = true;
   entry.measure = MeasureOf(1, 1, 2);
   entry.baseline = MeasureOf(3, 1, 2);
-  CHECK(entry.Beyond(1.05, 2) == Approx(std::log(3 / 1.05)));
+  CHECK(entry.SignificantLogGain(1.05, 2) == Approx(std::log(3 / 1.05)));
   // Both have met the same bright samples: the gain is as large, and looks as sure.
   const auto bright = [&](std::size_t pixels) {
     for (std::size_t i = 0; i < pixels; ++i) {
@@ -96,15 +96,15 @@ TEST_CASE("a gain carried by few bright samples is not chosen", "[decision]") {
   CHECK(entry.Gain().log == Approx(std::log(3)).epsilon(0.1));
   CHECK(EffectivePixels(entry.measure.variances) == Approx(3).epsilon(0.1));
   CHECK(entry.IsCarriedByFew());
-  CHECK(entry.Beyond(1.05, 2) == 0);
+  CHECK(entry.SignificantLogGain(1.05, 2) == 0);
   bright(20);
   CHECK_FALSE(entry.IsCarriedByFew());
   CHECK_FALSE(entry.IgnoresWorstPixels());
-  CHECK(entry.Beyond(1.05, 2) > 1);
+  CHECK(entry.SignificantLogGain(1.05, 2) > 1);
   // No error at all is not carried by anything.
   entry.measure = {1, std::vector<double>(2000)};
   CHECK_FALSE(entry.IsCarriedByFew());
-  CHECK(entry.Beyond(1.05, 2) > 10);
+  CHECK(entry.SignificantLogGain(1.05, 2) > 10);
 }
 
 // Where few pixels carry the error, a roulette that is milder than the default is judged
@@ -117,22 +117,23 @@ TEST_CASE("strategies that cannot vary more are compared without the worst pixel
   // A bright sample that the baseline strategy has not met, though it may.
   entry.measure.variances[700] = 1e5;
   CHECK(entry.IsCarriedByFew());
-  CHECK(entry.Beyond(1.05, 0.5) == 0);
+  CHECK(entry.SignificantLogGain(1.05, 0.5) == 0);
   CHECK(entry.Gain().log < -2);
   entry.milder_roulette = true;
   CHECK(entry.IgnoresWorstPixels());
-  CHECK(entry.Beyond(1.05, 0.5) ==
+  CHECK(entry.SignificantLogGain(1.05, 0.5) ==
         Approx(std::log(1 / (1.2 * 0.5) / 1.05)).epsilon(0.02));
   // Not better, by all others either.
   entry.measure.cost = 2.2;
-  CHECK(entry.Beyond(1.05, 0.5) == 0);
+  CHECK(entry.SignificantLogGain(1.05, 0.5) == 0);
 }
 
 TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   const PreparedScene scene = PrepareScene(SplitRoom());
   const TrainingOptions training;
-  const auto milder_roulette = [&](const std::string& given, const std::string& changes) {
-    PlanOptions options = WithChanges(scene, {}, given);
+  const auto milder_roulette = [&](const std::string& baseline_changes,
+                                   const std::string& changes) {
+    PlanOptions options = WithChanges(scene, {}, baseline_changes);
     StrategyTrial trial(scene, training, 1, 1 << 16);
     TriedStrategy baseline = PrepareTrial(scene, options, "", 1);
     TriedStrategy tried = PrepareTrial(scene, options, changes, 1);
@@ -171,7 +172,7 @@ TEST_CASE("variances of samples that depend on each other are of their observati
       samples.colors.push_back({v, v, v});
     }
   }
-  const ImageGuess image(64, 64, work.pixels, samples.colors);
+  const PilotImage image(64, 64, work.pixels, samples.colors);
   const double weight = 1 / (1 + 0.01);
   // Two samples of an observation are worth one. 2 sigma^4 / 3 is the variance of each
   // pixel's; six standard errors: 2e-9.

@@ -90,9 +90,10 @@ TEST_CASE("images of clouds are bit-identical for any wavefront size", "[determi
 
 TEST_CASE("images are bit-identical for any threads and wavefront size",
           "[determinism]") {
-  for (Points sampler :
-       {Points::kIndependent, Points::kStratified, Points::kCmj, Points::kPmj02,
-        Points::kSobol, Points::kHalton, Points::kLattice}) {
+  for (SampleSequence sampler :
+       {SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kCmj,
+        SampleSequence::kPmj02, SampleSequence::kSobol, SampleSequence::kHalton,
+        SampleSequence::kLattice}) {
     TestRender base;
     base.sampler = sampler;
     base.spp = 12;

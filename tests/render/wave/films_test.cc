@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "tests/render/wave/kept_state.h"
+#include "tests/render/wave/column_copies.h"
 
 namespace lanelight {
 namespace {
@@ -51,7 +51,7 @@ struct Gathering {
     for (float& v : values) v = std::generate_canonical<float, 24>(engine);
     films.Add({{0, 0, kWidth, kHeight}, pixels, kWidth, values.data(), count});
   }
-  std::vector<KeptColumn> State() { return CopyColumns(films); }
+  std::vector<ColumnCopy> State() { return CopyColumns(films); }
 };
 
 const FilmCase kCases[] = {
@@ -69,8 +69,8 @@ const FilmCase kCases[] = {
 };
 
 // Rounds 0 to 2 and what is left of them, then 3 to 5.
-std::vector<KeptColumn> Continued(const FilmCase& c,
-                                  const std::vector<KeptColumn>& state) {
+std::vector<ColumnCopy> Continued(const FilmCase& c,
+                                  const std::vector<ColumnCopy>& state) {
   Gathering second(c);
   PutColumns(state, second.films);
   CHECK(second.State() == state);
@@ -105,14 +105,14 @@ TEST_CASE("films: each column is required, and errors name it", "[films]") {
     Gathering whole(c), first(c);
     for (int round = 0; round < 6; ++round) whole.Add(round);
     for (int round = 0; round < 3; ++round) first.Add(round);
-    const std::vector<KeptColumn> state = first.State();
+    const std::vector<ColumnCopy> state = first.State();
     CHECK(state.size() == c.columns);
     std::set<std::string> names;
     for (std::size_t i = 0; i < state.size(); ++i) {
       INFO(c.name << ", " << state[i].name);
       CHECK(names.insert(state[i].name).second);
       CHECK_FALSE(first.films.Columns()[i].meaning.empty());
-      std::vector<KeptColumn> damaged = state;
+      std::vector<ColumnCopy> damaged = state;
       std::fill(damaged[i].bytes.begin(), damaged[i].bytes.end(), 0);
       // Without groups of samples, no group is open.
       if (c.groups.unit == 1 && state[i].name == "control_open") continue;

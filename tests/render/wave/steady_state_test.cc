@@ -91,9 +91,9 @@ TEST_CASE("an allocation or a lock in a wavefront is noticed", "[steady]") {
   CHECK(allocating.allocations == static_cast<std::uint64_t>(waves / 8));
   CHECK(allocating.locks == 0);
   plant_allocation = false, plant_lock = true;
-  const InterposedCalls locking = CallsOfSecondTask(task, nullptr);
-  CHECK(locking.allocations == 0);
-  CHECK(locking.locks == static_cast<std::uint64_t>(waves / 8));
+  const InterposedCalls supports_locks = CallsOfSecondTask(task, nullptr);
+  CHECK(supports_locks.allocations == 0);
+  CHECK(supports_locks.locks == static_cast<std::uint64_t>(waves / 8));
   plant_lock = false;
 }
 

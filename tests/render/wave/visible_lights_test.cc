@@ -55,18 +55,18 @@ TEST_CASE("rays of a light's edge are assigned once, to their own replicate",
        {SampleGroups{1, false}, {2, false}, {1, true}, {2, true}}) {
     const VisibleLightSamples samples{groups, 4};
     const std::uint64_t n = 24;
-    std::multiset<std::uint64_t> taken;
+    std::multiset<std::uint64_t> used;
     for (std::uint64_t i = 0; i < n; ++i) {
       samples.ForEach(i, [&](std::uint64_t s) {
-        taken.insert(s);
+        used.insert(s);
         if (groups.replicates) CHECK(groups.Replicate(s) == groups.Replicate(i));
         CHECK(s >= samples.Begin(i));
         CHECK(s < samples.End(i + 1));
       });
     }
     // Paths of one unit share theirs.
-    CHECK(taken.size() == n * 4 * groups.unit);
-    for (std::uint64_t s = 0; s < n * 4; ++s) CHECK(taken.count(s) == groups.unit);
+    CHECK(used.size() == n * 4 * groups.unit);
+    for (std::uint64_t s = 0; s < n * 4; ++s) CHECK(used.count(s) == groups.unit);
   }
 }
 

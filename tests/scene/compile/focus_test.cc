@@ -104,13 +104,13 @@ TEST_CASE("focus: emitting spheres, and those at a distance, are ordinary", "[co
 }
 
 TEST_CASE("focus: the foot point is the nearest point", "[compile]") {
-  const Foot above = FootOn({0, 0, -100}, 100, {0, 0, 2});
+  const NearestPoint above = NearestPointOn({0, 0, -100}, 100, {0, 0, 2});
   CHECK(above.distance == Approx(2));
   CHECK(Length(above.point) < 1e-12);
-  const Foot inside = FootOn({0, 0, 0}, 10, {0, 7, 0});
+  const NearestPoint inside = NearestPointOn({0, 0, 0}, 10, {0, 7, 0});
   CHECK(inside.distance == Approx(3));
   CHECK(inside.point == Vec3d{0, 10, 0});
-  CHECK(FootOn({1, 1, 1}, 5, {1, 1, 1}).distance == 5);  // any point will do
+  CHECK(NearestPointOn({1, 1, 1}, 5, {1, 1, 1}).distance == 5);  // any point will do
 }
 
 }  // namespace lanelight

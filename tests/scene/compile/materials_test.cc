@@ -114,7 +114,7 @@ TEST_CASE("compile: hair absorbs by its spectrum", "[scene][compile]") {
   const CompiledMaterials compiled = CompileMaterials(d, {0}, {}, &rows);
   const std::size_t first =
       static_cast<std::size_t>(compiled.table.color0_spectrum[0]) * kWavelengthBins;
-  const SpectrumTable table = rows.Take();
+  const SpectrumTable table = rows.Finish();
   // The reflectance of much hair that absorbs so, with a roughness around it of 0.3.
   const double k = 5.969 - 0.215 * 0.3 + 2.532 * 0.09 - 10.73 * 0.027 + 5.574 * 0.0081 +
                    0.245 * 0.00243;

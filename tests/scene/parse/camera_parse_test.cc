@@ -28,7 +28,7 @@ TEST_CASE("defaults are those of pbrt", "[parse]") {
   CHECK(scene.film.imaging_ratio == 1);
   CHECK(scene.filter.kind == FilterKind::kGaussian);
   CHECK(scene.filter.x_radius == 1.5);
-  CHECK(scene.strategy.points == Points::kSobol);
+  CHECK(scene.strategy.sampler == SampleSequence::kSobol);
   CHECK(scene.sampler.spp == 16);
   CHECK(scene.integrator.max_depth == 5);
 }
@@ -129,20 +129,20 @@ TEST_CASE("pixel filters have their own default radii", "[parse]") {
 TEST_CASE("samplers", "[parse]") {
   const auto independent = ParseOptionsBlock(
       "Sampler \"independent\" \"integer pixelsamples\" 7 \"integer seed\" 9");
-  CHECK(independent.strategy.points == Points::kIndependent);
+  CHECK(independent.strategy.sampler == SampleSequence::kIndependent);
   CHECK(independent.sampler.spp == 7);
   CHECK(independent.sampler.seed == 9);
   CHECK(independent.notes.empty());
   const auto sobol = ParseOptionsBlock("Sampler \"sobol\"");
-  CHECK(sobol.strategy.points == Points::kSobol);
+  CHECK(sobol.strategy.sampler == SampleSequence::kSobol);
   CHECK(sobol.notes.empty());
   const auto stratified = ParseOptionsBlock(
       "Sampler \"stratified\" \"integer xsamples\" 3 \"bool jitter\" true");
   CHECK(stratified.sampler.spp == 12);
-  CHECK(stratified.strategy.points == Points::kStratified);
+  CHECK(stratified.strategy.sampler == SampleSequence::kStratified);
   const auto seeded = ParseOptionsBlock("Option \"integer seed\" 5 Sampler \"halton\"");
   CHECK(seeded.sampler.seed == 5);
-  CHECK(seeded.strategy.points == Points::kHalton);
+  CHECK(seeded.strategy.sampler == SampleSequence::kHalton);
   CHECK(seeded.notes.empty());
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("the shared scenes parse", "[parse]") {
       if (std::string(name) != "reference.pbrt") continue;
       CHECK(scene.integrator.max_depth == 16);
       CHECK(scene.filter.kind == FilterKind::kBox);
-      CHECK(scene.strategy.points == Points::kIndependent);
+      CHECK(scene.strategy.sampler == SampleSequence::kIndependent);
       CHECK(scene.sampler.spp == 64);
       CHECK(std::max(scene.film.width, scene.film.height) == 256);
     }

@@ -5,14 +5,14 @@
 
 #include "src/render/run/run.h"
 #include "src/scene/prepare/pmj02.h"
-#include "tests/kernels/points/draw.h"
+#include "tests/kernels/samplers/draw.h"
 
 namespace lanelight::test {
 namespace {
 
-std::string TextOf(Points points, std::uint64_t spp, bool pairs = false) {
+std::string TextOf(SampleSequence sampler, std::uint64_t spp, bool pairs = false) {
   Strategy strategy;
-  strategy.points = points;
+  strategy.sampler = sampler;
   if (pairs) strategy.pairs = Pairs::kAntithetic;
   return PointsText(strategy, spp);
 }
@@ -35,28 +35,28 @@ void CheckCounts(const SampleGroups& groups) {
 }  // namespace
 
 TEST_CASE("sequence lengths match the samplers' limits", "[points]") {
-  for (Points points : kAllPoints) {
-    INFO(Name(points));
-    CHECK(MakeSamplerParameters(points).group_shift == LogSequence(points));
+  for (SampleSequence sampler : kAllSequences) {
+    INFO(Name(sampler));
+    CHECK(MakeSamplerParameters(sampler).group_shift == LogSequence(sampler));
     // Sample counts begin anew after whole turns.
-    CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(points)) == 0);
-    CHECK(LogSequence(points) < 24);  // PermuteOctaves, CmjPoints
+    CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(sampler)) == 0);
+    CHECK(LogSequence(sampler) < 24);  // PermuteOctaves, CmjSequence
   }
-  CHECK(LogSequence(Points::kIndependent) == 0);
-  CHECK(1u << LogSequence(Points::kPmj02) == kPmj02Points);
-  CHECK(1u << LogSequence(Points::kHalton) < 6561);
-  CHECK(LogSequence(Points::kSobol) == 20);
+  CHECK(LogSequence(SampleSequence::kIndependent) == 0);
+  CHECK(1u << LogSequence(SampleSequence::kPmj02) == kPmj02SequenceLength);
+  CHECK(1u << LogSequence(SampleSequence::kHalton) < 6561);
+  CHECK(LogSequence(SampleSequence::kSobol) == 20);
 }
 
 TEST_CASE("independent samples or pairs are observations, others by replicate",
           "[points]") {
-  for (Points points : kAllPoints) {
+  for (SampleSequence sampler : kAllSequences) {
     for (Pairs pairs : {Pairs::kNone, Pairs::kAntithetic}) {
       Strategy strategy;
-      strategy.points = points;
+      strategy.sampler = sampler;
       strategy.pairs = pairs;
       const SampleGroups groups = GroupsOf(strategy);
-      CHECK(groups.replicates == (points != Points::kIndependent));
+      CHECK(groups.replicates == (sampler != SampleSequence::kIndependent));
       CHECK(groups.unit == (pairs == Pairs::kAntithetic ? 2u : 1u));
       CheckCounts(groups);
     }
@@ -69,29 +69,33 @@ TEST_CASE("independent samples or pairs are observations, others by replicate",
 }
 
 TEST_CASE("the efficient sample counts are reported", "[points]") {
-  CHECK(TextOf(Points::kIndependent, 7) == "independent");
-  CHECK(TextOf(Points::kIndependent, 7, true) == "independent, antithetic pairs (all)");
-  CHECK(TextOf(Points::kStratified, 64) == "stratified, 4 randomisations of 16 points");
-  CHECK(TextOf(Points::kSobol, 8) == "sobol, 4 randomisations of 2 points");
-  CHECK(TextOf(Points::kSobol, 0) == "sobol, 4 randomisations");
-  CHECK(TextOf(Points::kCmj, 7) ==
+  CHECK(TextOf(SampleSequence::kIndependent, 7) == "independent");
+  CHECK(TextOf(SampleSequence::kIndependent, 7, true) ==
+        "independent, antithetic pairs (all)");
+  CHECK(TextOf(SampleSequence::kStratified, 64) ==
+        "stratified, 4 randomisations of 16 points");
+  CHECK(TextOf(SampleSequence::kSobol, 8) == "sobol, 4 randomisations of 2 points");
+  CHECK(TextOf(SampleSequence::kSobol, 0) == "sobol, 4 randomisations");
+  CHECK(TextOf(SampleSequence::kCmj, 7) ==
         "cmj, not stratified (needs 8 samples per pixel), so the same as independent");
-  CHECK(TextOf(Points::kSobol, 100) ==
+  CHECK(TextOf(SampleSequence::kSobol, 100) ==
         "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
-  CHECK(TextOf(Points::kSobol, 9) ==
+  CHECK(TextOf(SampleSequence::kSobol, 9) ==
         "sobol, 4 randomisations of 2 or 3 points (8 or 16 samples are better "
         "stratified)");
-  CHECK(TextOf(Points::kPmj02, 4096) == "pmj02, 4 randomisations of 1024 points");
+  CHECK(TextOf(SampleSequence::kPmj02, 4096) == "pmj02, 4 randomisations of 1024 points");
   for (std::uint64_t spp : {4097, 5000, 8192}) {
-    CHECK(TextOf(Points::kPmj02, spp) ==
+    CHECK(TextOf(SampleSequence::kPmj02, spp) ==
           "pmj02, 8 randomisations of up to 1024 points, the most that it stratifies");
   }
-  CHECK(TextOf(Points::kPmj02, 8193).starts_with("pmj02, 12 randomisations of up to"));
-  CHECK(TextOf(Points::kStratified, 128, true) ==
+  CHECK(TextOf(SampleSequence::kPmj02, 8193)
+            .starts_with("pmj02, 12 randomisations of up to"));
+  CHECK(TextOf(SampleSequence::kStratified, 128, true) ==
         "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
-  CHECK(TextOf(Points::kHalton, 15, true) ==
+  CHECK(TextOf(SampleSequence::kHalton, 15, true) ==
         "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
-  CHECK(TextOf(Points::kHalton, 14, true).find("needs 16 samples") != std::string::npos);
+  CHECK(TextOf(SampleSequence::kHalton, 14, true).find("needs 16 samples") !=
+        std::string::npos);
 }
 
 }  // namespace lanelight::test

@@ -28,7 +28,7 @@ bool IsNet(std::span<const std::uint32_t> points, std::uint32_t k) {
 
 TEST_CASE("every prefix of 2^k points of the table is a net", "[points]") {
   const auto table = Pmj02Table();
-  constexpr std::size_t kNumbers = 2 * kPmj02Points;
+  constexpr std::size_t kNumbers = 2 * kPmj02SequenceLength;
   REQUIRE(table.size() == kNumbers * kPmj02Sequences);
   for (std::size_t s = 0; s < kPmj02Sequences; ++s) {
     for (std::uint32_t k = 0; k <= 10; ++k) {

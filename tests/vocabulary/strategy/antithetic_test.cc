@@ -90,7 +90,7 @@ TEST_CASE("antithetic: the second sample has the first one's numbers, reflected"
   Strategy strategy;
   ApplyStrategy("points=independent,pairs=antithetic:all", {}, strategy);
   f.run.pairs = MakeAntitheticParameters(strategy);
-  f.run.points = MakeSamplerParameters(strategy.points);
+  f.run.sampler = MakeSamplerParameters(strategy.sampler);
   const std::uint32_t pixels[3] = {7, 8, 9};
   f.wave.work.pixels = pixels;
   f.wave.work.num_pixels = 3;

@@ -68,18 +68,18 @@ TEST_CASE("arguments are parsed and kept in the text form", "[strategy]") {
 TEST_CASE("each preset changes one thing of paper-plain, and can be refined",
           "[strategy]") {
   const Strategy plain = Parse("paper-plain");
-  CHECK(plain.points == Points::kIndependent);
+  CHECK(plain.sampler == SampleSequence::kIndependent);
   CHECK(plain.roulette == Roulette::kNone);
   for (const PresetInfo& preset : AllPresets()) {
     const Strategy s = Parse(preset.name);
-    const int changed = (s.directions != plain.directions) + (s.points != plain.points) +
-                        (s.pairs != plain.pairs) + (s.control != plain.control) +
-                        (s.roulette != plain.roulette) +
+    const int changed = (s.directions != plain.directions) +
+                        (s.sampler != plain.sampler) + (s.pairs != plain.pairs) +
+                        (s.control != plain.control) + (s.roulette != plain.roulette) +
                         (s.light_selection != plain.light_selection);
     INFO(preset.name);
     CHECK(changed == (preset.name == std::string("paper-plain") ? 0 : 1));
     Strategy refined = s;
-    refined.points = Points::kHalton;
+    refined.sampler = SampleSequence::kHalton;
     CHECK(Parse(std::string(preset.name) + ",points=halton") == refined);
   }
 }
@@ -147,7 +147,7 @@ TEST_CASE("a scene file can say its strategy", "[strategy]") {
       "Sampler \"halton\"");
   CHECK(scene.strategy.directions == Directions::kLight);
   CHECK(scene.strategy.roulette == Roulette::kNone);
-  CHECK(scene.strategy.points == Points::kHalton);  // whatever the order
+  CHECK(scene.strategy.sampler == SampleSequence::kHalton);  // whatever the order
   CHECK(parse("Integrator \"path\" \"string lightsampler\" \"bvh\"")
             .strategy.light_selection == LightSelection::kTree);
   CHECK_THROWS_WITH(parse("Integrator \"path\"\n \"string strategy\" \"points=sobl\""),

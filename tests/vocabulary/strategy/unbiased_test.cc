@@ -139,8 +139,8 @@ TEST_CASE("every combination fills the closed room as the closed form says",
   const int size = room.scene.film.width;
   Power power;
   CheckAll(room,
-           stat::KnownImage(size, room.scene.film.height,
-                            [&](int, int) { return Grey(value); }),
+           stat::ExpectedImage(size, room.scene.film.height,
+                               [&](int, int) { return Grey(value); }),
            256, power);
   // Set by directions=uniform; all other choices find 2 %.
   power.Check(0.08);

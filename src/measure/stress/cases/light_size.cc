@@ -31,11 +31,11 @@ std::vector<Point> Disk(double radius, const Effort& effort) {
   std::vector<Point> points;
   const double radiance = 1 / (radius * radius);
   for (const bool two_sided : {false, true}) {
-    const std::string text =
-        Below(Glow(radiance, two_sided) + (two_sided ? "" : "ReverseOrientation\n") +
-              fmt::format("Translate 0 0 2\nMaterial {}\nShape \"disk\" \"float radius\" "
-                          "{:.17g}",
-                          Diffuse(0), radius));
+    const std::string text = Below(
+        AreaLightText(radiance, two_sided) + (two_sided ? "" : "ReverseOrientation\n") +
+        fmt::format("Translate 0 0 2\nMaterial {}\nShape \"disk\" \"float radius\" "
+                    "{:.17g}",
+                    Diffuse(0), radius));
     points.push_back(
         Named(two_sided ? "two-sided" : "one-sided",
               Expect(Shown(kPi / (radius * radius + 4)), text, kDirect, effort)));
@@ -50,8 +50,8 @@ std::vector<Point> Quad(double half, const Effort& effort) {
       Vec3d{x - half, -half, 2}, Vec3d{x + half, -half, 2}, Vec3d{x + half, half, 2},
       Vec3d{x - half, half, 2}};
   const double radiance = 1 / (half * half);
-  const std::string text = Below(Glow(radiance, true) + "Material " + Diffuse(0) + "\n" +
-                                 Rectangle(corner[0], corner[2]));
+  const std::string text = Below(AreaLightText(radiance, true) + "Material " +
+                                 Diffuse(0) + "\n" + Rectangle(corner[0], corner[2]));
   return {Expect(Shown(radiance * PolygonIrradiance(corner)), text, kDirect, effort)};
 }
 

@@ -38,7 +38,7 @@ std::string Tessellated(int n, double radiance) {
     indices += fmt::format(" {} {} {} {} {} {}", at, at + 1, at + n + 2, at, at + n + 2,
                            at + n + 1);
   }
-  return Block(Glow(radiance, true) + "Material " + Diffuse(0) +
+  return Block(AreaLightText(radiance, true) + "Material " + Diffuse(0) +
                "\nShape \"trianglemesh\" \"integer indices\" [" + indices +
                "] \"point3 P\" [" + positions + "]");
 }

@@ -58,7 +58,7 @@ std::vector<Point> NoiseByRadiance(double radiance, const Effort& effort) {
 // Two lamps that fill half of the image each: neither light reaches the other half.
 std::vector<Point> InOneImage(double ratio, const Effort& effort) {
   const auto lamp = [](double x0, double x1, double radiance) {
-    return Block(Glow(radiance) + Rectangle({x0, -1, 0}, {x1, 1, 0}));
+    return Block(AreaLightText(radiance) + Rectangle({x0, -1, 0}, {x1, 1, 0}));
   };
   const JobRun image = RenderText(
       Setup(ViewOfPlane(1, 1) + lamp(-1, 0, 1) + lamp(0, 1, ratio), kLitOnce, effort));

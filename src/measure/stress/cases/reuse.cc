@@ -18,8 +18,8 @@ constexpr int kSeeds = 32;
 
 // Pixels of a tile depend on each other: the error is what images of several seeds differ
 // by.
-Point Served(const std::string& reuse, double expected, const std::string& text,
-             int depth, const Effort& effort) {
+Point ReusePoint(const std::string& reuse, double expected, const std::string& text,
+                 int depth, const Effort& effort) {
   Quality quality = {16, 512, depth, 16};
   quality.strategy = "roulette=none,reuse=" + reuse;
   SceneText scene = Setup(text, quality, effort);
@@ -51,7 +51,7 @@ std::vector<Point> ByDistance(double radius, const Effort& effort) {
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
     points.push_back(
-        Served(layout, ClosedRoom(double(0.2f), double(0.8f), 8), room, 8, effort));
+        ReusePoint(layout, ClosedRoom(double(0.2f), double(0.8f), 8), room, 8, effort));
   }
   return points;
 }
@@ -74,7 +74,7 @@ std::vector<Point> ByCorner(double half, const Effort& effort) {
   for (int event = 1; event <= 8; ++event) expected += term *= 0.5 * double(0.8f);
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
-    points.push_back(Served(layout, expected, Corner(half, Diffuse(0.8)), 8, effort));
+    points.push_back(ReusePoint(layout, expected, Corner(half, Diffuse(0.8)), 8, effort));
   }
   return points;
 }
@@ -93,13 +93,13 @@ std::vector<Point> ByBlackStripes(double stripes, const Effort& effort) {
       "  \"float vscale\" 0.5 {} {}\n",
       stripes, Grey("tex1", 0), Grey("tex2", albedo));
   const std::string walls =
-      Block(Glow(emission) + "ReverseOrientation\n" +
+      Block(AreaLightText(emission) + "ReverseOrientation\n" +
             Sphere({}, 4, "\"diffuse\" \"texture reflectance\" \"stripes\""));
   const double arrives = ClosedRoom(emission, albedo / 2, 7);
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
     points.push_back(
-        Served(layout, emission + albedo / 2 * arrives, text + walls, 8, effort));
+        ReusePoint(layout, emission + albedo / 2 * arrives, text + walls, 8, effort));
   }
   return points;
 }
@@ -107,10 +107,10 @@ std::vector<Point> ByBlackStripes(double stripes, const Effort& effort) {
 // A metal in the corner, seen from the diffuse floor, held against paths of their own.
 std::vector<Point> BySharedAlpha(double alpha, const Effort& effort) {
   const std::string scene = Corner(1, Metal(0.8, alpha, alpha));
-  const Point alone = Served("none", 1, scene, 4, effort);
+  const Point alone = ReusePoint("none", 1, scene, 4, effort);
   std::vector<Point> points;
   for (const char* layout : kLayouts) {
-    points.push_back(Served(layout, alone.measured, scene, 4, effort));
+    points.push_back(ReusePoint(layout, alone.measured, scene, 4, effort));
     Point& point = points.back();
     point.standard_error = std::hypot(point.standard_error, alone.standard_error);
   }

@@ -65,13 +65,13 @@ std::string Sky(double radiance) {
   return "LightSource \"infinite\"" + Grey("L", radiance) + "\n";
 }
 
-std::string Glow(double radiance, bool two_sided) {
+std::string AreaLightText(double radiance, bool two_sided) {
   return fmt::format("AreaLightSource \"diffuse\"{} \"bool twosided\" {}\n",
                      Grey("L", radiance), two_sided);
 }
 
 std::string SphereLight(Vec3d center, double radius, double radiance) {
-  return Block(Glow(radiance) + Sphere(center, radius, Diffuse(0)));
+  return Block(AreaLightText(radiance) + Sphere(center, radius, Diffuse(0)));
 }
 
 std::string Plane(const std::string& material) {
@@ -121,7 +121,7 @@ std::string SkyScene(const std::string& camera, double albedo,
 }
 
 std::string Walls(double emission, double albedo, double radius) {
-  return Block(Glow(emission) + "ReverseOrientation\n" +
+  return Block(AreaLightText(emission) + "ReverseOrientation\n" +
                Sphere({}, radius, Diffuse(albedo)));
 }
 

@@ -43,7 +43,7 @@ std::string Glass(double eta, double alpha = 0);
 
 std::string Sky(double radiance);
 /// `AreaLightSource "diffuse"` of this radiance.
-std::string Glow(double radiance, bool two_sided = false);
+std::string AreaLightText(double radiance, bool two_sided = false);
 /// A sphere that emits and reflects nothing.
 std::string SphereLight(Vec3d center, double radius, double radiance);
 

@@ -3,29 +3,30 @@
 
 #include <vector>
 
-#include "kernels/probe/points_probe.h"
+#include "kernels/probe/sampler_probe.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {
 
-inline constexpr Points kAllPoints[] = {
-    Points::kIndependent, Points::kStratified, Points::kCmj,    Points::kPmj02,
-    Points::kSobol,       Points::kHalton,     Points::kLattice};
+inline constexpr SampleSequence kAllSequences[] = {
+    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kCmj,
+    SampleSequence::kPmj02,       SampleSequence::kSobol,      SampleSequence::kHalton,
+    SampleSequence::kLattice};
 
 struct Drawn {
   std::vector<float> u0, u1;
 };
 
-inline Drawn Draw(const PointsQuery& q) {
+inline Drawn Draw(const SamplerQuery& q) {
   const std::size_t size = std::size_t{q.count} * q.pixels;
   Drawn p{std::vector<float>(size + 16), std::vector<float>(size + 16)};
-  ProbePoints(TestTarget(), q, p.u0.data(), p.u1.data());
+  ProbeSampler(TestTarget(), q, p.u0.data(), p.u1.data());
   p.u0.resize(size);
   p.u1.resize(size);
   return p;
 }
 
-inline std::vector<float> DrawNumbers(const PointsQuery& q) {
+inline std::vector<float> DrawNumbers(const SamplerQuery& q) {
   const std::size_t size = std::size_t{q.count} * q.pixels;
   std::vector<float> u(size + 16);
   ProbeNumbers(TestTarget(), q, u.data());

@@ -29,15 +29,12 @@ inline Outcome OutcomeOf(const FilmAccumulator& film, const RunResult& result) {
     out.planes.emplace_back(reinterpret_cast<const char*>(plane.values.data()),
                             plane.values.size() * sizeof(float));
   }
-  nlohmann::json report = {{"samples", result.samples},
-                           {"closest", result.rays_closest},
-                           {"shadow", result.rays_shadow},
-                           {"invalid", result.health.Total()},
-                           {"looks", result.looks},
-                           {"pilot", result.training.samples},
-                           {"note", result.training.note},
-                           {"roulette", Name(result.roulette)},
-                           {"error", ToJson(EstimateError(film))}};
+  nlohmann::json report = {
+      {"samples", result.samples},           {"closest", result.rays_closest},
+      {"shadow", result.rays_shadow},        {"invalid", result.health.Total()},
+      {"looks", result.num_checks},          {"pilot", result.training.samples},
+      {"note", result.training.note},        {"roulette", Name(result.roulette)},
+      {"error", ToJson(EstimateError(film))}};
   if (result.control) {
     report["control"] = {result.control->coefficient, result.control->correlation};
   }
@@ -45,7 +42,7 @@ inline Outcome OutcomeOf(const FilmAccumulator& film, const RunResult& result) {
   return out;
 }
 
-struct KeptRender {
+struct CheckpointedRender {
   std::string scene;
   RenderSettings settings;
   int threads = 2;
@@ -60,11 +57,11 @@ class TaskCounter : public Checkpointer {
   TaskCounter(Checkpointer& checkpointer, int tasks, std::atomic<bool>& stop)
       : checkpointer_(checkpointer), left_(tasks), stop_(stop) {}
   bool Restore(RunState& state) override { return checkpointer_.Restore(state); }
-  bool Due() const override {
+  bool IsDue() const override {
     if (left_ > 0 && --left_ == 0) stop_ = true;
-    return checkpointer_.Due();
+    return checkpointer_.IsDue();
   }
-  void Keep(RunState& state) override { checkpointer_.Keep(state); }
+  void Save(RunState& state) override { checkpointer_.Save(state); }
 
  private:
   Checkpointer& checkpointer_;
@@ -72,7 +69,7 @@ class TaskCounter : public Checkpointer {
   std::atomic<bool>& stop_;
 };
 
-inline Outcome RenderKept(const KeptRender& r) {
+inline Outcome RenderKept(const CheckpointedRender& r) {
   const ThreadLimit limit(r.threads);
   const Job job = PrepareJob(r.scene, r.settings);
   FilmAccumulator film = MakeFilm(job);

@@ -9,7 +9,7 @@
 #include "src/scene/prepare/lattice.h"
 #include "src/scene/prepare/parameters.h"
 #include "tests/base/stat/chi2.h"
-#include "tests/kernels/points/draw.h"
+#include "tests/kernels/samplers/draw.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {
@@ -66,14 +66,14 @@ bool IsNet(const Drawn& p) {
 // Calls body(the first `count` points of a replicate), of a few pixels, of the first
 // sequence and of a later one, on all targets.
 template <class Body>
-void ForReplicates(Points points, std::uint32_t count, Body&& body) {
+void ForReplicates(SampleSequence sampler, std::uint32_t count, Body&& body) {
   for (const std::string& target : AvailableTargets()) {
     ForceTarget(target);
     for (std::uint32_t pixel : {0u, 77777u}) {
       for (std::uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
-        const std::uint32_t sequence = pixel % 100 << LogSequence(points);
-        body(PointsQuery{points, 7, pixel, 3, sequence * kReplicates + replicate, count,
-                         1, kReplicates});
+        const std::uint32_t sequence = pixel % 100 << LogSequence(sampler);
+        body(SamplerQuery{sampler, 7, pixel, 3, sequence * kReplicates + replicate, count,
+                          1, kReplicates});
       }
     }
   }
@@ -145,7 +145,7 @@ bool IsShiftedLattice(const Drawn& p, std::uint32_t z) {
 }  // namespace
 
 TEST_CASE("stratified: one of any aligned 2^m points per stratum", "[points]") {
-  ForReplicates(Points::kStratified, 512, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kStratified, 512, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
     const std::vector<float> numbers = DrawNumbers(q);
     ForBlocks(512, [&](std::size_t first, std::size_t n) {
@@ -156,7 +156,7 @@ TEST_CASE("stratified: one of any aligned 2^m points per stratum", "[points]") {
 }
 
 TEST_CASE("cmj: each block is a complete pattern", "[points]") {
-  ForReplicates(Points::kCmj, 2048, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kCmj, 2048, [&](const SamplerQuery& q) {
     const Drawn all = Draw(q);
     for (std::size_t n = 1; n <= 1024; n *= 2) {
       const Drawn d = Prefix(all, n, n);
@@ -168,14 +168,14 @@ TEST_CASE("cmj: each block is a complete pattern", "[points]") {
 }
 
 TEST_CASE("pmj02: every prefix of 2^k points is a net", "[points]") {
-  ForReplicates(Points::kPmj02, 1024, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kPmj02, 1024, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
     for (std::size_t n = 1; n <= 1024; n *= 2) REQUIRE(IsNet(Prefix(d, 0, n)));
   });
 }
 
 TEST_CASE("sobol: every aligned power-of-two block is a net", "[points]") {
-  ForReplicates(Points::kSobol, 256, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kSobol, 256, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
     ForBlocks(256, [&](std::size_t first, std::size_t n) {
       REQUIRE(IsNet(Prefix(d, first, n)));
@@ -184,7 +184,7 @@ TEST_CASE("sobol: every aligned power-of-two block is a net", "[points]") {
 }
 
 TEST_CASE("halton: a prefix of 2^m points fills boxes as Halton's do", "[points]") {
-  ForReplicates(Points::kHalton, 1024, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kHalton, 1024, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
     for (std::size_t n = 1; n <= 1024; n *= 2) {
       REQUIRE(EvenIntervals(Prefix(d, 0, n).u0, n));
@@ -194,7 +194,7 @@ TEST_CASE("halton: a prefix of 2^m points fills boxes as Halton's do", "[points]
 }
 
 TEST_CASE("lattice: any aligned 2^m points are a shifted lattice", "[points]") {
-  ForReplicates(Points::kLattice, 1024, [&](const PointsQuery& q) {
+  ForReplicates(SampleSequence::kLattice, 1024, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
     ForBlocks(1024, [&](std::size_t first, std::size_t n) {
       REQUIRE(IsShiftedLattice(Prefix(d, first, n), kLatticeGenerator));
@@ -203,14 +203,14 @@ TEST_CASE("lattice: any aligned 2^m points are a shifted lattice", "[points]") {
 }
 
 TEST_CASE("replicates and sequences are different randomisations", "[points]") {
-  for (Points points : kAllPoints) {
-    if (points == Points::kIndependent) continue;
-    INFO(Name(points));
+  for (SampleSequence sampler : kAllSequences) {
+    if (sampler == SampleSequence::kIndependent) continue;
+    INFO(Name(sampler));
     Drawn all;
     std::vector<Drawn> parts;
-    for (std::uint32_t sequence : {0u, kReplicates << LogSequence(points)}) {
+    for (std::uint32_t sequence : {0u, kReplicates << LogSequence(sampler)}) {
       for (std::uint32_t r = 0; r < 2; ++r) {
-        parts.push_back(Draw({points, 1, 5, 0, sequence + r, 16, 1, kReplicates}));
+        parts.push_back(Draw({sampler, 1, 5, 0, sequence + r, 16, 1, kReplicates}));
         all.u0.insert(all.u0.end(), parts.back().u0.begin(), parts.back().u0.end());
         all.u1.insert(all.u1.end(), parts.back().u1.begin(), parts.back().u1.end());
       }
@@ -227,10 +227,10 @@ namespace {
 
 // p-value of the hypothesis that the lowest of samples [8, 16) of a replicate is any one
 // of them, over pixels.
-double OrderP(Points points, bool numbers, bool sorted = false) {
+double OrderP(SampleSequence sampler, bool numbers, bool sorted = false) {
   constexpr std::uint32_t kPixels = 20000, kBlock = 8;
-  const PointsQuery q{points, 3,       10,         20, kReplicates * kBlock,
-                      kBlock, kPixels, kReplicates};
+  const SamplerQuery q{sampler, 3,       10,         20, kReplicates * kBlock,
+                       kBlock,  kPixels, kReplicates};
   const std::vector<float> u = numbers ? DrawNumbers(q) : Draw(q).u0;
   std::vector<double> observed(kBlock);
   for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
@@ -249,36 +249,37 @@ double OrderP(Points points, bool numbers, bool sorted = false) {
 
 TEST_CASE("the order of strata is random", "[points]") {
   const double level = stat::SidakLevel(1e-6, 14);
-  for (Points points : kAllPoints) {
-    INFO(Name(points));
-    CHECK(OrderP(points, false) > level);
-    CHECK(OrderP(points, true) > level);
+  for (SampleSequence sampler : kAllSequences) {
+    INFO(Name(sampler));
+    CHECK(OrderP(sampler, false) > level);
+    CHECK(OrderP(sampler, true) > level);
   }
-  CHECK(OrderP(Points::kStratified, false, true) < level);  // planted
+  CHECK(OrderP(SampleSequence::kStratified, false, true) < level);  // planted
 }
 
 TEST_CASE("planted: a repeated index and random strata are detected", "[points]") {
-  const auto of_64 = [](Points points) {
-    const std::uint32_t first = points == Points::kCmj ? 64 : 0;
-    return PointsQuery{points, 1, 5, 0, kReplicates * first, 64, 1, kReplicates};
+  const auto of_64 = [](SampleSequence sampler) {
+    const std::uint32_t first = sampler == SampleSequence::kCmj ? 64 : 0;
+    return SamplerQuery{sampler, 1, 5, 0, kReplicates * first, 64, 1, kReplicates};
   };
-  for (Points points : {Points::kStratified, Points::kCmj, Points::kPmj02}) {
-    Drawn d = Draw(of_64(points));
+  for (SampleSequence sampler :
+       {SampleSequence::kStratified, SampleSequence::kCmj, SampleSequence::kPmj02}) {
+    Drawn d = Draw(of_64(sampler));
     REQUIRE(EvenCells(d, 8, 8));
     d.u0[11] = d.u0[12];
     d.u1[11] = d.u1[12];
     CHECK_FALSE(EvenCells(d, 8, 8));
   }
-  CHECK_FALSE(EvenCells(Draw(of_64(Points::kIndependent)), 8, 8));
+  CHECK_FALSE(EvenCells(Draw(of_64(SampleSequence::kIndependent)), 8, 8));
   // Right in two dimensions, not in one.
-  CHECK_FALSE(EvenIntervals(Draw(of_64(Points::kStratified)).u0, 64));
+  CHECK_FALSE(EvenIntervals(Draw(of_64(SampleSequence::kStratified)).u0, 64));
   // A lattice is no net, a Halton prefix no net of base 2, nor a net one of Halton's.
-  const Drawn lattice = Draw(of_64(Points::kLattice)),
-              halton = Draw(of_64(Points::kHalton));
+  const Drawn lattice = Draw(of_64(SampleSequence::kLattice)),
+              halton = Draw(of_64(SampleSequence::kHalton));
   CHECK_FALSE(IsNet(lattice));
   CHECK_FALSE(IsNet(halton));
   CHECK(HasHaltonCounts(halton));
-  CHECK_FALSE(HasHaltonCounts(Draw(of_64(Points::kSobol))));
+  CHECK_FALSE(HasHaltonCounts(Draw(of_64(SampleSequence::kSobol))));
   CHECK(IsShiftedLattice(lattice, kLatticeGenerator));
   CHECK_FALSE(IsShiftedLattice(lattice, kLatticeGenerator + 2));
   CHECK_FALSE(IsShiftedLattice(halton, kLatticeGenerator));

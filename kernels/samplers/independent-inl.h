@@ -2,14 +2,14 @@
 //   estimator   mean of N independent samples; variance sigma^2 / N
 //   unbiased    always
 //   cost        one PCG-4D hash per point
-#ifndef LANELIGHT_POINTS_INDEPENDENT_INL_H_
-#define LANELIGHT_POINTS_INDEPENDENT_INL_H_
+#ifndef LANELIGHT_SAMPLERS_INDEPENDENT_INL_H_
+#define LANELIGHT_SAMPLERS_INDEPENDENT_INL_H_
 
-#include "kernels/points/group-inl.h"
+#include "kernels/samplers/group-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct IndependentPoints {
+struct IndependentSequence {
   static LANELIGHT_INLINE GroupIndex Group(const SamplerParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }

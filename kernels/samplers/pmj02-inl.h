@@ -13,23 +13,23 @@
 //   cost        a hash, a short permutation and two gathers from a table of 64 KiB
 // Source: Christensen, Kensler and Kilpatrick 2018, "Progressive Multi-Jittered Sample
 // Sequences".
-#ifndef LANELIGHT_POINTS_PMJ02_INL_H_
-#define LANELIGHT_POINTS_PMJ02_INL_H_
+#ifndef LANELIGHT_SAMPLERS_PMJ02_INL_H_
+#define LANELIGHT_SAMPLERS_PMJ02_INL_H_
 
-#include "kernels/points/group-inl.h"
+#include "kernels/samplers/group-inl.h"
 #include "src/scene/prepare/pmj02.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct Pmj02Points : RoundRobinPoints {
+struct Pmj02Sequence : RoundRobinPoints {
   static LANELIGHT_INLINE void Point(const SamplerParameters& points, const PointKey& of,
                                      VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     static_assert((kPmj02Sequences & (kPmj02Sequences - 1)) == 0);
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU sequence = hn::And(h.w, SplatU(kPmj02Sequences - 1));
-    const VU index =
-        hn::Add(hn::Mul(sequence, SplatU(kPmj02Points)), PermuteOctaves(at.index, h.x));
+    const VU index = hn::Add(hn::Mul(sequence, SplatU(kPmj02SequenceLength)),
+                             PermuteOctaves(at.index, h.x));
     const VI place = hn::BitCast(DI(), hn::ShiftLeft<1>(index));
     const VU x = AsUnsigned(Gather(points.pmj02, place));
     const VU y = AsUnsigned(Gather(points.pmj02 + 1, place));

@@ -11,7 +11,7 @@
 #include "src/vocabulary/path/dimensions.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/base/stat/kolmogorov.h"
-#include "tests/kernels/points/draw.h"
+#include "tests/kernels/samplers/draw.h"
 #include "tests/support/each_target.h"
 
 namespace lanelight::test {
@@ -37,8 +37,8 @@ double KsP(const std::vector<float>& u) {
 }
 
 // One sample of many pixels.
-PointsQuery Across(Points points, std::uint32_t sample) {
-  return {points, 3, 10, 20, sample, 1, kPixels};
+SamplerQuery Across(SampleSequence sampler, std::uint32_t sample) {
+  return {sampler, 3, 10, 20, sample, 1, kPixels};
 }
 
 // p-value of the hypothesis that two products have no correlation over pixels.
@@ -59,8 +59,8 @@ double CorrelationP(const std::vector<double>& a, const std::vector<double>& b) 
 
 // For each pixel, the product of the centred first coordinates of two samples: what the
 // order and the strata of the two have in common.
-std::vector<double> Products(const PointsQuery& q, std::uint32_t other) {
-  PointsQuery second = q;
+std::vector<double> Products(const SamplerQuery& q, std::uint32_t other) {
+  SamplerQuery second = q;
   second.first_sample = other;
   const Drawn a = Draw(q), b = Draw(second);
   std::vector<double> products(a.u0.size());
@@ -73,10 +73,10 @@ std::vector<double> Products(const PointsQuery& q, std::uint32_t other) {
 }  // namespace
 
 TEST_CASE("points: equal on all targets, on the grid of 2^-24, below 1", "[points]") {
-  for (Points points : kAllPoints) {
-    const std::uint32_t sequence = std::max(kReplicates << LogSequence(points), 1500u);
+  for (SampleSequence sampler : kAllSequences) {
+    const std::uint32_t sequence = std::max(kReplicates << LogSequence(sampler), 1500u);
     for (std::uint32_t first : {0u, sequence - 1500, (1u << 31) - 3000}) {
-      const PointsQuery query = {points, 9, 123, 4, first, 2999};
+      const SamplerQuery query = {sampler, 9, 123, 4, first, 2999};
       Drawn reference;
       std::vector<float> numbers;
       for (const std::string& target : AvailableTargets()) {
@@ -102,14 +102,14 @@ TEST_CASE("points: equal on all targets, on the grid of 2^-24, below 1", "[point
 
 TEST_CASE("points: every sample is uniform over pixels", "[points]") {
   const double level = stat::SidakLevel(kFamily, 7 * 5 * 4);
-  for (Points points : kAllPoints) {
+  for (SampleSequence sampler : kAllSequences) {
     for (std::uint32_t sample : {0u, 1u, 4u, 53u, (1u << 31) - 1}) {
-      INFO(Name(points) << ", sample " << sample);
-      const Drawn p = Draw(Across(points, sample));
+      INFO(Name(sampler) << ", sample " << sample);
+      const Drawn p = Draw(Across(sampler, sample));
       CHECK(UniformP(p.u0, p.u1) > level);
       CHECK(KsP(p.u0) > level);
       CHECK(KsP(p.u1) > level);
-      CHECK(KsP(DrawNumbers(Across(points, sample))) > level);
+      CHECK(KsP(DrawNumbers(Across(sampler, sample))) > level);
     }
   }
 }
@@ -117,17 +117,17 @@ TEST_CASE("points: every sample is uniform over pixels", "[points]") {
 TEST_CASE("points: other keys, replicates, sequences, pixels and seeds are independent",
           "[points]") {
   const double level = stat::SidakLevel(kFamily, 7 * 5 * 3);
-  for (Points points : kAllPoints) {
-    const PointsQuery base = Across(points, 2);
-    PointsQuery key = base, replicate = base, sequence = base, pixel = base, seed = base;
+  for (SampleSequence sampler : kAllSequences) {
+    const SamplerQuery base = Across(sampler, 2);
+    SamplerQuery key = base, replicate = base, sequence = base, pixel = base, seed = base;
     key.key = 21;
     replicate.first_sample += 1;
-    sequence.first_sample += kReplicates << LogSequence(points);
+    sequence.first_sample += kReplicates << LogSequence(sampler);
     pixel.pixel += 1;
     seed.seed = 4;
     const Drawn a = Draw(base);
-    for (const PointsQuery& q : {key, replicate, sequence, pixel, seed}) {
-      INFO(Name(points));
+    for (const SamplerQuery& q : {key, replicate, sequence, pixel, seed}) {
+      INFO(Name(sampler));
       const Drawn b = Draw(q);
       CHECK(UniformP(a.u0, b.u0) > level);
       CHECK(UniformP(a.u1, b.u0) > level);
@@ -138,14 +138,14 @@ TEST_CASE("points: other keys, replicates, sequences, pixels and seeds are indep
 
 TEST_CASE("points: the orders of samples of two keys are independent", "[points]") {
   const double level = stat::SidakLevel(kFamily, 7 * 2 * 4);
-  for (Points points : kAllPoints) {
+  for (SampleSequence sampler : kAllSequences) {
     // Of one replicate: across its blocks, and within one.
     for (std::uint32_t first : {0u, 4 * kReplicates}) {
       for (std::uint32_t rounds : {1u, 2u, 3u, 11u}) {
-        PointsQuery q = Across(points, first), key = q;
+        SamplerQuery q = Across(sampler, first), key = q;
         key.key = 21;
         const std::uint32_t other = first + rounds * kReplicates;
-        INFO(Name(points) << ", samples " << first << " and " << other);
+        INFO(Name(sampler) << ", samples " << first << " and " << other);
         CHECK(CorrelationP(Products(q, other), Products(key, other)) > level);
       }
     }
@@ -155,8 +155,8 @@ TEST_CASE("points: the orders of samples of two keys are independent", "[points]
 TEST_CASE("planted: shared orders and a missing corner are rejected", "[points]") {
   const double level = stat::SidakLevel(kFamily, 105);
   // Strata in the same order in two dimensions, independently jittered within.
-  const PointsQuery q = Across(Points::kStratified, 0);
-  PointsQuery jitter = Across(Points::kIndependent, 0);
+  const SamplerQuery q = Across(SampleSequence::kStratified, 0);
+  SamplerQuery jitter = Across(SampleSequence::kIndependent, 0);
   jitter.key = 99;
   const std::vector<double> products = Products(q, kReplicates);
   std::vector<double> shared = Products(jitter, kReplicates);
@@ -195,7 +195,7 @@ struct Lcg {  // PCG-4D, scalar, written from the paper's equations
 }  // namespace
 
 TEST_CASE("independent points equal the scalar PCG-4D", "[points]") {
-  const Drawn p = Draw({Points::kIndependent, 42, 1000, 17, 5, 100});
+  const Drawn p = Draw({SampleSequence::kIndependent, 42, 1000, 17, 5, 100});
   for (std::uint32_t i = 0; i < 100; ++i) {
     const Lcg h(1000, 5 + i, 17, 42);
     CHECK(p.u0[i] == float(h.v[0] >> 8) * 0x1p-24f);
@@ -216,9 +216,9 @@ TEST_CASE("samples are assigned to replicates in turn", "[points]") {
                   {group.data(), index.data(), unpaired.data()});
       for (std::uint32_t i = 0; i < kCount; ++i) {
         const std::uint32_t sample = first + i, round = sample / kReplicates;
-        const std::uint32_t points = 1u << shift;
-        REQUIRE(group[i] == round / points * kReplicates + sample % kReplicates);
-        REQUIRE(index[i] == round % points);
+        const std::uint32_t sampler = 1u << shift;
+        REQUIRE(group[i] == round / sampler * kReplicates + sample % kReplicates);
+        REQUIRE(index[i] == round % sampler);
         const std::uint32_t pair = sample / 2, of_replicate = pair / kReplicates;
         REQUIRE(unpaired[i] == (2 * of_replicate + sample % 2) * kReplicates +
                                    SampleGroups{2, true}.Replicate(sample));
@@ -250,25 +250,25 @@ TEST_CASE("unpaired numbers differ and belong to the replicate of their pair",
 TEST_CASE("points: numbers at large sample, pixel and event indices are uniform",
           "[points]") {
   constexpr std::uint32_t kCount = 4096;
-  for (const Points points : kAllPoints) {
-    std::vector<PointsQuery> queries;
+  for (const SampleSequence sampler : kAllSequences) {
+    std::vector<SamplerQuery> queries;
     for (const std::uint32_t sample : {1u, 1000u, 100'000u, 10'000'000u, 0x7ffff000u}) {
-      queries.push_back({points, 1, 7, 3, sample, kCount});
+      queries.push_back({sampler, 1, 7, 3, sample, kCount});
     }
     for (const std::uint32_t pixel : {1u, 65535u, 65536u, 0xffffffffu}) {
-      queries.push_back({points, 1, pixel, 3, 5, kCount});
+      queries.push_back({sampler, 1, pixel, 3, 5, kCount});
     }
     for (const std::uint32_t event : {1u, 100u, 10'000u, 0xfffffu}) {
       const std::uint32_t key = event << kDepthShift;
-      queries.push_back(
-          {points, 1, 11, key + static_cast<std::uint32_t>(Dimension::kBsdf), 0, kCount});
+      queries.push_back({sampler, 1, 11,
+                         key + static_cast<std::uint32_t>(Dimension::kBsdf), 0, kCount});
     }
-    for (const PointsQuery& query : queries) {
+    for (const SamplerQuery& query : queries) {
       const Drawn drawn = Draw(query);
       for (const std::vector<float>& u : {drawn.u0, drawn.u1}) {
         double sum = 0;
         for (const float x : u) sum += x >= 0 && x < 1 ? x : kCount;
-        INFO("points " << static_cast<int>(points) << ", query "
+        INFO("points " << static_cast<int>(sampler) << ", query "
                        << &query - queries.data());
         CHECK(std::abs(sum / kCount - 0.5) < 6 / std::sqrt(12.0 * kCount));
       }

@@ -13,15 +13,15 @@
 //   cost        a hash, a permutation and a multiplication per point
 // Sources: Cranley and Patterson 1976; Hickernell, Hong, L'Ecuyer and Lemieux 2000
 // ("Extensible lattice sequences").
-#ifndef LANELIGHT_POINTS_LATTICE_INL_H_
-#define LANELIGHT_POINTS_LATTICE_INL_H_
+#ifndef LANELIGHT_SAMPLERS_LATTICE_INL_H_
+#define LANELIGHT_SAMPLERS_LATTICE_INL_H_
 
-#include "kernels/points/sobol-inl.h"
+#include "kernels/samplers/sobol-inl.h"
 #include "src/scene/prepare/lattice.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct LatticePoints : RoundRobinPoints {
+struct LatticeSequence : RoundRobinPoints {
   static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -13,10 +13,10 @@
 //   cost        a PCG-4D hash, two nested permutations and a spread of bits per point
 // Sources: the paper's section 3.5.3; Cook 1986, "Stochastic Sampling in Computer
 // Graphics"; Mitchell 1996 (rates); Owen 1995 (nested permutations).
-#ifndef LANELIGHT_POINTS_STRATIFIED_INL_H_
-#define LANELIGHT_POINTS_STRATIFIED_INL_H_
+#ifndef LANELIGHT_SAMPLERS_STRATIFIED_INL_H_
+#define LANELIGHT_SAMPLERS_STRATIFIED_INL_H_
 
-#include "kernels/points/sobol-inl.h"
+#include "kernels/samplers/sobol-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -29,7 +29,7 @@ LANELIGHT_INLINE VU OddBits(VU v) {
   return hn::And(hn::Or(v, hn::ShiftLeft<8>(v)), SplatU(0xffff0000u));
 }
 
-struct StratifiedPoints : RoundRobinPoints {
+struct StratifiedSequence : RoundRobinPoints {
   /// A scrambled van der Corput point in 2^-32.
   static LANELIGHT_INLINE VU Along(GroupIndex at, const U4& h) {
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));

@@ -15,20 +15,20 @@
 //               two dimensions alone; N^-3/2 for the rest, since all columns share p and
 //               with it the same error (independently jittered strata have N^-2). Of all
 //               blocks: N^-2 and N^-3/2, because the smallest keep the error of theirs.
-//               Measured in tests/kernels/points/convergence_test.cc
+//               Measured in tests/kernels/samplers/convergence_test.cc
 //   dependence  the samples of one block share the permutations; those of one group are
 //               one observation
 //   cost        two PCG-4D hashes and three permutations per point
 // Source: Kensler 2013, "Correlated Multi-Jittered Sampling" (the permutations are ours:
 // group-inl.h, the blocks too).
-#ifndef LANELIGHT_POINTS_CMJ_INL_H_
-#define LANELIGHT_POINTS_CMJ_INL_H_
+#ifndef LANELIGHT_SAMPLERS_CMJ_INL_H_
+#define LANELIGHT_SAMPLERS_CMJ_INL_H_
 
-#include "kernels/points/group-inl.h"
+#include "kernels/samplers/group-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-struct CmjPoints : RoundRobinPoints {
+struct CmjSequence : RoundRobinPoints {
   static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -15,10 +15,10 @@
 // 1, 2, 3 and 4 fifths), which leaves a quarter of the variance. And wavelengths of tiles
 // are even with points=independent too. Stated errors then count more of it than there
 // is.
-#ifndef LANELIGHT_POINTS_WAVELENGTH_INL_H_
-#define LANELIGHT_POINTS_WAVELENGTH_INL_H_
+#ifndef LANELIGHT_SAMPLERS_WAVELENGTH_INL_H_
+#define LANELIGHT_SAMPLERS_WAVELENGTH_INL_H_
 
-#include "kernels/points/sobol-inl.h"
+#include "kernels/samplers/sobol-inl.h"
 #include "kernels/simd/math-inl.h"
 #include "src/vocabulary/strategy/strategy.h"
 

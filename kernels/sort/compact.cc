@@ -44,7 +44,7 @@ HWY_INLINE void CloseGaps(uint32_t* column, const uint32_t* marks, uint32_t end)
   }
 }
 
-void Pack(Wave& wave) {
+void Compact(Wave& wave) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   Queue& live = wave.queue(QueueId::kScattered);
@@ -68,14 +68,14 @@ void Pack(Wave& wave) {
   CountBatches(wave, live);
 }
 
-Stage PackStage() {
-  return {.name = "pack",
+Stage CompactStage() {
+  return {.name = "compact",
           .meaning = "moves surviving paths into the first slots",
           .input = QueueId::kDone,
           .role = StageRole::kSort,
           .reads = fields::EverCarried(),
           .writes = fields::EverCarried(),
-          .resolve = Always<Pack>};
+          .resolve = Always<Compact>};
 }
 
 LANELIGHT_END_KERNELS

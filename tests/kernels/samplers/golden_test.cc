@@ -114,14 +114,14 @@ TEST_CASE("golden: ranges of dimensions do not overlap", "[points]") {
                            Dimension::kLobe,      Dimension::kLight, Dimension::kSelect,
                            Dimension::kRoulette,  Dimension::kMix,   Dimension::kTime,
                            Dimension::kWavelength};
-  std::uint64_t taken = 0;
+  std::uint64_t used_bits = 0;
   for (Dimension d : all) {
     const auto first = static_cast<std::uint32_t>(d);
     const std::uint32_t count = d == Dimension::kMix ? kMixDimensions : 1;
     REQUIRE(first + count <= kDimensionsPerBounce);
     for (std::uint32_t i = first; i < first + count; ++i) {
-      CHECK((taken >> i & 1) == 0);
-      taken |= std::uint64_t{1} << i;
+      CHECK((used_bits >> i & 1) == 0);
+      used_bits |= std::uint64_t{1} << i;
     }
   }
 }

@@ -10,17 +10,17 @@
 
 namespace lanelight {
 
-struct KeptColumn {
+struct ColumnCopy {
   std::string name;
   std::vector<char> bytes;
 
-  bool operator==(const KeptColumn&) const = default;
+  bool operator==(const ColumnCopy&) const = default;
 };
 
-inline std::vector<KeptColumn> CopyColumns(Films& films) {
-  std::vector<KeptColumn> kept;
+inline std::vector<ColumnCopy> CopyColumns(Films& films) {
+  std::vector<ColumnCopy> kept;
   for (const MutableStateColumn& column : films.Columns()) {
-    KeptColumn copy{column.name, std::vector<char>(column.rows * column.RowBytes())};
+    ColumnCopy copy{column.name, std::vector<char>(column.rows * column.RowBytes())};
     std::memcpy(copy.bytes.data(), column.data, copy.bytes.size());
     kept.push_back(std::move(copy));
   }
@@ -28,7 +28,7 @@ inline std::vector<KeptColumn> CopyColumns(Films& films) {
 }
 
 /// Into films of the same kind.
-inline void PutColumns(const std::vector<KeptColumn>& kept, Films& films) {
+inline void PutColumns(const std::vector<ColumnCopy>& kept, Films& films) {
   const std::vector<MutableStateColumn> columns = films.Columns();
   REQUIRE(columns.size() == kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {

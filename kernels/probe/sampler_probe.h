@@ -8,8 +8,8 @@
 
 namespace lanelight {
 
-struct PointsQuery {
-  Points points = Points::kSobol;
+struct SamplerQuery {
+  SampleSequence sampler = SampleSequence::kSobol;
   std::uint32_t seed = 0, pixel = 0, key = 0;
   std::uint32_t first_sample = 0, count = 0;
   std::uint32_t pixels = 1;  // from `pixel` on
@@ -18,13 +18,13 @@ struct PointsQuery {
 
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
-void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1);
-/// Takes parameters instead of making them with MakeSamplerParameters(query.points).
-void ProbePoints(SimdTarget target, const PointsQuery& query,
-                 const SamplerParameters& parameters, float* u0, float* u1);
+void ProbeSampler(SimdTarget target, const SamplerQuery& query, float* u0, float* u1);
+/// Takes parameters instead of making them with MakeSamplerParameters(query.sampler).
+void ProbeSampler(SimdTarget target, const SamplerQuery& query,
+                  const SamplerParameters& parameters, float* u0, float* u1);
 
 /// Writes the numbers of a scalar dimension.
-void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u);
+void ProbeNumbers(SimdTarget target, const SamplerQuery& query, float* u);
 
 /// Holds the results of ProbeGroups; all need room for a full vector more.
 struct GroupColumns {

@@ -9,10 +9,10 @@
 // Sources: Burley 2020, "Practical Hash-based Owen Scrambling"; Laine and Karras 2011
 // (the hash, here with the constants found by Vegdahl 2021); Joe and Kuo direction
 // numbers of dimension 2 form Pascal's triangle mod 2.
-#ifndef LANELIGHT_POINTS_SOBOL_INL_H_
-#define LANELIGHT_POINTS_SOBOL_INL_H_
+#ifndef LANELIGHT_SAMPLERS_SOBOL_INL_H_
+#define LANELIGHT_SAMPLERS_SOBOL_INL_H_
 
-#include "kernels/points/group-inl.h"
+#include "kernels/samplers/group-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -37,7 +37,7 @@ LANELIGHT_INLINE VU ReversedSobol1(VU i) {
   return hn::Xor(i, hn::And(hn::ShiftRight<1>(i), SplatU(0x55555555u)));
 }
 
-struct SobolPoints : RoundRobinPoints {
+struct SobolSequence : RoundRobinPoints {
   static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

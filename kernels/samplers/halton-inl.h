@@ -11,11 +11,11 @@
 //   dependence  the samples of one group share one randomisation: one observation
 //   cost        a hash, a permutation and eight steps of twenty instructions per point
 // Sources: Halton 1964; Owen 2017, "A randomized Halton algorithm in R".
-#ifndef LANELIGHT_POINTS_HALTON_INL_H_
-#define LANELIGHT_POINTS_HALTON_INL_H_
+#ifndef LANELIGHT_SAMPLERS_HALTON_INL_H_
+#define LANELIGHT_SAMPLERS_HALTON_INL_H_
 
-#include "kernels/points/group-inl.h"
-#include "kernels/points/sobol-inl.h"
+#include "kernels/samplers/group-inl.h"
+#include "kernels/samplers/sobol-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -57,7 +57,7 @@ LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
   return InStratum(kHaltonStrata, value, hn::Xor(tree, hn::ShiftRight<16>(tree)));
 }
 
-struct HaltonPoints : RoundRobinPoints {
+struct HaltonSequence : RoundRobinPoints {
   static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
                                      VF* u1) {
     const auto& [pixel, at, key, seed] = of;

@@ -1,8 +1,8 @@
 // Finds the randomisation of a sample, and the index of the sample in it. Random numbers
 // in one of n equal strata, in fixed point: 32 bits after the point, of which a float
 // keeps the first 24. Random permutations.
-#ifndef LANELIGHT_POINTS_GROUP_INL_H_
-#define LANELIGHT_POINTS_GROUP_INL_H_
+#ifndef LANELIGHT_SAMPLERS_GROUP_INL_H_
+#define LANELIGHT_SAMPLERS_GROUP_INL_H_
 
 #include "kernels/simd/rng-inl.h"
 #include "src/vocabulary/path/replicates.h"
@@ -94,7 +94,7 @@ LANELIGHT_INLINE VU InBinaryStratum(VU stratum, VU log, VU random) {
 // Random permutations of [0, 2^m), one per key, without tables: swap-or-not rounds. Round
 // r pairs each x with K_r - x modulo 2^m, and swaps the two or not, as a hash of the
 // larger says.
-//   uniform   tests/kernels/points/permute_test.cc bounds the bias of ten rounds on
+//   uniform   tests/kernels/samplers/permute_test.cc bounds the bias of ten rounds on
 //             images, pairs and, for few elements, whole permutations
 //   cost      ten rounds of three multiplications and twelve cheap instructions,
 //             whatever n

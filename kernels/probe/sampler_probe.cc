@@ -1,14 +1,14 @@
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/points/cmj-inl.h"
-#include "kernels/points/fill-inl.h"
-#include "kernels/points/halton-inl.h"
-#include "kernels/points/independent-inl.h"
-#include "kernels/points/lattice-inl.h"
-#include "kernels/points/pmj02-inl.h"
-#include "kernels/points/sobol-inl.h"
-#include "kernels/points/stratified-inl.h"
-#include "kernels/probe/points_probe.h"
+#include "kernels/samplers/cmj-inl.h"
+#include "kernels/samplers/fill-inl.h"
+#include "kernels/samplers/halton-inl.h"
+#include "kernels/samplers/independent-inl.h"
+#include "kernels/samplers/lattice-inl.h"
+#include "kernels/samplers/pmj02-inl.h"
+#include "kernels/samplers/sobol-inl.h"
+#include "kernels/samplers/stratified-inl.h"
+#include "kernels/probe/sampler_probe.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -16,7 +16,7 @@ LANELIGHT_BEGIN_KERNELS
 // single pixel, samples. The last one is repeated past the end, as in a queue (PadTail);
 // what it writes there the next row overwrites.
 template <class Body>
-HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
+HWY_INLINE void ForEachPoint(const SamplerQuery& q, Body&& body) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   const bool one = q.pixels == 1;
@@ -34,42 +34,43 @@ HWY_INLINE void ForEachPoint(const PointsQuery& q, Body&& body) {
 
 // With u1 = null, draws the numbers of a scalar dimension.
 template <class Policy>
-void ProbePolicy(const PointsQuery& q, const SamplerParameters& points, float* u0,
+void ProbePolicy(const SamplerQuery& q, const SamplerParameters& sampler, float* u0,
                  float* u1) {
   ForEachPoint(q, [&](std::size_t i, VU pixel, VU sample) HWY_ATTR {
-    const GroupIndex at = Policy::Group(points, sample);
+    const GroupIndex at = Policy::Group(sampler, sample);
     const PointKey of = {pixel, at, SplatU(q.key), SplatU(q.seed)};
     VF a, b;
     if constexpr (HasNumber<Policy>) {
       if (u1 == nullptr) {
-        a = Policy::Number(points, of);
+        a = Policy::Number(sampler, of);
         return hn::StoreU(a, DF(), u0 + i);
       }
     }
-    Policy::Point(points, of, &a, &b);
+    Policy::Point(sampler, of, &a, &b);
     hn::StoreU(a, DF(), u0 + i);
     if (u1 != nullptr) hn::StoreU(b, DF(), u1 + i);
   });
 }
 
-void Probe(const PointsQuery& q, const SamplerParameters& points, float* u0, float* u1) {
-  switch (q.points) {
+void Probe(const SamplerQuery& q, const SamplerParameters& sampler, float* u0,
+           float* u1) {
+  switch (q.sampler) {
 #define X(Type, key, name, ...) \
-  case Points::k##name:         \
-    return ProbePolicy<name##Points>(q, points, u0, u1);
-    LANELIGHT_POINTS(X, Points, "points")
+  case SampleSequence::k##name: \
+    return ProbePolicy<name##Sequence>(q, sampler, u0, u1);
+    LANELIGHT_SAMPLE_SEQUENCES(X, SampleSequence, "points")
 #undef X
   }
 }
 
-void ProbeTurns(const SamplerParameters& points, uint32_t first, uint32_t count,
-                const GroupColumns& out) {
+void ProbeRoundRobin(const SamplerParameters& sampler, uint32_t first, uint32_t count,
+                     const GroupColumns& out) {
   const DU du;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(du));
   for (uint32_t i = 0; i < count; i += lanes) {
     const VU offset = hn::Min(hn::Iota(du, i), SplatU(count - 1));
     const VU sample = hn::Add(SplatU(first), offset);
-    const GroupIndex at = GroupRoundRobin(points, sample);
+    const GroupIndex at = GroupRoundRobin(sampler, sample);
     hn::StoreU(at.group, du, out.group + i);
     hn::StoreU(at.index, du, out.index + i);
     hn::StoreU(UnpairedSample(sample), du, out.unpaired + i);
@@ -93,27 +94,27 @@ LANELIGHT_END_KERNELS
 namespace lanelight {
 
 HWY_EXPORT(Probe);
-HWY_EXPORT(ProbeTurns);
+HWY_EXPORT(ProbeRoundRobin);
 HWY_EXPORT(ProbePermuted);
 
-void ProbePoints(SimdTarget target, const PointsQuery& query, float* u0, float* u1) {
-  ProbePoints(target, query, MakeSamplerParameters(query.points), u0, u1);
+void ProbeSampler(SimdTarget target, const SamplerQuery& query, float* u0, float* u1) {
+  ProbeSampler(target, query, MakeSamplerParameters(query.sampler), u0, u1);
 }
 
-void ProbePoints(SimdTarget target, const PointsQuery& query,
-                 const SamplerParameters& parameters, float* u0, float* u1) {
+void ProbeSampler(SimdTarget target, const SamplerQuery& query,
+                  const SamplerParameters& parameters, float* u0, float* u1) {
   LANELIGHT_ON(target, Probe)(query, parameters, u0, u1);
 }
 
-void ProbeNumbers(SimdTarget target, const PointsQuery& query, float* u) {
-  ProbePoints(target, query, u, nullptr);
+void ProbeNumbers(SimdTarget target, const SamplerQuery& query, float* u) {
+  ProbeSampler(target, query, u, nullptr);
 }
 
 void ProbeGroups(SimdTarget target, std::uint32_t group_shift, std::uint32_t first,
                  std::uint32_t count, const GroupColumns& out) {
-  SamplerParameters points;
-  points.group_shift = group_shift;
-  LANELIGHT_ON(target, ProbeTurns)(points, first, count, out);
+  SamplerParameters sampler;
+  sampler.group_shift = group_shift;
+  LANELIGHT_ON(target, ProbeRoundRobin)(sampler, first, count, out);
 }
 
 void ProbePermutation(SimdTarget target, std::uint32_t count, std::uint32_t key,

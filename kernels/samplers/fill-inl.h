@@ -8,11 +8,11 @@
 // stratifies; different keys are independent of each other. A scalar dimension takes u0;
 // a policy whose u0 alone is less well stratified than one dimension can be has also
 //   static VF Number(const SamplerParameters&, const PointKey&)
-#ifndef LANELIGHT_POINTS_FILL_INL_H_
-#define LANELIGHT_POINTS_FILL_INL_H_
+#ifndef LANELIGHT_SAMPLERS_FILL_INL_H_
+#define LANELIGHT_SAMPLERS_FILL_INL_H_
 
-#include "kernels/points/group-inl.h"
-#include "kernels/points/wavelength-inl.h"
+#include "kernels/samplers/group-inl.h"
+#include "kernels/samplers/wavelength-inl.h"
 #include "kernels/queue/batch-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -61,13 +61,13 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
   if (out0 == nullptr) return;
   const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
   const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
-  const GroupIndex at = Policy::Group(run.points, sample);
+  const GroupIndex at = Policy::Group(run.sampler, sample);
   const PointKey of = {drawer.pixel, at, key, SplatU(run.seed)};
   VF u0, u1;
   if constexpr (kScalar && HasNumber<Policy>) {
-    u0 = Policy::Number(run.points, of);
+    u0 = Policy::Number(run.sampler, of);
   } else {
-    Policy::Point(run.points, of, &u0, &u1);
+    Policy::Point(run.sampler, of, &u0, &u1);
   }
   Scatter(u0, out0, drawer.slots);
   if constexpr (!kScalar) Scatter(u1, out1, drawer.slots);
@@ -76,10 +76,10 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
 template <class Policy, bool kPlain>
 LANELIGHT_INLINE void FillWavelength(const RunParameters& run, const Drawer& drawer,
                                      const PathColumns& p) {
-  if (run.points.by_tile) {
+  if (run.sampler.by_tile) {
     const VF number = TileWavelength(run, drawer.pixel, drawer.sample);
     Scatter(number, p.wavelength, drawer.slots);
-  } else if (run.points.group_shift > 0 && !run.features.Has(Feature::kDispersion)) {
+  } else if (run.sampler.group_shift > 0 && !run.features.Has(Feature::kDispersion)) {
     const VF number = PixelWavelength(run, drawer.pixel, drawer.sample);
     Scatter(number, p.wavelength, drawer.slots);
   } else {

@@ -20,7 +20,7 @@ std::vector<std::uint32_t> SomeSlots(std::uint32_t capacity, std::uint32_t count
   return slots;
 }
 
-void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engine) {
+void CheckCompacts(std::uint32_t capacity, std::uint32_t count, std::mt19937& engine) {
   const CompiledScene scene;
   WaveFixture fixture(scene, capacity);
   Wave& wave = fixture.wave;
@@ -32,7 +32,7 @@ void CheckPacks(std::uint32_t capacity, std::uint32_t count, std::mt19937& engin
   Queue& live = wave.queue(QueueId::kScattered);
   live.size = count;
   std::copy(slots.begin(), slots.end(), live.items);
-  fixture.Run(PackStage, {});
+  fixture.Run(CompactStage, {});
   std::sort(slots.begin(), slots.end());
   REQUIRE(live.size == count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("compaction: paths keep their live columns", "[queue]") {
   const EachTarget target;
   for (std::uint32_t capacity : {1u, 2u, 16u, 33u, 200u}) {
     for (int fraction = 0; fraction <= 4; ++fraction) {
-      CheckPacks(capacity, capacity * fraction / 4, engine);
+      CheckCompacts(capacity, capacity * fraction / 4, engine);
     }
   }
 }

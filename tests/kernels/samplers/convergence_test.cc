@@ -14,8 +14,8 @@
 
 #include "src/scene/prepare/pmj02.h"
 #include "src/vocabulary/path/replicates.h"
-#include "tests/kernels/points/draw.h"
-#include "tests/kernels/points/slope.h"
+#include "tests/kernels/samplers/draw.h"
+#include "tests/kernels/samplers/slope.h"
 
 namespace lanelight::test {
 namespace {
@@ -40,10 +40,10 @@ const Integrand kDisk = {[](double x, double y) { return x * x + y * y < 0.6 ? 1
 enum class Plant { kNone, kRepeatedIndex };
 
 // Root mean square error over pixels of the mean of N points of one replicate.
-double Rmse(Points points, std::uint32_t n, const Integrand& integrand,
+double Rmse(SampleSequence sampler, std::uint32_t n, const Integrand& integrand,
             Plant plant = Plant::kNone) {
   constexpr std::uint32_t kPixels = 256;
-  Drawn p = Draw({points, 5, 1000, 7, 0, n, kPixels, kReplicates});
+  Drawn p = Draw({sampler, 5, 1000, 7, 0, n, kPixels, kReplicates});
   if (plant == Plant::kRepeatedIndex) {
     for (std::vector<float>* u : {&p.u0, &p.u1}) {
       std::copy_n(u->begin(), kPixels, u->end() - kPixels);
@@ -61,12 +61,14 @@ double Rmse(Points points, std::uint32_t n, const Integrand& integrand,
   return std::sqrt(sum / kPixels);
 }
 
-double Slope(Points points, const Integrand& integrand, Plant plant = Plant::kNone) {
-  const std::uint32_t last = points == Points::kPmj02 ? kPmj02Points : 4096;
+double Slope(SampleSequence sampler, const Integrand& integrand,
+             Plant plant = Plant::kNone) {
+  const std::uint32_t last =
+      sampler == SampleSequence::kPmj02 ? kPmj02SequenceLength : 4096;
   std::vector<double> n, rmse;
   for (std::uint32_t i = 4; i <= last; i *= 4) {
     n.push_back(i);
-    rmse.push_back(Rmse(points, i, integrand, plant));
+    rmse.push_back(Rmse(sampler, i, integrand, plant));
   }
   return LogSlope(n, rmse);
 }
@@ -76,18 +78,18 @@ double LatticeSlope(const Integrand& integrand) {
   std::vector<double> n, rmse;
   for (std::uint32_t i = 4; i <= 1u << 14; i *= 2) {
     n.push_back(i);
-    rmse.push_back(Rmse(Points::kLattice, i, integrand));
+    rmse.push_back(Rmse(SampleSequence::kLattice, i, integrand));
   }
   return LogSlope(n, rmse);
 }
 
 // Returns the slope for the mean of u^2 over one scalar dimension.
-double NumberSlope(Points points) {
+double NumberSlope(SampleSequence sampler) {
   constexpr std::uint32_t kPixels = 256;
   std::vector<double> n, rmse;
   for (std::uint32_t count = 4; count <= 4096; count *= 4) {
     const std::vector<float> u =
-        DrawNumbers({points, 5, 1000, 7, 0, count, kPixels, kReplicates});
+        DrawNumbers({sampler, 5, 1000, 7, 0, count, kPixels, kReplicates});
     double sum = 0;
     for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
       double mean = 0;
@@ -110,55 +112,55 @@ constexpr double kMargin = 0.05;
 
 TEST_CASE("independent points converge like N^-1/2", "[points]") {
   for (const Integrand& f : {kProduct, kWaves, kSum, kPeriodic, kDisk}) {
-    CHECK(Slope(Points::kIndependent, f) == Approx(-0.5).margin(kMargin));
+    CHECK(Slope(SampleSequence::kIndependent, f) == Approx(-0.5).margin(kMargin));
   }
 }
 
 TEST_CASE("jittered strata converge like N^-1", "[points]") {
   for (const Integrand& f : {kProduct, kWaves, kSum}) {
-    CHECK(Slope(Points::kStratified, f) == Approx(-1).margin(kMargin));
+    CHECK(Slope(SampleSequence::kStratified, f) == Approx(-1).margin(kMargin));
   }
-  CHECK(NumberSlope(Points::kStratified) == Approx(-1.5).margin(kMargin));
-  CHECK(NumberSlope(Points::kIndependent) == Approx(-0.5).margin(kMargin));
+  CHECK(NumberSlope(SampleSequence::kStratified) == Approx(-1.5).margin(kMargin));
+  CHECK(NumberSlope(SampleSequence::kIndependent) == Approx(-0.5).margin(kMargin));
 }
 
 TEST_CASE("scrambled nets converge nearly like N^-3/2", "[points]") {
-  for (Points points : {Points::kSobol, Points::kPmj02}) {
-    INFO(Name(points));
-    for (const Integrand& f : {kProduct, kWaves}) CHECK(Slope(points, f) < -1.3);
-    CHECK(Slope(points, kSum) == Approx(-1.5).margin(kMargin + 0.02));
-    CHECK(Slope(points, kPeriodic) < -1.2);
+  for (SampleSequence sampler : {SampleSequence::kSobol, SampleSequence::kPmj02}) {
+    INFO(Name(sampler));
+    for (const Integrand& f : {kProduct, kWaves}) CHECK(Slope(sampler, f) < -1.3);
+    CHECK(Slope(sampler, kSum) == Approx(-1.5).margin(kMargin + 0.02));
+    CHECK(Slope(sampler, kPeriodic) < -1.2);
   }
 }
 
 TEST_CASE("correlated multi-jittered points: order of sums and products", "[points]") {
-  CHECK(Slope(Points::kCmj, kSum) == Approx(-1).margin(kMargin));
-  CHECK(Slope(Points::kCmj, kProduct) == Approx(-0.75).margin(2 * kMargin));
-  CHECK(Slope(Points::kCmj, kWaves) == Approx(-0.75).margin(2 * kMargin));
+  CHECK(Slope(SampleSequence::kCmj, kSum) == Approx(-1).margin(kMargin));
+  CHECK(Slope(SampleSequence::kCmj, kProduct) == Approx(-0.75).margin(2 * kMargin));
+  CHECK(Slope(SampleSequence::kCmj, kWaves) == Approx(-0.75).margin(2 * kMargin));
 }
 
 TEST_CASE("Halton points and lattices converge like N^-1", "[points]") {
   for (const Integrand& f : {kProduct, kWaves, kSum}) {
-    CHECK(Slope(Points::kHalton, f) == Approx(-1).margin(2 * kMargin));
+    CHECK(Slope(SampleSequence::kHalton, f) == Approx(-1).margin(2 * kMargin));
     CHECK(LatticeSlope(f) == Approx(-1).margin(2 * kMargin));
   }
   CHECK(LatticeSlope(kPeriodic) < -1.8);
 }
 
 TEST_CASE("edges bring all stratified points near N^-3/4", "[points]") {
-  for (Points points : kAllPoints) {
-    if (points == Points::kIndependent) continue;
-    INFO(Name(points));
+  for (SampleSequence sampler : kAllSequences) {
+    if (sampler == SampleSequence::kIndependent) continue;
+    INFO(Name(sampler));
     const double slope =
-        points == Points::kLattice ? LatticeSlope(kDisk) : Slope(points, kDisk);
+        sampler == SampleSequence::kLattice ? LatticeSlope(kDisk) : Slope(sampler, kDisk);
     CHECK(slope == Approx(-0.75).margin(0.08));
   }
 }
 
 TEST_CASE("planted: one repeated index lowers the convergence order", "[points]") {
-  for (Points points : {Points::kSobol, Points::kPmj02}) {
-    CHECK(Slope(points, kSum, Plant::kRepeatedIndex) > -1.3);
-    CHECK(Slope(points, kProduct, Plant::kRepeatedIndex) > -1.3);
+  for (SampleSequence sampler : {SampleSequence::kSobol, SampleSequence::kPmj02}) {
+    CHECK(Slope(sampler, kSum, Plant::kRepeatedIndex) > -1.3);
+    CHECK(Slope(sampler, kProduct, Plant::kRepeatedIndex) > -1.3);
   }
 }
 
