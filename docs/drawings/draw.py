@@ -40,7 +40,7 @@ STAGES = [
     ("intersect_triangles", "Active", ""),
     ("hits", "Active", "Hit Done"),
     ("emission_rectangle", "Hit", ""),
-    ("limit", "Hit", "Surface Done"),
+    ("max_depth", "Hit", "Surface Done"),
     ("surface_triangle", "Surface", ""),
     ("points_bounce_sobol", "Vertex", ""),
     ("route", "Vertex", "Lit Shade"),

@@ -70,7 +70,7 @@ void LimitDepth(Wave& wave) {
 
 Stage LimitStage() {
   return {
-      .name = "limit",
+      .name = "max_depth",
       .meaning = "ends paths at the maximum depth",
       .input = QueueId::kHit,
       .role = StageRole::kSort,

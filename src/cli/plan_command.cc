@@ -45,9 +45,8 @@ std::string StagesOf(const Phase& phase) {
   for (std::size_t i = 0; i < phase.stages.size(); ++i) {
     const Stage& s = phase.stages[i].stage;
     const bool repeated = i >= phase.first_repeated && i < phase.last_repeated;
-    text +=
-        NamedRow(StageTitle(s.name),
-                 std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
+    text += NamedRow(
+        s.name, std::string(s.meaning) + (repeated ? ", once for each candidate" : ""));
   }
   return text;
 }
@@ -56,7 +55,7 @@ std::string StagesOf(const Phase& phase) {
 std::string NamesOf(const Phase& phase) {
   std::string names;
   for (const PlannedStage& s : phase.stages) {
-    names += std::string(names.empty() ? "" : " ") + StageTitle(s.stage.name);
+    names += std::string(names.empty() ? "" : " ") + s.stage.name;
   }
   return FactRow("", names, 1);
 }
@@ -75,7 +74,7 @@ std::string Stages(const Plan& plan) {
 std::string OmittedStages(const Plan& plan) {
   std::string text = fmt::format("omitted stages ({}):\n", plan.omitted.size());
   for (const OmittedStage& s : plan.omitted) {
-    text += NamedRow(StageTitle(s.stage.name), s.reason);
+    text += NamedRow(s.stage.name, s.reason);
   }
   return text;
 }

@@ -66,7 +66,7 @@ std::string Ns(double ns) {
 std::vector<std::string> CostCells(const ProfileRow& row) {
   const StageProfile& c = row.counts;
   std::vector<std::string> cells(11);
-  cells[0] = StageTitle(c.name);
+  cells[0] = c.name;
   cells[1] = fmt::format("{:.1f}%", 100 * row.fraction);
   if (c.calls == 0) return cells;
   cells[2] = Ns(row.NsPerItem());
@@ -105,7 +105,7 @@ std::string CounterTable(const ProfileReport& report) {
       {"per item", "cycles", "instructions", "IPC", "L1 misses", "LLC misses"}};
   for (const ProfileRow& row : report.rows) {
     if (row.counts.counted_items == 0) continue;
-    lines.push_back({StageTitle(row.counts.name),
+    lines.push_back({row.counts.name,
                      fmt::format("{:.1f}", row.PerItem(Counter::kCycles)),
                      fmt::format("{:.1f}", row.PerItem(Counter::kInstructions)),
                      fmt::format("{:.2f}", row.InstructionsPerCycle()),

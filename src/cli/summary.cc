@@ -143,7 +143,7 @@ std::string StageTable(const RunResult& result) {
       {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
   for (const StageProfile& s : result.stages) {
     lines.push_back(
-        {StageTitle(s.name), TotalText(double(s.calls)), TotalText(double(s.items)),
+        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
          fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
          fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
          fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
@@ -179,24 +179,6 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
 }
 
 }  // namespace
-
-std::string StageTitle(const std::string& name) {
-  constexpr std::pair<std::string_view, std::string_view> kTitles[] = {
-      {"seen lights", "visible lights"},
-      {"sum of copies", "sum of split paths"},
-      {"limit", "max_depth"},
-      {"pack", "compact"}};
-  constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
-      {"seen edges: ", "edges: "}, {"seen: ", "visible: "}};
-  for (const auto& [prefix, title] : kPrefixes) {
-    if (!name.starts_with(prefix)) continue;
-    return std::string(title) + StageTitle(name.substr(prefix.size()));
-  }
-  for (const auto& [internal, title] : kTitles) {
-    if (name == internal) return std::string(title);
-  }
-  return name;
-}
 
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
                              bool verbose) {

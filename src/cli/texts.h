@@ -27,8 +27,6 @@ struct SummaryChoice {
 std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice);
 
-/// Returns the name of a stage for tables: "visible: generate" for "seen: generate".
-std::string StageTitle(const std::string& name);
 
 /// Returns the summary of merged states.
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,

@@ -30,8 +30,8 @@ inline constexpr PhaseInfo kPhases[] = {
     {"", "paths of a range of samples"},
     {"", "path reuse: one sample of all pixels of a tile"},
     {"", "path reuse: one pixel block"},
-    {"seen: ", "camera rays at edges of directly visible lights"},
-    {"seen edges: ", "camera rays that find these edges, without spectra"},
+    {"visible: ", "camera rays at edges of directly visible lights"},
+    {"edges: ", "camera rays that find these edges, without spectra"},
 };
 inline const PhaseInfo& InfoOf(PhaseId id) { return kPhases[int(id)]; }
 

@@ -20,8 +20,8 @@ void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
 }  // namespace
 
 const char* Name(TaskPart part) {
-  static constexpr const char* kNames[] = {"task set-up", "sum of copies", "seen lights",
-                                           "film"};
+  static constexpr const char* kNames[] = {"task set-up", "sum of split paths",
+                                           "visible lights", "film"};
   return kNames[int(part)];
 }
 

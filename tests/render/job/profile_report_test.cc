@@ -37,7 +37,7 @@ StageProfile Stage(const std::string& name, double seconds, std::uint64_t items,
 RunResult SomeResult() {
   RunResult r;
   r.stages = {Stage("camera", 0.1, 1000000),
-              Stage("seen: intersect_triangles", 0.4, 4000000, StageRole::kIntersect),
+              Stage("visible: intersect_triangles", 0.4, 4000000, StageRole::kIntersect),
               Stage("shadow_spheres", 0.2, 2000000, StageRole::kShadow),
               Stage("connect", 0.2, 2000000)};
   r.parts = EmptyParts();
@@ -78,7 +78,7 @@ TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
     if (i > 0) CHECK(report.rows[i].fraction <= report.rows[i - 1].fraction);
   }
   CHECK(fractions == Approx(1));
-  CHECK(report.rows[0].counts.name == "seen: intersect_triangles");
+  CHECK(report.rows[0].counts.name == "visible: intersect_triangles");
   CHECK(report.rows[0].NsPerItem() == Approx(100));
   CHECK(report.rows[0].counts.Occupancy() == Approx(0.5));
   CHECK(report.intersect_seconds == Approx(0.6));

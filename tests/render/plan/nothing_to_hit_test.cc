@@ -76,7 +76,7 @@ TEST_CASE("a scene without surfaces has no surface stages", "[plan]") {
   for (const PlannedStage& s : r.plan.paths().stages)
     stages += std::string(s.stage.name) + " ";
   CHECK(stages ==
-        "generate points_camera_independent camera_perspective hits escape limit "
+        "generate points_camera_independent camera_perspective hits escape max_depth "
         "accumulate compact ");
   CHECK(r.result.rays_shadow == 0);
 }

@@ -150,7 +150,7 @@ TEST_CASE("a profile lists the stages of light edges", "[seen-lights]") {
       if (!row.name.starts_with(InfoOf(PhaseId::kVisibleLights).prefix)) continue;
       ++rows;
       CHECK(row.seconds >= 0);
-      if (row.name == "seen: generate") generated = row.items;
+      if (row.name == "visible: generate") generated = row.items;
     }
     CHECK((rows > 0) == apart);
     // The rays that look for edges, and 17 for each sample of those found.

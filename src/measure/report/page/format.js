@@ -128,23 +128,12 @@ function fmtSeconds(seconds, digits = 3) {
   return `${fmt(seconds / factor, digits)} ${name}`;
 }
 
-// Value and bounds with a common power of ten or unit: {value, bounds}; bounds may be "".
-// Stage names as a reader knows them; the data keeps the names of profiles.
 // Highway names AVX-512 differently.
 function instructionSet(target) {
   return target.startsWith("AVX3") ? `AVX-512 (${target})` : target;
 }
 
-function stageTitle(name) {
-  return name
-    .replace(/^(lights seen|seen lights)$/, "visible lights")
-    .replace(/^sum of copies$/, "sum of split paths")
-    .replace(/^seen edges: /, "edges: ")
-    .replace(/^seen: /, "visible: ")
-    .replace(/(^|: )limit$/, "$1max_depth")
-    .replace(/(^|: )pack$/, "$1compact");
-}
-
+// Value and bounds with a common power of ten or unit: {value, bounds}; bounds may be "".
 function intervalTexts(interval, scale = 1, suffix = "", signed = false) {
   const x = valueOf(interval);
   if (x === null) return { value: UNKNOWN, bounds: "" };

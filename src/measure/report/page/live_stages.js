@@ -6,7 +6,7 @@ const MOST_BARS = 12;
 function stageRow(stage, total, most) {
   const share = stage.seconds / total;
   return el(
-    "div.live-stage", el("span.live-stage-name", stageTitle(stage.name).replaceAll("_", " ")),
+    "div.live-stage", el("span.live-stage-name", stage.name.replaceAll("_", " ")),
     el("span.live-stage-bar", el("span", { style: { width: `${(100 * share) / most}%` } })),
     el("span.live-stage-share", fmtPercent(share, 2)),
     el("span.live-stage-filled",
@@ -35,7 +35,7 @@ function drawStages(node, slot) {
 function drawOmitted(node, slot) {
   node.replaceChildren(
     ...slot.omitted.map(({ name, reason }) =>
-      el("div", el("b", stageTitle(name).replaceAll("_", " ")), ` ${reason}`)),
+      el("div", el("b", name.replaceAll("_", " ")), ` ${reason}`)),
   );
 }
 

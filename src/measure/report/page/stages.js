@@ -21,7 +21,7 @@ function stageColor(index) {
 function stageTip(strategy, stage) {
   const line = (name, text) => text !== UNKNOWN && `${name} ${text}`;
   return noteOf(
-    `${stageTitle(stage.name)}: ${fmtPercent(stage.share)}`,
+    `${stage.name}: ${fmtPercent(stage.share)}`,
     strategy.name,
     line("time", fmtSeconds(stage.seconds)),
     line("time per item", known(stage.ns_per_item) ? `${fmt(stage.ns_per_item)} ns` : UNKNOWN),
@@ -44,7 +44,7 @@ function stageBar(strategy, names, length = 1) {
     stages.map((stage) => {
       const share = stage.share / total;
       const index = rank.get(stage.name);
-      const text = `${stageTitle(stage.name)} ${fmtPercent(stage.share)}`;
+      const text = `${stage.name} ${fmtPercent(stage.share)}`;
       return withTip(
         el("div.bar-part",
           {
@@ -89,9 +89,9 @@ function stageLegend(names) {
       text,
     );
   return el("ul.stage-legend",
-    names.slice(0, COLOR_COUNT).map((name, i) => entry(stageTitle(name), i)),
-    rest.length > 1 && entry(restText(rest.map(stageTitle)), COLOR_COUNT),
-    rest.length === 1 && entry(stageTitle(rest[0]), COLOR_COUNT),
+    names.slice(0, COLOR_COUNT).map((name, i) => entry(name, i)),
+    rest.length > 1 && entry(restText(rest), COLOR_COUNT),
+    rest.length === 1 && entry(rest[0], COLOR_COUNT),
   );
 }
 
