@@ -99,7 +99,7 @@ def other_renders():
             ["merge", first, folder / "d.state", "-o", folder / "out.exr"], "")
     refused("the same part twice", ["merge", first, first, "-o", folder / "out.exr"],
             "both have pixel")
-    refused("another part", [*again, first], "pixels", "--part 2/2")
+    refused("another part", [*again, first], "another part than 2/2", "--part")
     refused("parts of two cuts", ["merge", first, part(2, "e.state", count=3), "-o",
                                   folder / "out.exr"], "")
     refused("a missing part", ["merge", first, "-o", folder / "out.exr"], "--partial")
