@@ -27,7 +27,6 @@ struct SummaryChoice {
 std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice);
 
-
 /// Returns the summary of merged states.
 std::string MergeSummaryText(const RenderReport& report, const MergedRender& merged,
                              bool verbose);

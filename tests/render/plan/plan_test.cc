@@ -58,9 +58,10 @@ TEST_CASE("plan: a triangle under a point light gets the minimum", "[plan]") {
   CHECK(StageNames(plan) ==
         std::set<std::string>{"generate", "points_camera_independent",
                               "camera_perspective", "intersect_triangles", "hits",
-                              "max_depth", "surface_triangle", "points_bounce_independent",
-                              "route", "light_point", "shade_diffuse", "shadow_triangles",
-                              "connect", "roulette_throughput", "accumulate", "compact"});
+                              "max_depth", "surface_triangle",
+                              "points_bounce_independent", "route", "light_point",
+                              "shade_diffuse", "shadow_triangles", "connect",
+                              "roulette_throughput", "accumulate", "compact"});
   CHECK(Reason(plan, "intersect_spheres") == "no spheres");
   CHECK(Reason(plan, "light_select_table") == "no more than one light");
   for (Field absent :
