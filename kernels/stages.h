@@ -28,6 +28,7 @@ namespace lanelight {
   X(OrthographicCamera)                        \
   X(SphericalCamera)                           \
   X(RealisticCamera)                           \
+  X(EmitLightPath)                             \
   X(Motion)                                    \
   X(IntersectTriangles)                        \
   X(IntersectSpheres)                          \
@@ -38,6 +39,7 @@ namespace lanelight {
   X(MediumDistance)                            \
   X(MediumTracking)                            \
   X(Hits)                                      \
+  X(WeighHits)                                 \
   X(Escape)                                    \
   X(HitLightTree)                              \
   X(EmissionTriangle)                          \
@@ -80,6 +82,7 @@ namespace lanelight {
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
   X(SecondVertices)                            \
+  X(LightPathArrive)                           \
   X(Route)                                     \
   X(ChooseGlass)                               \
   X(ChooseThinGlass)                           \
@@ -100,12 +103,14 @@ namespace lanelight {
   X(SampleInfiniteConstant)                    \
   X(SampleInfiniteImage)                       \
   X(SamplePortalLight)                         \
+  X(SampleCamera)                              \
   X(EmissionImageSamples)                      \
   X(EmissionCutSamples)                        \
   X(LightSpectra)                              \
   X(Consider)                                  \
   X(KeepCandidate)                             \
   LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_STAGE) \
+  X(WeighConnections)                          \
   X(ShadowRoulette)                            \
   X(ShadowTriangles)                           \
   X(ShadowSpheres)                             \
@@ -116,7 +121,9 @@ namespace lanelight {
   X(ShadowMedia)                               \
   X(ShadowThrough)                             \
   X(Connect)                                   \
+  X(KeepSplats)                                \
   X(SecondVerticesLight)                       \
+  X(LightPathLeave)                            \
   X(RecordDecision)                            \
   X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
@@ -127,6 +134,7 @@ namespace lanelight {
   X(EnterMedia)                                \
   X(PassInterfaces)                            \
   X(Accumulate)                                \
+  X(EndLightPath)                              \
   X(Compact)                                   \
   X(ReuseOwnLight)                             \
   X(ReusePairs)                                \

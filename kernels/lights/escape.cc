@@ -61,7 +61,7 @@ Stage EscapeStage() {
           .role = StageRole::kEmission,
           .needs = {Feature::kInfiniteLights},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
-                   FieldSet{Field::bsdf_pdf, Field::wavelength},
+                   FieldSet{Field::bsdf_pdf, Field::wavelength, Field::hit_weight},
           .writes = fields::kRadiance,
           .resolve = ResolveEscape};
 }

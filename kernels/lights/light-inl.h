@@ -177,7 +177,8 @@ LANELIGHT_INLINE void StoreSurfaceSample(const PathColumns& p, const StoreSlots&
 /// Adds weight * beta * radiance to the path.
 LANELIGHT_INLINE void AddRadiance(const PathColumns& p, const StoreSlots& slots,
                                   V3 radiance) {
-  const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+  V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+  if (p.hit_weight != nullptr) beta = Mul(beta, Gather(p.hit_weight, slots));
   const V3 sum = Gather3(p.l_r, p.l_g, p.l_b, slots) + Mul(beta, radiance);
   Scatter3(sum, p.l_r, p.l_g, p.l_b, slots);
 }

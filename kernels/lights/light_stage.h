@@ -51,7 +51,8 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
           .needs = {shape},
           .reads = fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
                    fields::kStartNormal |
-                   FieldSet{Field::bsdf_pdf, Field::passed, Field::wavelength},
+                   FieldSet{Field::bsdf_pdf, Field::passed, Field::wavelength,
+                            Field::hit_weight},
           .writes = fields::kRadiance,
           .resolve = resolve};
 }

@@ -76,7 +76,7 @@ std::vector<std::string> Rotating(const PreparedScene& scene, std::size_t index,
   const std::size_t each =
       std::min(kMaxPerScene, (Combinations().size() + scenes - 1) / scenes);
   constexpr const char* kExtraStrategies[] = {
-      "roulette=throughput:0:2:4", "roulette=adjoint", "reuse=block:32:compact",
+      "roulette=throughput:0:2:4", "roulette=adjoint", "reuse=block:64:compact",
       "directions=light"};
   std::vector<std::string> strategies = {
       "reuse=block", kExtraStrategies[index % std::size(kExtraStrategies)]};

@@ -89,6 +89,12 @@ TEST_CASE("a strategy that the scene does not support is refused with a remedy",
              Contains("roulette=throughput"));
   CHECK_THAT(refusal(sky, "paper-control,reuse=block"),
              Contains("control=regression needs samples of single paths"));
+  const ProcessResult part = RunLanelight(
+      {"render", LANELIGHT_SOURCE_DIR "/scenes/cornell-box.pbrt", "--spp", "4", "--part",
+       "1/2", "--checkpoint", out + ".state", "--strategy", "light-paths=splats"});
+  CHECK(part.exit_code == kExitBadInput);
+  CHECK_THAT(part.err,
+             Contains("--part does not support light-paths") && Contains("merge"));
   const std::string point = WriteScene(
       directory, "LightSource \"point\" \"rgb I\" [ 9 9 9 ] \"point3 from\" [ 0 3 0 ]\n");
   const ProcessResult note = RunLanelight(

@@ -53,6 +53,7 @@ constexpr Folder kFolders[] = {
     {"kernels/roulette",        "roulette and splitting"},
     {"kernels/accumulate",      "finished samples"},
     {"kernels/reuse",           "paths that serve a block of pixels"},
+    {"kernels/light_paths",     "light subpaths"},
     {"kernels/probe",           "kernel routines outside a render"},
     {"kernels",                 "the registry of stages"},
     {"src/render/films",        "sums of samples"},

@@ -106,6 +106,7 @@ class WaveFixture {
     wave.path.passed = nullptr;      // no interfaces of media behind a ray
     wave.path.wavelength = nullptr;  // paths carry red, green and blue
     wave.path.eta = nullptr;
+    wave.path.hit_weight = nullptr;  // no light subpaths
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }

@@ -133,7 +133,16 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   return RenderToFiles(job, sweep_.ScenePath(cell), targets, hooks);
 }
 
-ProbeRender RenderProbe(const Job& job, double seconds, bool half) {
+// Returns the job without light subpaths, which windows of the image do not support.
+Job WithoutLightPaths(const Job& job) {
+  Strategy strategy = job.scene.strategy;
+  if (strategy.light_paths == LightPaths::kNone) return job;
+  strategy.light_paths = LightPaths::kNone;
+  return WithStrategy(job, strategy);
+}
+
+ProbeRender RenderProbe(const Job& whole, double seconds, bool half) {
+  const Job job = WithoutLightPaths(whole);
   const std::vector<PixelRect> windows = EvenlySpacedWindows(job.window);
   const int width = windows.front().width() * int(windows.size());
   const int height = windows.front().height();

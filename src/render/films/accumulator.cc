@@ -53,6 +53,10 @@ void FilmAccumulator::UseBuckets(const SpectralBuckets& buckets) {
   planes_ = SamplePlanes(features_);
 }
 
+void FilmAccumulator::UseSplats(double unit) {
+  splat_film_ = std::make_unique<SplatFilm>(samples_.size(), unit);
+}
+
 void FilmAccumulator::FitControl() {
   if (control_) control_->Fit({samples_, replicates_});
 }
@@ -132,13 +136,16 @@ Rgb FilmAccumulator::Mean(int x, int y) const {
   if (samples == 0) return {};
   Rgb sum = Sum(index);
   if (control_) sum = sum - control_->Correction(index, samples);
-  return sum / double(samples);
+  const Rgb mean = sum / double(samples);
+  return splat_film_ ? mean + splat_film_->Mean(index) : mean;
 }
 
 Rgb FilmAccumulator::Variance(int x, int y) const {
   if (!HasVariance(x, y)) return {};
   const std::size_t index = Index(x, y);
-  return groups_.replicates ? ReplicateVariance(index) : UnitVariance(index);
+  const Rgb variance =
+      groups_.replicates ? ReplicateVariance(index) : UnitVariance(index);
+  return splat_film_ ? variance + splat_film_->Variance(index) : variance;
 }
 
 Rgb FilmAccumulator::ReplicateVariance(std::size_t index) const {
@@ -218,6 +225,10 @@ std::vector<MutableStateColumn> FilmAccumulator::Columns() {
         gbuffer_, {kGbufferPlanes}));
   }
   if (bucket_film_) columns.push_back(bucket_film_->Column());
+  if (splat_film_) {
+    for (MutableStateColumn& column : splat_film_->Columns())
+      columns.push_back(std::move(column));
+  }
   if (!control_) return columns;
   for (MutableStateColumn& column : control_->Columns())
     columns.push_back(std::move(column));

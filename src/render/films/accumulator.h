@@ -15,6 +15,7 @@
 #include "src/base/image/pixel_rect.h"
 #include "src/render/films/bucket_film.h"
 #include "src/render/films/regression_film.h"
+#include "src/render/films/splat_film.h"
 #include "src/vocabulary/path/run_parameters.h"
 
 namespace lanelight {
@@ -48,6 +49,11 @@ class FilmAccumulator {
   /// Adds the planes of wavelengths, of which the film keeps means by bucket; before any
   /// sample.
   void UseBuckets(const SpectralBuckets& buckets);
+  /// Adds the sums of light subpaths, in units of `unit`; before any sample.
+  void UseSplats(double unit);
+  /// Returns null without UseSplats.
+  SplatFilm* splats() { return splat_film_.get(); }
+  const SplatFilm* splats() const { return splat_film_.get(); }
   /// Returns null without UseBuckets.
   const SpectralBuckets* buckets() const {
     return bucket_film_ ? &bucket_film_->buckets() : nullptr;
@@ -125,6 +131,7 @@ class FilmAccumulator {
   std::vector<AovSums> aov_;
   std::vector<GbufferSums> gbuffer_;
   std::unique_ptr<BucketFilm> bucket_film_;
+  std::unique_ptr<SplatFilm> splat_film_;
   FeatureSet features_;  // of renders that it takes samples of
   SamplePlanes planes_;  // that it takes
   std::unique_ptr<RegressionFilm> control_;

@@ -29,6 +29,10 @@ std::uint64_t ControlPerPixel(const Strategy& strategy) {
   return RegressionFilm::BytesPerPixel(GroupsOf(strategy));
 }
 
+std::uint64_t SplatsPerPixel(const Strategy& strategy) {
+  return strategy.light_paths == LightPaths::kNone ? 0 : SplatFilm::BytesPerPixel();
+}
+
 constexpr double kGiB = 1 << 30;
 
 // Returns the limit of `ulimit -v`.
@@ -52,7 +56,7 @@ std::uint64_t FilmBytes(const PixelRect& window, const FilmLayers& layers,
   const std::uint64_t per_pixel =
       FilmAccumulator::BytesPerPixel(GroupsOf(strategy), layers.auxiliary) +
       BucketFilm::BytesPerPixel({layers.buckets}) + 2 * kPlanesPerPixel +
-      2 * LayersPerPixel(layers) + ControlPerPixel(strategy);
+      2 * LayersPerPixel(layers) + ControlPerPixel(strategy) + SplatsPerPixel(strategy);
   return window.pixels() * per_pixel;
 }
 

@@ -74,6 +74,9 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
     merged.film->UseBuckets(BucketsOf(merged.identity));
     features.Add(Feature::kSpectralFilm);
   }
+  if (file.HasPixels("splats")) {
+    merged.film->UseSplats(merged.head.at("splat_unit"));
+  }
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
   merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));

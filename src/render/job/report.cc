@@ -7,6 +7,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
+#include "src/render/wave/light_paths.h"
 #include "src/scene/description/note.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
@@ -143,6 +144,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"scene_hash", fmt::format("{:016x}", job.loaded->scene_hash)},
           {"scale", job.scene.scale()},
           {"chance_of_light", ChanceOfLight(job.scene)},
+          {"splat_unit", SplatUnit(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},
           {"target", TargetJson(job.plan.options.target)},

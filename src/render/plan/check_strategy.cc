@@ -1,6 +1,7 @@
 
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/compiled/view.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/features.h"
 
@@ -34,6 +35,54 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
     ThrowUnsupported(
         std::string("control=") + Name(s.control) +
         " needs samples of single paths, which reuse=block combines: use one of the two");
+  }
+}
+
+// What light-paths=splats does not work with: features, and what to use instead.
+struct Unsupported {
+  FeatureSet any;
+  const char* what;
+};
+
+const Unsupported kWithoutLightPaths[] = {
+    {{Feature::kMedia, Feature::kInterfaces, Feature::kSubsurface},
+     "participating media, and materials with an inside"},
+    {{Feature::kMotion, Feature::kMovingInstances, Feature::kMovingCamera},
+     "shapes or cameras that move"},
+    {{Feature::kOrthographic, Feature::kSphericalCamera, Feature::kRealisticCamera},
+     "cameras other than \"perspective\""},
+    {{Feature::kSpectralFilm}, "Film \"spectral\""},
+    {{Feature::kHair, Feature::kCurves}, "hair and curves"},
+    {{Feature::kRegularizes}, "\"bool regularize\""},
+    {{Feature::kEmissionCuts}, "emitting shapes with \"alpha\""},
+    {KindsWith(kWalks), "coats over rough conductors, and coats with a medium"},
+};
+
+// Refuses what light subpaths do not work with.
+void CheckLightPaths(const Strategy& s, const FeatureSet& plan,
+                     const FilmResponse& film) {
+  if (!plan.Has(Feature::kLightPaths)) return;
+  const std::string key = std::string("light-paths=") + Name(s.light_paths);
+  for (const Unsupported& no : kWithoutLightPaths) {
+    if (!plan.HasAny(no.any)) continue;
+    ThrowUnsupported(key + " does not support " + no.what + ": use light-paths=none");
+  }
+  if (film.limits()) {
+    ThrowUnsupported(
+        key +
+        " does not support \"maxcomponentvalue\" of the film, which limits whole "
+        "samples: use light-paths=none, or remove the limit");
+  }
+  if (s.reuse != Reuse::kNone) {
+    ThrowUnsupported(key + " and reuse=" + Name(s.reuse) +
+                     " cannot be combined: use one of the two");
+  }
+  if (s.decide != Decide::kNone) {
+    ThrowUnsupported(key + " and decide=pilot cannot be combined: use decide=none");
+  }
+  if (s.Splits()) {
+    ThrowUnsupported(key + " needs paths that do not split, unlike those of roulette=" +
+                     Name(s.roulette) + ": use roulette=throughput");
   }
 }
 
@@ -114,6 +163,12 @@ void NotePaths(const Checked& c) {
                ? ": shapes move, and paths of a block have different times"
                : ": no path scatters a second time from a diffuse surface");
   }
+  if (s.light_paths != LightPaths::kNone && !c.plan.Has(Feature::kLightPaths)) {
+    c.Note(std::string("light-paths=") + Name(s.light_paths),
+           s.directions != Directions::kMis
+               ? std::string(" with directions=") + Name(s.directions) + ": use mis"
+               : ": no shape emits, or no surface is diffuse or glossy");
+  }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
     c.Note("decide=pilot", ": the trial run tries no strategies with reuse=block");
   }
@@ -125,6 +180,7 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
+  CheckLightPaths(s, plan, scene.view->film.response);
   Notes notes;
   const Checked checked = {s, scene.features(), plan, options, notes};
   NoteLights(checked);

@@ -95,10 +95,16 @@ void AddPhase(PhaseId id, const FeatureSet& features, const Stages& registered,
   Phase phase;
   phase.id = id;
   phase.in_waves = id != PhaseId::kTile && id != PhaseId::kBlock;
+  const bool from_lights = features.Has(Feature::kLightSubpath);
   phase.features = features;
   const PhaseId stages = phase.in_waves ? PhaseId::kPaths : id;
   for (const Stage& stage : registered) {
     if (PhaseOf(stage.scope) != stages || !features.HasAll(stage.needs)) continue;
+    // Light subpaths sample no lights, and bring nothing to samples.
+    if (from_lights &&
+        (stage.role == StageRole::kAccumulate || stage.role == StageRole::kLight)) {
+      continue;
+    }
     phase.stages.push_back({stage, stage.resolve(features)});
   }
   if (phase.stages.empty() && id != PhaseId::kPaths) return;
@@ -111,6 +117,9 @@ void AddPhase(PhaseId id, const FeatureSet& features, const Stages& registered,
 void AddPhases(const PreparedScene& scene, const Stages& registered, Plan& plan) {
   for (const PhaseId id : {PhaseId::kPaths, PhaseId::kTile, PhaseId::kBlock}) {
     AddPhase(id, plan.features, registered, plan);
+  }
+  if (plan.features.Has(Feature::kLightPaths)) {
+    AddPhase(PhaseId::kLightPaths, LightPathFeatures(plan.features), registered, plan);
   }
   if (!RendersLightsSeparately(scene)) return;
   FeatureSet features = VisibleLightFeatures(scene, plan.options);

@@ -19,7 +19,14 @@ struct PlannedStage {
   StageFn kernel = nullptr;
 };
 
-enum class PhaseId : int { kPaths, kTile, kBlock, kVisibleLights, kFindEdges };
+enum class PhaseId : int {
+  kPaths,
+  kTile,
+  kBlock,
+  kLightPaths,
+  kVisibleLights,
+  kFindEdges
+};
 
 struct PhaseInfo {
   const char* prefix;  // of the names of its stages in a profile; may be empty
@@ -30,6 +37,7 @@ inline constexpr PhaseInfo kPhases[] = {
     {"", "paths of a range of samples"},
     {"", "path reuse: one sample of all pixels of a tile"},
     {"", "path reuse: one pixel block"},
+    {"light: ", "light subpaths"},
     {"visible: ", "camera rays at edges of directly visible lights"},
     {"edges: ", "camera rays that find these edges, without spectra"},
 };

@@ -5,6 +5,7 @@
 #include "src/vocabulary/path/block.h"
 #include "src/vocabulary/path/features.h"
 #include "src/vocabulary/path/light_shapes.h"
+#include "src/vocabulary/path/light_splats.h"
 
 namespace lanelight {
 namespace {
@@ -41,6 +42,13 @@ void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& 
   if (!HasAnyOf(f, kEvenSidedKinds | kGlossyKinds)) return;
   f.Add(TurnsOn(strategy.reuse));
   if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
+}
+
+// Adds light subpaths, which start at emitting shapes.
+void AddLightPaths(const Strategy& strategy, FeatureSet& f) {
+  if (strategy.directions != Directions::kMis || !f.Has(Feature::kLights)) return;
+  if (!f.HasAny(LightsWith(kEmittingShape)) || !HasAnyOf(f, kSplattingKinds)) return;
+  f.Add(TurnsOn(strategy.light_paths));
 }
 
 bool HasDeltaLights(const FeatureSet& f) { return f.HasAny(LightsWith(kDeltaLight)); }
@@ -97,6 +105,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     AddReuse(strategy, options, f);
+    AddLightPaths(strategy, f);
     // Trial runs do not compare strategies beside path reuse.
     if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
   } else {
@@ -114,12 +123,43 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   return f;
 }
 
+FeatureSet LightPathFeatures(FeatureSet f) {
+  bool played = false;  // roulette
+  // Shadow rays go to the camera, and lights are neither sampled nor hit.
+  f.Remove({Feature::kManyLights, Feature::kMis, Feature::kProjectedHits,
+            Feature::kLightCandidates, Feature::kLightTable, Feature::kLightTree,
+            Feature::kSampledHittableLights, Feature::kContributionShadowRoulette,
+            Feature::kAreaLights, Feature::kInfiniteLights, Feature::kEmissionImages,
+            Feature::kPortals});
+  for (int i = 0; i < int(LightShape::kCount); ++i) {
+    f.Remove(LightFeature(static_cast<LightShape>(i)));
+  }
+  f.Remove({Feature::kPerspective, Feature::kLens, Feature::kFiltered,
+            Feature::kSignedFilter, Feature::kAov, Feature::kGbuffer,
+            Feature::kTextureFootprints, Feature::kRegressionControl});
+  for (std::size_t i = 0; i < std::size(kSampleSequenceNames); ++i) {
+    f.Remove(TurnsOn(static_cast<SampleSequence>(i)));
+  }
+  for (std::size_t i = 0; i < std::size(kPairsNames); ++i) {
+    f.Remove(TurnsOn(static_cast<Pairs>(i)));
+  }
+  for (std::size_t i = 0; i < std::size(kRouletteNames); ++i) {
+    const FeatureSet roulette = TurnsOn(static_cast<Roulette>(i));
+    if (f.HasAll(roulette) && roulette.Has(Feature::kRoulette)) played = true;
+    f.Remove(roulette);
+  }
+  if (played) f.Add(TurnsOn(Roulette::kThroughput));
+  f.Add({Feature::kIndependentSampleSequence, Feature::kLightSubpath});
+  return f;
+}
+
 Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options) {
   Strategy strategy = options.strategy.value_or(scene.strategy);
   if (!options.training) return strategy;
   if (!options.has_own_sequences) {
     strategy.sampler = SampleSequence::kIndependent;
     strategy.reuse = Reuse::kNone;
+    strategy.light_paths = LightPaths::kNone;
   }
   strategy.pairs = Pairs::kNone;
   strategy.control = Control::kNone;

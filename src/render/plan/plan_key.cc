@@ -41,6 +41,9 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   if (features.Has(Feature::kReuse)) {
     text += fmt::format(" reuse {} {}", s.reused_paths, Name(s.block_layout));
   }
+  if (features.Has(Feature::kLightPaths)) {
+    text += fmt::format(" light paths {}", s.light_path_samples);
+  }
   if (features.HasAny({Feature::kRoulette, Feature::kSplitting})) {
     const RouletteParameters r = MakeRouletteParameters(s);
     text += fmt::format(" roulette {} {} {} {} {}", Name(s.roulette), r.termination,

@@ -31,6 +31,9 @@ struct Runner {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films.UseResponse(scene.view->film.response);
+    if (strategy.plan().features.Has(Feature::kLightPaths) && film.splats() == nullptr) {
+      film.UseSplats(SplatUnit(scene));
+    }
     min_tile_side = scene.strategy.MayReuse() ? kReuseTile : 1;
     if (options.group != nullptr && options.group->ranks() > 1) {
       LL_CHECK(options.windows.empty());

@@ -22,7 +22,7 @@ ThreadWork::ThreadWork(const PreparedScene& scene, const Plan& plan,
     : scene_(scene),
       options_(options),
       films_(films),
-      runner_(scene, plan, run, options) {
+      runner_(scene, plan, run, options, WindowOf(films.film())) {
   UseTiles(PartitionOf(scene, options, PlannedSpp(options)));
 }
 

@@ -34,7 +34,7 @@ std::vector<bool> PixelsWithoutLightEdges(const TriedStrategy& baseline,
   RunParameters run = MakeRunParameters(baseline.scene, plan);
   run.tables = &baseline.tables;
   const RunOptions once;
-  TaskRunner runner(baseline.scene, plan, run, once);
+  TaskRunner runner(baseline.scene, plan, run, once, {});
   runner.Begin(work.tiles.size());
   if (runner.visible_lights() == nullptr) return counted;
   ParallelFor(work.tiles.size(), [&](std::size_t tile) {

@@ -25,6 +25,32 @@ void Films::Respond(const TileSamples& tile) const {
   ConvertColors(*response_, planes, count);
 }
 
+// Strategies with light subpaths refuse a limit, which would apply to whole samples.
+void Films::RespondToSplats(std::vector<PixelSplat>& splats) const {
+  const std::size_t count = splats.size();
+  std::vector<float> values(3 * count);
+  float* const first = values.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) first[c * count + i] = splats[i].light[c];
+  }
+  const ColorPlanes planes = {first, first + count, first + 2 * count};
+  ConvertColors(*response_, planes, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) splats[i].light[c] = first[c * count + i];
+  }
+}
+
+// Returns the places in the film of the pixels of a tile.
+std::vector<std::size_t> Films::FilmPixels(const TileSamples& tile) const {
+  std::vector<std::size_t> places;
+  for (const std::uint32_t pixel : tile.pixels) {
+    const int x = int(pixel) % tile.width - film_.x0();
+    const int y = int(pixel) / tile.width - film_.y0();
+    places.push_back(std::size_t(y) * std::size_t(film_.width()) + std::size_t(x));
+  }
+  return places;
+}
+
 void Films::Add(const TileSamples& tile) {
   if (response_) Respond(tile);
   const std::vector<std::uint32_t>& pixels = tile.pixels;
@@ -38,6 +64,9 @@ void Films::Add(const TileSamples& tile) {
     film_.AddSamples(int(pixels[i]) % tile.width, int(pixels[i]) / tile.width, planes,
                      tile.count);
   }
+  if (film_.splats() == nullptr) return;
+  if (response_) RespondToSplats(*tile.splats);
+  film_.splats()->Add(*tile.splats, FilmPixels(tile), tile.light_paths);
 }
 
 }  // namespace lanelight

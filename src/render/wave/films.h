@@ -20,6 +20,10 @@ struct TileSamples {
   int width = 0;
   float* values = nullptr;
   std::uint32_t count = 0;  // per pixel
+  /// What light subpaths have brought to pixels of the film, if it keeps that, and the
+  /// number of subpaths for each pixel.
+  std::vector<PixelSplat>* splats = nullptr;
+  std::uint32_t light_paths = 0;
 };
 
 class Films {
@@ -42,6 +46,8 @@ class Films {
 
  private:
   void Respond(const TileSamples& tile) const;
+  std::vector<std::size_t> FilmPixels(const TileSamples& tile) const;
+  void RespondToSplats(std::vector<PixelSplat>& splats) const;
 
   SamplePlanes planes_;
   FilmAccumulator& film_;

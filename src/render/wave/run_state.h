@@ -33,7 +33,9 @@ struct RunCounts {
 /// Samples of one finished task, until they are merged in order.
 struct TaskSamples {
   AlignedVector<float> values;
-  std::uint32_t count = 0;  // samples per pixel; 0 = not run
+  std::uint32_t count = 0;         // samples per pixel; 0 = not run
+  std::vector<PixelSplat> splats;  // of light subpaths, with kLightPaths
+  std::uint32_t light_paths = 0;   // per pixel
   RunCounts counts;
 };
 

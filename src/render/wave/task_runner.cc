@@ -21,11 +21,13 @@ std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
 }
 
 TaskRunner::TaskRunner(const PreparedScene& scene, const Plan& plan,
-                       const RunParameters& run, const RunOptions& options)
+                       const RunParameters& run, const RunOptions& options,
+                       const PixelRect& window)
     : scene_(scene),
       plan_(plan),
       run_(run),
       options_(options),
+      window_(window),
       workspaces_(static_cast<std::size_t>(ThreadSlots())) {}
 
 void TaskRunner::Begin(std::size_t tiles) {
@@ -42,7 +44,8 @@ Workspace& TaskRunner::ThreadWorkspace() {
   const std::size_t thread = std::size_t(ThreadIndex());
   LL_CHECK_LT(thread, workspaces_.size());
   if (!workspaces_[thread]) {
-    workspaces_[thread] = std::make_unique<Workspace>(scene_, plan_, run_, options_);
+    workspaces_[thread] =
+        std::make_unique<Workspace>(scene_, plan_, run_, options_, window_);
   }
   return *workspaces_[thread];
 }
@@ -91,6 +94,10 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
   if (ended) {
     const std::uint32_t stride = work.num_pixels * work.samples;
     if (space.reuse) space.reuse->Connect(rect, space.wavefront.wave(), clock);
+    if (space.light_paths) {
+      space.light_paths->Trace(work, space.wavefront.wave(), clock, out.splats);
+      out.light_paths = space.light_paths->PathsOf(work.first_sample, work.samples);
+    }
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};
     if (plan_.features.Has(Feature::kSplitting)) {
@@ -124,7 +131,8 @@ void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& film
   StageClock* const clock = space.Clock();
   if (clock) clock->StartTask();
   TilePixels(place, width, &space.pixels);
-  films.Add({place, space.pixels, width, samples.values.data(), samples.count});
+  films.Add({place, space.pixels, width, samples.values.data(), samples.count,
+             &samples.splats, samples.light_paths});
   if (!clock) return;
   clock->FinishPart(TaskPart::kFilm, space.pixels.size() * samples.count);
   clock->EndTask();

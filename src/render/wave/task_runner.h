@@ -10,6 +10,7 @@
 #include "src/render/plan/plan_features.h"
 #include "src/render/wave/block_reuse.h"
 #include "src/render/wave/films.h"
+#include "src/render/wave/light_paths.h"
 #include "src/render/wave/run_options.h"
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/run_state.h"
@@ -24,13 +25,16 @@ namespace lanelight {
 /// Memory that a thread keeps between tasks.
 struct Workspace {
   Workspace(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
-            const RunOptions& options)
+            const RunOptions& options, const PixelRect& window)
       : wavefront(scene, plan, run) {
     if (options.profile) {
       clock.emplace(plan.rows(), options.profiling);
     }
     if (plan.features.Has(Feature::kReuse)) {
       reuse.emplace(plan, PlannedStrategy(scene, plan.options));
+    }
+    if (plan.features.Has(Feature::kLightPaths)) {
+      light_paths.emplace(scene, plan, window, wavefront);
     }
     if (plan.Find(PhaseId::kVisibleLights))
       visible_lights.emplace(scene, plan, run, wavefront);
@@ -40,6 +44,7 @@ struct Workspace {
 
   Wavefront wavefront;
   std::optional<BlockReuse> reuse;
+  std::optional<LightSubpaths> light_paths;
   std::optional<VisibleLightRays> visible_lights;
   std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
@@ -54,9 +59,9 @@ std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan);
 class TaskRunner {
  public:
   /// Refers to all of these for as long as it lives; plan and parameters may change until
-  /// the first task.
+  /// the first task. `window`: pixels of the film.
   TaskRunner(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
-             const RunOptions& options);
+             const RunOptions& options, const PixelRect& window);
 
   /// Sets the number of tiles, before the first task.
   void Begin(std::size_t tiles);
@@ -90,6 +95,7 @@ class TaskRunner {
   const Plan& plan_;
   const RunParameters& run_;
   const RunOptions& options_;
+  const PixelRect window_;
   std::unique_ptr<VisibleLightEdges> visible_lights_;  // null: not apart
   std::vector<std::unique_ptr<Workspace>> workspaces_;
 };

@@ -86,9 +86,13 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
   const bool ours = type == "path" || type == "volpath";
   if (!ours) {
     const bool changes_image = type == "ambientocclusion" || type == "function";
+    const bool starts_at_lights =
+        type == "bdpt" || type == "lightpath" || type == "mlt" || type == "sppm";
     state.scene.notes.push_back(
         {params.where(),
-         fmt::format("integrator {} is replaced by \"path\"", Quoted(type)),
+         fmt::format(
+             "integrator {} is replaced by \"path\"{}", Quoted(type),
+             starts_at_lights ? "; for caustics use --strategy light-paths=splats" : ""),
          changes_image});
   }
   state.scene.integrator.max_depth = params.Integer("maxdepth", 5, {0, 1000000});

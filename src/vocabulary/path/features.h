@@ -99,6 +99,8 @@ namespace lanelight {
   X(kLightCandidates, "further candidates for each light sample")             \
   X(kReuse, "path reuse in pixel blocks (reuse=block)")                       \
   X(kReuseGlossy, "path reuse on glossy surfaces")                            \
+  X(kLightPaths, "light subpaths (light-paths=splats)")                       \
+  X(kLightSubpath, "paths that start at lights")                              \
   X(kDecides, "a strategy chosen by a trial run")                             \
   X(kRecordsSinglePaths,                                                      \
     "a training pass that records the contributions of single "               \

@@ -63,10 +63,18 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, l, ({}), kGathered, (0.0f), "radiance gathered so far")           \
   X(f32, wavelength, ({kSpectral}), kPath, (), "random number that selected the wavelengths of the path; sign bit set: dispersive glass has left only one (src/scene/compiled/spectra.h)") \
   X(u32, regular, ({kRegularizes}), kPath, (0u), "1: a bounce was not specular; later surfaces are rougher") \
-  X(f32, bsdf_pdf, ({kMis, kReuse, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
+  X(f32, bsdf_pdf, ({kMis, kReuse, kLightPaths, kRegularizes}), kPath, (0.0f), "pdf_sa of the ray direction; 0 after a camera or specular vertex") \
   LANELIGHT_XYZ(X, f32, start_n, ({kProjectedHits}), kRay, (0.0f), "shading normal at the ray origin, on the side of the incoming path") \
-  X(f32, eta_scale, ({kRefraction, kReuse}), kPath, (1.0f), "product of eta^2 of refractions: undone by roulette") \
+  X(f32, eta_scale, ({kRefraction, kReuse, kLightPaths}), kPath, (1.0f), "product of eta^2 of refractions: undone by roulette") \
   X(u32, reuse, ({kReuse}), kPath, (0u), "progress of the path: ReuseState (src/vocabulary/path/block.h)") \
+  /* light-paths=splats (kernels/light_paths/chain-inl.h) */                              \
+  X(u32, lp_vertex, ({kLightPaths}), kPath, (0u), "vertices so far; kNotFromLight: no light subpath finds this path") \
+  X(f32, lp_chain, ({kLightPaths}), kPath, (0.0f), "ratio of the densities of both directions so far") \
+  X(f32, lp_pdf, ({kLightPaths}), kPath, (0.0f), "pdf_sa of the ray direction in it; 1 after a specular vertex") \
+  X(f32, lp_inverse, ({kLightPaths}), kBounce, (), "1 / pdf_area of the vertex") \
+  LANELIGHT_XYZ(X, f32, lp_in, ({kLightPaths}), kBounce, (), "direction of the ray that found the vertex") \
+  X(f32, hit_weight, ({kLightPaths}), kPath, (1.0f), "MIS weight of light that the ray hits, against light subpaths") \
+  X(f32, lp_scale, ({kLightPaths}), kPath, (1.0f), "factor of the throughput of a light subpath") \
   /* film sample points */                                                                \
   LANELIGHT_2(X, f32, u_film, ({}), kCamera, (), "position in the pixel")               \
   LANELIGHT_2(X, f32, u_lens, ({kLens}), kCamera, (), "position on the lens")           \

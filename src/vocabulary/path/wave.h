@@ -18,7 +18,8 @@ struct Health {
   std::uint64_t Total() const { return nan + infinite + negative; }
 };
 
-struct Block;  // src/vocabulary/path/block.h
+struct Block;        // src/vocabulary/path/block.h
+struct LightSplats;  // src/vocabulary/path/light_splats.h
 
 // Queues hold path slots. Stages append and read; the driver
 // (src/render/wave/phase_driver.h) clears all but kFree, and kActive, which it takes from
@@ -120,8 +121,9 @@ struct Wave : SceneParts {
   PathColumns path;
   ColumnLists lists;  // of `path`
   const RunParameters* run = nullptr;
-  RayKernels kernels;      // with kInterfaces or kReuse
-  Block* block = nullptr;  // with kReuse
+  RayKernels kernels;                   // with kInterfaces or kReuse
+  Block* block = nullptr;               // with kReuse
+  LightSplats* light_splats = nullptr;  // with kLightPaths
   Queue queues[kNumQueues];
   std::uint32_t capacity = 0;
   TileWork work;

@@ -23,6 +23,9 @@ inline constexpr std::uint32_t kDefaultLightCandidates = LANELIGHT_LIGHT_CANDIDA
 /// Paths that share their second vertices with reuse=block, unless told otherwise.
 #define LANELIGHT_REUSED_PATHS 64
 inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
+/// Camera samples per light subpath, unless told otherwise.
+#define LANELIGHT_LIGHT_PATH_SAMPLES 4
+inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_SAMPLES;
 #define LANELIGHT_TEXT(value) LANELIGHT_TEXT_OF(value)
 #define LANELIGHT_TEXT_OF(value) #value
 
@@ -125,6 +128,11 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
+#define LANELIGHT_LIGHT_PATH_CHOICES(X, T, K)                                                   \
+  X(T, K, None, PLAIN, ({}), "none", "", "no light subpaths (default)", "f / p", "")          \
+  X(T, K, Splats, PLAIN, ({kLightPaths}), "splats", "[:N]", "one light subpath for N = " LANELIGHT_TEXT(LANELIGHT_LIGHT_PATH_SAMPLES) " camera samples; its vertices connect to the camera", \
+    "sum_s w_s f_s / p_s, balance heuristic", "Veach 1997, chapter 10")
+
 #define LANELIGHT_DECISIONS(X, T, K)                                                            \
   X(T, K, None, PLAIN, ({}), "none", "", "the strategy is used as given (default for short renders, and if a strategy is named)", "one strategy", "")       \
   X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses another roulette or reuse if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
@@ -161,6 +169,7 @@ inline constexpr std::uint32_t kDefaultReusedPaths = LANELIGHT_REUSED_PATHS;
   X(ShadowRoulette, shadow_roulette, "shadow-roulette", LANELIGHT_SHADOW_ROULETTES) \
   X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
+  X(LightPaths, light_paths, "light-paths", LANELIGHT_LIGHT_PATH_CHOICES)           \
   X(Decide, decide, "decide", LANELIGHT_DECISIONS)
 
 #define X(Type, key, name, ...) k##name,

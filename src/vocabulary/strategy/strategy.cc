@@ -43,6 +43,11 @@ std::string ReuseText(const Strategy& s) {
   return fmt::format("{}:{}:{}", Name(s.reuse), s.reused_paths, Name(s.block_layout));
 }
 
+std::string LightPathsText(const Strategy& s) {
+  if (s.light_paths == LightPaths::kNone) return Name(s.light_paths);
+  return fmt::format("{}:{}", Name(s.light_paths), s.light_path_samples);
+}
+
 }  // namespace
 
 std::string ToText(const Strategy& s) {
@@ -59,8 +64,8 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.visible_lights));
   return text + LightText(s) +
-         fmt::format(",distances={},reuse={},decide={}", Name(s.distances), ReuseText(s),
-                     Name(s.decide));
+         fmt::format(",distances={},reuse={},light-paths={},decide={}", Name(s.distances),
+                     ReuseText(s), LightPathsText(s), Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() {

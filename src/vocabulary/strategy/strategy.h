@@ -21,6 +21,7 @@ inline constexpr std::uint32_t kMaxLightCandidates = 64;
 /// Numbers of paths that reuse=block connects: powers of two.
 /// Side of the tiles, in pixels, whose paths it may connect.
 inline constexpr std::int32_t kReuseTile = 16;
+inline constexpr std::uint32_t kMaxLightPathSamples = 1024;
 inline constexpr std::uint32_t kMinReusedPaths = 2, kMaxReusedPaths = 64;
 
 struct Strategy {
@@ -52,6 +53,8 @@ struct Strategy {
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
   BlockLayout block_layout = BlockLayout::kRandom;   // of kBlock
+  LightPaths light_paths = LightPaths::kNone;
+  std::uint32_t light_path_samples = kDefaultLightPathSamples;  // of kSplats
   Decide decide = Decide::kNone;
 
   friend bool operator==(const Strategy&, const Strategy&) = default;

@@ -24,7 +24,7 @@ constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
     "light-candidates=single,environment=plain,shadow-roulette=none,"
-    "distances=exponential,reuse=none,decide=none";
+    "distances=exponential,reuse=none,light-paths=none,decide=none";
 
 class Parser {
  public:
@@ -178,6 +178,15 @@ class Parser {
     }
     if (parts.size() < 3) return;
     Choose("reuse=block:N", parts[2], kBlockLayoutNames, strategy_.block_layout);
+  }
+
+  void SetArguments(LightPaths paths, const Parts& parts) {
+    strategy_.light_path_samples = kDefaultLightPathSamples;
+    if (!Has(parts, paths == LightPaths::kNone ? 0 : 1)) return;
+    const double n = Number("light-paths=splats:N", parts[1], 1, kMaxLightPathSamples);
+    if (n != std::floor(n))
+      Fail("the number of camera samples per light subpath must be whole");
+    strategy_.light_path_samples = static_cast<std::uint32_t>(n);
   }
 
   void SetArguments(ShadowRoulette roulette, const Parts& parts) {

@@ -208,6 +208,26 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
              Contains("multiple of 4"));
 }
 
+TEST_CASE("merge: light subpaths of different seeds are added", "[merge][light_paths]") {
+  TemporaryFolder folder;
+  std::vector<std::string> states;
+  double mean = 0;
+  for (std::uint64_t seed : {2u, 1u}) {
+    CheckpointedRender r = Small(folder, "seed-" + std::to_string(seed));
+    r.settings.seed = seed;
+    r.settings.strategy.text = "light-paths=splats:3";
+    states.push_back(StateOf(r));
+    const MergedRender one = MergeStates({states.back()});
+    REQUIRE(one.film->splats() != nullptr);
+    CHECK(one.film->splats()->Mean(20 * 32 + 16).x > 0);
+    mean += Sum(*one.film) / 2;
+  }
+  const MergedRender merged = MergeStates(states);
+  CHECK(Sum(*merged.film) == Approx(mean).epsilon(1e-9));
+  std::reverse(states.begin(), states.end());
+  CHECK((MergedOutcome(states) == OutcomeOf(*merged.film, ResultOf(merged))));
+}
+
 TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   TemporaryFolder folder;
   CheckpointedRender r = Small(folder, "a");

@@ -16,6 +16,7 @@
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
+#include "src/vocabulary/path/light_splats.h"
 #include "tests/agreement/all_stages_scene.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/reference/measured.h"
@@ -34,6 +35,31 @@ struct DeclaredCase {
   const char* strategy;
   bool records = false;  // a training pass that records
 };
+
+// What light subpaths support: lamps, spheres, a lens and a filter.
+constexpr char kLampsScene[] = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40 "float lensradius" 0.1 "float focaldistance" 6
+Film "rgb" "integer xresolution" 24 "integer yresolution" 18
+PixelFilter "gaussian"
+Integrator "path" "integer maxdepth" 5
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
+  Translate -1 3 0
+  Shape "sphere" "float radius" 0.3
+AttributeEnd
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 3 3 3 ]
+  Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 1 2 ]
+AttributeEnd
+Material "coateddiffuse" "rgb reflectance" [ 0.1 0.3 0.6 ] "float roughness" 0.1
+Shape "trianglemesh" "point3 P" [ -3 0 -2  3 0 -2  3 0 3  -3 0 3 ]
+  "normal N" [ 0 1 0.2  0.1 1 0  0 1 0  0 1 -0.1 ] "integer indices" [ 0 1 2 0 2 3 ]
+Material "dielectric" "float eta" 1.5
+Translate 0 0.7 0
+Shape "sphere" "float radius" 0.7
+)";
 
 class Checker {
  public:
@@ -80,17 +106,40 @@ class Checker {
     work.samples = kSamples;
     wave.Begin(work, {samples_.data(), Rows()});
     if (reuse_) reuse_->Begin(wave.work, wave);
-    for (int i = 0; i < 400 && wave.HasWork(); ++i) {
-      wave.BeginWave();
-      for (const PlannedStage& planned : plan_.paths().stages) {
-        if (wave.queue(planned.stage.input).size > 0) Check(planned);
-      }
+    MakeLightSplats();
+    RunWaves(plan_.paths());
+    if (const Phase* light = plan_.Find(PhaseId::kLightPaths)) {
+      wave = wavefront_->Narrowed(light->features);
+      wave.Begin(work, {});
+      RunWaves(*light);
     }
     return findings_;
   }
   std::set<std::string> stages_run;
 
  private:
+  void RunWaves(const Phase& phase) {
+    Wave& wave = wavefront_->wave();
+    for (int i = 0; i < 400 && wave.HasWork(); ++i) {
+      wave.BeginWave();
+      for (const PlannedStage& planned : phase.stages) {
+        if (wave.queue(planned.stage.input).size > 0) Check(planned);
+      }
+    }
+  }
+
+  void MakeLightSplats() {
+    const std::size_t entries = std::size_t{Rows()} * kMaxLightVertices;
+    splat_memory_.resize(6 * entries);
+    splats_ = {1, -100, -100, 100, 100, splat_memory_.data()};
+    float* next = reinterpret_cast<float*>(splat_memory_.data());
+    for (float** column : {&splats_.x, &splats_.y, &splats_.light[0], &splats_.light[1],
+                           &splats_.light[2]}) {
+      *column = next += entries;
+    }
+    wavefront_->wave().light_splats = &splats_;
+  }
+
   /// Square tile in the middle of the image.
   PixelRect MiddleTile() const {
     const auto& film = scene_.view->film;
@@ -203,6 +252,8 @@ class Checker {
   RunParameters run_;
   std::unique_ptr<Wavefront> wavefront_;
   std::optional<BlockReuse> reuse_;
+  LightSplats splats_;
+  std::vector<std::uint32_t> splat_memory_;
   std::vector<std::uint32_t*> columns_;  // in the order of Field; null: not live
   std::vector<std::uint32_t> pixels_;
   std::vector<float> samples_;
@@ -266,6 +317,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kRegularScene, "points=sobol"},
       {kRegularScene, "directions=light"},
       {kForcedScene, "roulette=adjoint"},
+      {kLampsScene, "points=sobol,light-paths=splats"},
+      {kLampsScene, "light-paths=splats,roulette=none"},
       {kMovingScene, "points=sobol"},
       {kMovingScene, "points=halton,pairs=antithetic"},
       {kSphericalScene, "points=sobol"},

@@ -206,6 +206,15 @@ def test_other_scene(p):
     check("error: rank 1 on " in text and "cannot read the scene file" in text, text)
 
 
+def test_light_paths(p):
+    result = subprocess.run(
+        p.command(2, "render", p.scene(), "--strategy", "light-paths=splats", "--resolution", "32x32",
+                  "-o", "image.exr"), stderr=subprocess.PIPE, text=True)
+    check(result.returncode == 1, f"exit code {result.returncode}")
+    check("light-paths does not support MPI" in result.stderr, result.stderr)
+    check(not os.path.exists("image.exr"), "an image was written")
+
+
 def test_other_commands(p):
     result = subprocess.run(p.command(2, "plan", p.scene()), stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True)

@@ -27,7 +27,7 @@ AttributeBegin
 AttributeEnd
 AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 3 3 3 ]
-  Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 2 1 ]
+  Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 1 2 ]
 AttributeEnd
 AttributeBegin
   Rotate -90 1 0 0
@@ -118,8 +118,9 @@ TEST_CASE("images are bit-identical for any threads and wavefront size",
 
 TEST_CASE("path reuse is bit-identical for any threads and wavefront size",
           "[determinism]") {
-  for (const char* strategy : {"reuse=block:16", "reuse=block:64:compact",
-                               "reuse=block:4:apart,directions=uniform"}) {
+  for (const char* strategy :
+       {"reuse=block:16", "reuse=block:64:compact",
+        "reuse=block:4:apart,directions=uniform", "light-paths=splats:5"}) {
     INFO(strategy);
     TestRender base;
     base.strategy = strategy;
@@ -128,7 +129,7 @@ TEST_CASE("path reuse is bit-identical for any threads and wavefront size",
     base.wavefront = 1000;
     const Rendered reference = RenderText(kScene, base);
     CHECK(reference.result.health.Total() == 0);
-    CHECK(reference.plan.features.Has(Feature::kReuse));
+    CHECK(reference.plan.features.HasAny({Feature::kReuse, Feature::kLightPaths}));
     for (const std::uint32_t wavefront : {64u, 8192u}) {
       TestRender other = base;
       other.threads = 2;
@@ -136,7 +137,7 @@ TEST_CASE("path reuse is bit-identical for any threads and wavefront size",
       CHECK(Identical(RenderText(kScene, other).film, reference.film));
     }
     TestRender alone = base;
-    alone.strategy = "reuse=none";
+    alone.strategy = "reuse=none,light-paths=none";
     CHECK_FALSE(Identical(RenderText(kScene, alone).film, reference.film));
   }
 }

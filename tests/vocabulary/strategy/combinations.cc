@@ -22,6 +22,7 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
         "antithetic:first-bounce"}},
       {"regression", {"regression,c=1"}},
       {"block", {"block:8", "block:64:compact", "block:16:apart"}},
+      {"splats", {"splats:2"}},
       {"constant", {"constant:0.2"}},
       {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}},
       {"contribution", {"contribution", "contribution:0.02"}}};
@@ -80,13 +81,23 @@ Combination FitTo(const PreparedScene& scene, const Combination& combination,
   Combination fitted = combination;
   const auto fits = [&] { return Accepts(scene, StrategyOf(Axes(), fitted)); };
   if (fits()) return fitted;
+  if (combination[AxisOf("light-paths")] != 0) {
+    if (keep_reuse) {
+      for (const char* key : {"reuse", "decide", "roulette"}) fitted[AxisOf(key)] = 0;
+      if (fits()) return fitted;
+      fitted = combination;  // it is the scene that refuses it
+    }
+    fitted[AxisOf("light-paths")] = 0;
+    if (fits()) return fitted;
+  }
+  const Combination without = fitted;
   if (combination[AxisOf("reuse")] != 0) {
     if (keep_reuse) {
       for (const char* key : {"control", "roulette"}) {
         fitted[AxisOf(key)] = 0;
       }
       if (fits()) return fitted;
-      fitted = combination;  // it is the scene that refuses it
+      fitted = without;  // it is the scene that refuses it
     }
     fitted[AxisOf("reuse")] = 0;
     if (fits()) return fitted;

@@ -24,8 +24,8 @@ std::size_t AxisOf(const std::string& key);
 bool Accepts(const PreparedScene& scene, const std::string& strategy);
 
 /// Returns the combination with the choices that the scene refuses set back to the first
-/// of their axis. Of reuse=block and what it refuses beside it, `keep_reuse` says which
-/// stays.
+/// of their axis. Of reuse=block or light-paths and what they refuse beside them,
+/// `keep_reuse` says which stays.
 Combination FitTo(const PreparedScene& scene, const Combination& combination,
                   bool keep_reuse);
 

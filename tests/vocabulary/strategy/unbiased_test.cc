@@ -32,7 +32,9 @@ stat::ImageTestResult Compare(const HardScene& hard, const std::string& strategy
                               const stat::ImageEstimate& truth, std::uint64_t spp,
                               std::uint64_t seed, double false_alarm) {
   const stat::ImageTestOptions options = {hard.tile, false_alarm, kFloatTolerance, 1e-7};
-  if (strategy.find("reuse=block") == std::string::npos) {
+  const bool shares = strategy.find("reuse=block") != std::string::npos ||
+                      strategy.find("light-paths=splats") != std::string::npos;
+  if (!shares) {
     return stat::CompareMeans(EstimateWith(hard.scene, strategy, spp, seed), truth,
                               options);
   }

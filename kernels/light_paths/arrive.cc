@@ -1,0 +1,80 @@
+// light-paths=splats: continues the ratio of densities with the vertex that a path has
+// found (kernels/light_paths/chain-inl.h).
+#include "kernels/simd/each_target-inl.h"
+
+#include "kernels/light_paths/camera_view-inl.h"
+#include "kernels/light_paths/chain-inl.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+HWY_INLINE MF IsOfKind(const Wave& wave, const Slots& slots, uint32_t kinds) {
+  const DU du;
+  const VI kind = Lookup(wave.materials->kind, Gather(wave.path.material, slots));
+  const VU bit = hn::Shl(hn::Set(du, 1u), hn::BitCast(du, kind));
+  return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, kinds)), hn::Zero(du)));
+}
+
+// Continues the chain with the distance to this vertex.
+HWY_INLINE void UpdateChain(const PathColumns& p, const StoreSlots& slots) {
+  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+  const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
+  const VF t = Gather(p.t, slots), t2 = hn::Mul(t, t);
+  const VF density = hn::Mul(Gather(p.lp_pdf, slots), hn::Abs(Dot(ng, d)));
+  Scatter(hn::Div(t2, density), p.lp_inverse, slots);
+  Scatter(hn::Div(Gather(p.lp_chain, slots), t2), p.lp_chain, slots);
+  Scatter3(d, p.lp_in_x, p.lp_in_y, p.lp_in_z, slots);
+}
+
+void ArriveCamera(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const DI di;
+  ForEachBatch(
+      wave, wave.queue(QueueId::kVertex), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const VI before = Gather(p.lp_vertex, slots);
+        const MF first = IsNumber(before, 0);
+        if (!hn::AllFalse(DF(), first)) {
+          // The camera's density, where nothing has been scattered.
+          const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+          const VF pdf = Gather(p.lp_pdf, slots);
+          Scatter(hn::IfThenElse(first, CameraView(*wave.camera).Density(d), pdf),
+                  p.lp_pdf, slots);
+        }
+        UpdateChain(p, slots);
+        const MF lost = hn::Or(IsNumber(before, kNotFromLight),
+                               hn::AndNot(IsOfKind(wave, slots, kSplattingKinds), first));
+        Scatter(hn::IfThenElse(hn::RebindMask(di, lost),
+                               hn::Set(di, static_cast<int32_t>(kNotFromLight)),
+                               hn::Add(before, hn::Set(di, 1))),
+                p.lp_vertex, slots);
+        Scatter(Splat(1.0f), p.hit_weight, slots);
+      });
+}
+
+void ArriveLight(Wave& wave) {
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kVertex),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 UpdateChain(p, slots);
+                 const VI before = Gather(p.lp_vertex, slots);
+                 Scatter(hn::Add(before, hn::Set(DI(), 1)), p.lp_vertex, slots);
+               });
+}
+
+Stage LightPathArriveStage() {
+  using namespace fields;
+  const FieldSet chain = {Field::lp_chain, Field::lp_inverse, Field::lp_in_x,
+                          Field::lp_in_y,  Field::lp_in_z,    Field::lp_vertex,
+                          Field::lp_pdf,   Field::hit_weight};
+  return {.name = "light_path_arrive",
+          .meaning = "continues the ratio of densities to the vertex",
+          .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kLightPaths, Feature::kScatters},
+          .reads = kRay | kNormal |
+                   FieldSet{Field::t, Field::material, Field::lp_pdf, Field::lp_chain,
+                            Field::lp_vertex},
+          .writes = chain,
+          .resolve = ByFeature<Feature::kLightSubpath, ArriveLight, ArriveCamera>};
+}
+
+LANELIGHT_END_KERNELS

@@ -1,0 +1,85 @@
+// light-paths=splats: continues the ratio of densities in the direction in which a path
+// has been scattered (kernels/light_paths/chain-inl.h). Of light subpaths the throughput
+// is corrected: they carry importance (Veach 1997, section 5.3).
+#include "kernels/simd/each_target-inl.h"
+
+#include "kernels/light_paths/chain-inl.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+// Returns the product without what depends on the next vertex. Of light subpaths, light
+// samples find the light at the first vertex as well. Of camera paths, a connection has
+// no density at the first vertex.
+template <bool kLight>
+HWY_INLINE VF ChainThrough(VF chain, VF back, MF specular, VI number) {
+  const VF one = Splat(1.0f);
+  const VF through = hn::Mul(chain, hn::IfThenElse(specular, one, back));
+  const MF first = IsNumber(number, 1);
+  if constexpr (kLight) {
+    return hn::IfThenElse(hn::AndNot(specular, first), hn::Add(through, one), through);
+  }
+  return hn::IfThenElse(first, one, through);
+}
+
+template <class Bsdf, bool kLight>
+HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
+  const PathColumns& p = wave.path;
+  const SurfaceReader<Bsdf> reader(wave);
+  ForEachBatch(wave, queue, [&](const StoreSlots& slots, MF) HWY_ATTR {
+    const VF zero = hn::Zero(DF());
+    const VF pdf = Gather(p.bsdf_pdf, slots);
+    const MF specular = hn::Not(hn::Gt(pdf, zero));
+    const ChainVertex<Bsdf> vertex(reader, slots);
+    const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+    const V3 wi = vertex.frame.ToLocal(d);
+    VF back = zero;
+    if constexpr (!Bsdf::kSpecular) back = Bsdf::Eval(vertex.material, wi, vertex.wo).pdf;
+    const VI number = Gather(p.lp_vertex, slots);
+    const VF chain = Gather(p.lp_chain, slots);
+    const VF cosine = hn::Abs(Dot(vertex.ng, d));
+    const VF through = ChainThrough<kLight>(chain, back, specular, number);
+    const VF next = hn::Mul(hn::Mul(through, Gather(p.lp_inverse, slots)), cosine);
+    if constexpr (kLight) {
+      Scatter(next, p.lp_chain, slots);
+      const V3 in = Gather3(p.lp_in_x, p.lp_in_y, p.lp_in_z, slots);
+      const VF shading = hn::Mul(hn::Abs(vertex.wo.z), cosine);
+      const VF geometric = hn::Mul(hn::Abs(Dot(vertex.ng, in)), hn::Abs(wi.z));
+      const VF factor = hn::Mul(hn::Div(shading, geometric), Gather(p.eta_scale, slots));
+      const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+      Scatter3(Mul(beta, factor), p.beta_r, p.beta_g, p.beta_b, slots);
+      Scatter(Splat(1.0f), p.eta_scale, slots);
+    } else {
+      Scatter(next, p.lp_chain, slots);
+      // A connection to the camera does not find the lobe of a mirror.
+      const MF lost = hn::And(specular, IsNumber(number, 1));
+      const VI none = hn::Set(DI(), static_cast<int32_t>(kNotFromLight));
+      Scatter(hn::IfThenElse(hn::RebindMask(DI(), lost), none, number), p.lp_vertex,
+              slots);
+    }
+    Scatter(hn::IfThenElse(specular, Splat(1.0f), pdf), p.lp_pdf, slots);
+  });
+}
+
+template <bool kLight>
+void Leave(Wave& wave) {
+  ForEachShaded(wave, [&]<class Bsdf>(Queue& queue)
+                          HWY_ATTR { LeaveKind<Bsdf, kLight>(wave, queue); });
+}
+
+Stage LightPathLeaveStage() {
+  using namespace fields;
+  return {.name = "light_path_leave",
+          .meaning = "continues the ratio of densities along the scattered ray",
+          .input = QueueId::kVertex,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kLightPaths, Feature::kScatters},
+          .reads = FirstVertexFields(true, true) |
+                   FieldSet{Field::lp_chain, Field::lp_inverse, Field::lp_in_x,
+                            Field::lp_in_y, Field::lp_in_z, Field::lp_vertex,
+                            Field::bsdf_pdf, Field::eta_scale},
+          .writes = kThroughput | FieldSet{Field::lp_chain, Field::lp_pdf,
+                                           Field::lp_vertex, Field::eta_scale},
+          .resolve = ByFeature<Feature::kLightSubpath, Leave<true>, Leave<false>>};
+}
+
+LANELIGHT_END_KERNELS

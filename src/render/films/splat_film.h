@@ -1,0 +1,70 @@
+// Light that light subpaths bring to pixels anywhere in the film (light-paths=splats):
+// sums and sums of squares over subpaths, which are independent. They are integers, so
+// that they do not depend on the order in which tasks end.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "src/base/core/column.h"
+#include "src/base/core/vec.h"
+#include "src/base/image/pixel_rect.h"
+
+namespace lanelight {
+
+/// Sums of light by channel and of its squares, in two integers each. Parts may be added
+/// one by one: light is high * 2^-24 + low * 2^-64, a square high * 2^-16 + low * 2^-56.
+struct SplatSums {
+  static constexpr int kValues = 6;  // three channels, then their squares
+  std::int64_t high[kValues] = {};
+  std::int64_t low[kValues] = {};
+
+  /// Adds light whose magnitude is below 2^17.
+  void Add(const float light[3]);
+  /// Makes `low` less than 2^39 in magnitude: then equal sums have equal parts.
+  void Normalize();
+  double Value(int i) const;
+};
+
+/// What one light subpath brings to one pixel, in units of the film: its mean over
+/// subpaths, times the pixels of the image, is the pixel's.
+struct PixelSplat {
+  std::uint32_t pixel = 0;  // row by row in the film
+  float light[3] = {};
+};
+
+class SplatFilm {
+ public:
+  /// `unit`: of the light that is added, in units of the film.
+  SplatFilm(std::size_t pixels, double unit)
+      : unit_(unit), sums_(pixels), paths_(pixels) {}
+  static constexpr std::size_t BytesPerPixel() {
+    return sizeof(SplatSums) + sizeof(std::uint64_t);
+  }
+  double unit() const { return unit_; }
+
+  /// Adds the splats of subpaths, of which `paths_per_pixel` started for each of these
+  /// pixels. Safe from any thread.
+  void Add(const std::vector<PixelSplat>& splats, const std::vector<std::size_t>& pixels,
+           std::uint64_t paths_per_pixel);
+
+  /// Returns what subpaths bring to a pixel; zero without subpaths.
+  Rgb Mean(std::size_t pixel) const;
+  /// Returns the estimated variance of Mean.
+  Rgb Variance(std::size_t pixel) const;
+
+  std::vector<MutableStateColumn> Columns();
+
+ private:
+  std::uint64_t Paths() const;
+
+  double unit_;
+  std::vector<SplatSums> sums_;
+  std::vector<std::uint64_t> paths_;  // started for the pixel
+  mutable std::mutex mutex_;
+  mutable std::uint64_t total_ = 0;  // of paths_
+  mutable bool counted_ = true;      // total_ is up to date
+};
+
+}  // namespace lanelight

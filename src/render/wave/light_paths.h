@@ -1,0 +1,54 @@
+// light-paths=splats: the light subpaths of a task, and what they bring to pixels
+// (src/vocabulary/path/light_splats.h).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/base/core/aligned.h"
+#include "src/base/image/pixel_rect.h"
+#include "src/render/films/splat_film.h"
+#include "src/render/plan/plan.h"
+#include "src/render/wave/stage_clock.h"
+#include "src/render/wave/wavefront.h"
+#include "src/vocabulary/path/light_splats.h"
+
+namespace lanelight {
+
+/// Returns the unit of the sums of light subpaths: a power of two near the brightest
+/// light.
+double SplatUnit(const PreparedScene& scene);
+
+class LightSubpaths {
+ public:
+  /// For a plan with kLightPaths, and an image of these pixels.
+  LightSubpaths(const PreparedScene& scene, const Plan& plan, const PixelRect& window,
+                Wavefront& wavefront);
+
+  /// Returns the number of light subpaths of a pixel for its samples [first, first +
+  /// count): one for each whose index is a multiple of N.
+  std::uint32_t PathsOf(std::uint64_t first, std::uint32_t count) const;
+  /// Traces the subpaths of a task whose camera paths have ended. Adds rays and problems
+  /// to the counts of `paths`.
+  void Trace(const TileWork& work, Wave& paths, StageClock* clock,
+             std::vector<PixelSplat>& out);
+
+ private:
+  void MakeRoom(std::size_t paths);
+  void Filter(std::size_t path, std::vector<PixelSplat>& out);
+  bool IsApart(std::size_t entry, std::size_t path) const;
+  void AddEntry(std::size_t entry, std::size_t first, std::vector<PixelSplat>& out);
+
+  const Plan& plan_;
+  const std::uint32_t samples_per_path_;
+  const PixelRect window_;
+  const float scale_;  // from radiance and pixels of the image to the sums' unit
+  RunParameters run_;
+  Wave light_;  // in the memory of the wavefront
+  LightSplats splats_;
+  std::size_t room_ = 0;
+  UntouchedVector<std::uint32_t> entries_;
+  std::vector<float> column_, row_;  // values of the filter
+};
+
+}  // namespace lanelight
