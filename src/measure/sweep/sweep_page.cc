@@ -135,7 +135,10 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
     page_cells.push_back(PageCell(cell, stages));
     Json& values = page_cells.back()["values"];
     values["scene"] = scenes.at(values["scene"]);
-    seeds.insert(values.value(Key(Axis::kSeed), ""));
+    // Cells without a value are of no further seed.
+    if (const auto seed = values.find(Key(Axis::kSeed)); seed != values.end()) {
+      seeds.insert(seed->get<std::string>());
+    }
   }
   return {{"schema", 2},
           {"kind", "lanelight-sweep"},
@@ -143,7 +146,7 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
           {"settings", sweep.settings.texts},
           {"excluded", sweep.excluded},
           {"axes", AxesJson(sweep, groups)},
-          {"seeds", seeds.size()},
+          {"seeds", std::max<std::size_t>(1, seeds.size())},
           {"baseline", baseline.empty() ? Json() : Json(baseline)},
           {"stages", stages},
           {"machines", MachinesJson(cells)},

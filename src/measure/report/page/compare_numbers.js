@@ -31,7 +31,7 @@ const COMPARISON_ROWS = [
   ...flipRows("hdr", "FLIP at all exposures"),
   ...flipRows("ldr", "FLIP of the displayed range"),
   [
-    "Pixels that differ by more than 2 standard errors (4.55 % expected from noise)",
+    "Values (pixels × channels) that differ by more than 2 standard errors (noise alone: 4.55 %)",
     (c) => (c.z.available && c.z.count > 0 ? fmtPercent(c.z.beyond_2) : UNKNOWN),
   ],
   ["Test result", (c) => c.agreement.verdict],

@@ -22,7 +22,7 @@ const TERMS = {
       "not depend on the sample count while the relative MSE falls as 1 / samples. With " +
       "--budget, the interval includes the uncertainty of the sample counts.",
   Rank:
-    "Range of ranks that the intervals allow. Strategies with overlapping ranges are " +
+    "Range of ranks that the intervals allow. Strategies with equal ranges are " +
       "not significantly different in this study.",
   Order:
     "Slope of log RMSE over log samples: −0.5 for independent samples, more negative " +
