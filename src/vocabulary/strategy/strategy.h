@@ -82,6 +82,9 @@ struct Strategy {
   bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
 };
 
+/// The preset that is the renderer's own strategy.
+inline constexpr const char* kDefaultStrategyName = "default";
+
 /// Changes of a strategy, as a text that has been parsed; empty: none.
 struct StrategyChanges {
   std::string text;

@@ -56,7 +56,11 @@ class Parser {
   }
 
   void Preset(std::string_view name, bool first) {
-    std::vector<std::string> names;
+    std::vector<std::string> names = {kDefaultStrategyName};
+    if (name == names.front() && first) {
+      strategy_ = {};
+      return;
+    }
     for (const PresetInfo& preset : AllPresets()) {
       names.emplace_back(preset.name);
       if (name != preset.name) continue;

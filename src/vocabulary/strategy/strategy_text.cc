@@ -13,7 +13,7 @@ Strategy StrategyNamed(const std::string& name, const SourceLocation& where,
                        const Strategy& own) {
   if (name == kSceneStrategyName) return own;
   Strategy strategy;
-  if (name != kDefaultStrategyName) ApplyStrategy(name, where, strategy);
+  ApplyStrategy(name, where, strategy);
   return strategy;
 }
 

@@ -9,7 +9,6 @@
 
 namespace lanelight {
 
-inline constexpr const char* kDefaultStrategyName = "default";
 inline constexpr const char* kSceneStrategyName = "scene";
 
 /// Returns the renderer's strategy for "default" and `own`, the scene's, for "scene".

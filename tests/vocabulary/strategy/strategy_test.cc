@@ -65,6 +65,11 @@ TEST_CASE("arguments are parsed and kept in the text form", "[strategy]") {
   CHECK_FALSE(Parse("c=0.5,c=optimal").coefficient.has_value());
 }
 
+TEST_CASE("the renderer's strategy is a preset", "[strategy]") {
+  CHECK(Parse("default", Parse("paper-uniform")) == Strategy{});
+  CHECK(Parse("default,reuse=block", Parse("paper-uniform")) == Parse("reuse=block"));
+}
+
 TEST_CASE("each preset changes one thing of paper-plain, and can be refined",
           "[strategy]") {
   const Strategy plain = Parse("paper-plain");
