@@ -7,13 +7,6 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-HWY_INLINE MF IsOfKind(const Wave& wave, const Slots& slots, uint32_t kinds) {
-  const DU du;
-  const VI kind = Lookup(wave.materials->kind, Gather(wave.path.material, slots));
-  const VU bit = hn::Shl(hn::Set(du, 1u), hn::BitCast(du, kind));
-  return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, kinds)), hn::Zero(du)));
-}
-
 // Continues the chain with the distance to this vertex.
 HWY_INLINE void UpdateChain(const PathColumns& p, const StoreSlots& slots) {
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);

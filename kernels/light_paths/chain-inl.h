@@ -41,6 +41,14 @@ HWY_INLINE MF IsAtMost(VI vertex, uint32_t number) {
                         hn::Lt(vertex, hn::Set(DI(), static_cast<int32_t>(number) + 1)));
 }
 
+/// Returns whether the material of a vertex is of one of these kinds.
+HWY_INLINE MF IsOfKind(const Wave& wave, const Slots& slots, uint32_t kinds) {
+  const DU du;
+  const VI kind = Lookup(wave.materials->kind, Gather(wave.path.material, slots));
+  const VU bit = hn::Shl(hn::Set(du, 1u), hn::BitCast(du, kind));
+  return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, kinds)), hn::Zero(du)));
+}
+
 HWY_INLINE MF HasShape(const Lights& light, LightShape shape) {
   return hn::RebindMask(DF(), hn::Eq(light.I(offsetof(LightRecord, shape)),
                                      hn::Set(DI(), static_cast<int32_t>(shape))));

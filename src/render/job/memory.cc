@@ -9,6 +9,7 @@
 #include "src/base/core/machine_info.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/films/regression_film.h"
+#include "src/scene/description/film.h"
 #include "src/scene/prepare/parameters.h"
 
 namespace lanelight {
