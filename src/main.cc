@@ -124,8 +124,7 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   AddHelpCommand(root);
 }
 
-// What the command line comes to without a command: an exit code; kNoExitCode if there is
-// one to run.
+// Parse returns this if there is a command to run, else the program's exit code.
 constexpr int kNoExitCode = -1;
 
 int Parse(CLI::App& root, int argc, char** argv) {

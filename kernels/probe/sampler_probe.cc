@@ -32,7 +32,7 @@ HWY_INLINE void ForEachPoint(const SamplerQuery& q, Body&& body) {
   }
 }
 
-// With u1 = null, draws the numbers of a scalar dimension.
+// Draws the numbers of a pair of dimensions; of a scalar dimension if u1 is null.
 template <class Policy>
 void ProbePolicy(const SamplerQuery& q, const SamplerParameters& sampler, float* u0,
                  float* u1) {

@@ -4,9 +4,9 @@
 //               after i per unit of throughput; its expectation is the adjoint Psi there.
 //               Y weighs the channels by PathValues::channel
 //   cost        events after i: depth at the end - i
-// And for paths without roulette, the increase of the second moment by roulette on the
-// throughput: a decision of survival s multiplies the square of the later light (T) by
-// 1/s, so with W the product of 1/s of the decisions before
+// Paths without roulette also record by how much roulette on the throughput would
+// increase the second moment. A decision of survival s multiplies the square of the later
+// light (T) by 1/s, so with W the product of 1/s of the decisions before
 //   E[x^2] = L^2 + sum over decisions of W (1/s - 1) T^2,  T = Y(l at the end) - g,
 // g gathered before. Survivors have W times the throughput of these paths. The sums of a
 // = W (1/s - 1), of a g and of a g^2 are kept (W is one plus the first of them). So the

@@ -16,10 +16,11 @@
 namespace lanelight {
 namespace {
 
-// With fewer lights, a light BVH selects hardly better than by power.
+// A light BVH selects hardly better than by power if there are fewer lights.
 constexpr std::size_t kFewLights = 4;
 
-// Behind the changes with the largest gains, which are all that a short trial reaches.
+// The scene's own strategy is tried after the changes with the largest gains, which are
+// all that a short trial reaches.
 constexpr std::ptrdiff_t kPlaceOfOwn = 3;
 
 // Spread of the cost of a ray for strategies without measured cost.

@@ -16,8 +16,8 @@ namespace lanelight {
 /// Seconds of the largest render of the baseline.
 inline constexpr double kDefaultStudySeconds = 1;
 
-/// With fewer samples per pixel, longer renders may rank differently, unless the relative
-/// error (the root of the relative MSE) is below kSmallError.
+/// Longer renders may rank differently if the largest has fewer samples per pixel, unless
+/// the relative error (the root of the relative MSE) is below kSmallError.
 inline constexpr std::uint64_t kMinLargest = 64;
 inline constexpr double kSmallError = 0.1;
 

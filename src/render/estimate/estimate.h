@@ -68,11 +68,11 @@ struct PixelEstimate {
 /// with one bright sample each, as at the edge of a lamp, thus widen the interval upwards
 /// by what they cost if they are really dark.
 ///
-/// Where the noise is as large as the image, n is noisy as well. Then 1 / n^2 is too
-/// large on average, by 3 var(n) / n^4 to second order; 1 / (n^2 + 3 var(n)) is not. The
-/// other extreme is the estimate with weights a and the neighbourhood's mean variance,
-/// which does not mistake a pixel without bright samples for one without noise. The
-/// logarithm of their ratio moves the lower end, as variances add.
+/// The mean n is noisy as well where the noise is as large as the image. Then 1 / n^2 is
+/// too large on average, by 3 var(n) / n^4 to second order; 1 / (n^2 + 3 var(n)) is not.
+/// The other extreme is the estimate with weights a and the neighbourhood's mean
+/// variance, which does not mistake a pixel without bright samples for one without noise.
+/// The logarithm of their ratio moves the lower end, as variances add.
 ///
 /// Variance and weight of a pixel are not independent: rare samples are bright ones, so
 /// that a pixel's mean is high when its variance is. To first order that takes
@@ -82,10 +82,10 @@ struct PixelEstimate {
 /// back, the latter widens the interval.
 ///
 /// Holds for two groups or more, best for four. What no group has sampled cannot be seen.
-/// Where the upper end is more than kMaxUpperRatio the estimate, it would say nothing:
-/// there is none. Nor is there where directions find lamps by chance alone, and all
-/// samples together are expected to have met what shines less than kMinExpectedMeetings
-/// times: what none has met is in no estimate.
+/// There is no upper end if it is more than kMaxUpperRatio times the estimate. There is
+/// none either if directions find lamps by chance alone and all samples together are
+/// expected to meet lamps less than kMinExpectedMeetings times: no estimate contains
+/// light that no sample has met.
 ///
 /// `stop`: once it is set, nothing more is computed, and what is returned says nothing
 /// (`available` is false); null: never.

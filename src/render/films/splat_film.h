@@ -27,8 +27,8 @@ struct SplatSums {
   double Value(int i) const;
 };
 
-/// What one light subpath brings to one pixel, in units of the film: its mean over
-/// subpaths, times the pixels of the image, is the pixel's.
+/// Light that one subpath adds to one pixel, in SplatFilm::unit(). The mean over
+/// subpaths, times the number of pixels of the image, is the pixel's light.
 struct PixelSplat {
   std::uint32_t pixel = 0;  // row by row in the film
   float light[3] = {};

@@ -96,8 +96,8 @@ struct TriedStrategy {
   /// no more (`milder_roulette`): then all other pixels decide.
   bool IgnoresWorstPixels() const;
 
-  /// Returns its efficiency relative to the baseline strategy by all pixels, or by all
-  /// but the worst thousandth if it is told by the rest.
+  /// Returns its efficiency relative to the baseline strategy: over all pixels, or
+  /// without the worst thousandth if these pixels are ignored.
   TrialGain EfficiencyGain() const;
   /// Returns the least gain without any one pixel and, unless it is paired, without the
   /// worst thousandth.

@@ -3,9 +3,10 @@
 // each box of k digits (j of u0 and k - j of u1, for any j) holds one old point and one
 // new. These two differ in the next digit of either coordinate. So let a new point share
 // box j with an old one. Its digits j + 1 of u0 and k - j + 1 of u1 are then the opposite
-// of the old one's. Its digit j + 1 of u0 says which box j + 1 it is in. The old point of
-// that box gives digit j + 2, and so on to digit k + 1; digits of u1 likewise towards j =
-// 0. All digits of the new points up to k + 1 follow from the old points.
+// of the old one's. Its digit j + 1 of u0 selects the box j + 1 that it is in. The old
+// point of that box determines digit j + 2, and so on to digit k + 1. Digits of u1 follow
+// in the same way, down to j = 0. So the old points determine all digits of the new
+// points up to k + 1.
 //
 // It is a net: two boxes j that differ only in the last digit of u1 together are two
 // boxes j + 1, which hold one old point each. Each of the two new points differs from the
