@@ -246,32 +246,38 @@ LANELIGHT_INLINE void TraceShapes(const SceneParts& scene, const float o[3],
 template <class Shape, bool kAlpha, bool kInstances>
 LANELIGHT_INLINE void IntersectTree(Wave& wave) {
   const PathColumns& path = wave.path;
-  const auto trace = [&](int i, const RayArrays& rays, const float o[3], const float d[3])
-                         HWY_ATTR {
-                           const uint32_t slot = rays.slot[i];
-                           RoundHit hit{rays.t_max[i], path.prim[slot]};
-                           TraceShapes<Shape, false, kAlpha>(wave, o, d, hit);
-                           if (!hit.found) return;
-                           path.t[slot] = hit.t;
-                           path.prim[slot] = hit.prim;
-                           if constexpr (kInstances) path.inst[slot] = kWorldInstance;
-                         };
+  // Written out: by a function for each ray the loop takes 1.7 times as long.
   ForEachBatch(wave, wave.queue(QueueId::kActive),
-               [&](const Slots& slots, MF valid)
-                   HWY_ATTR { ForEachRay(LoadRays(path, slots), slots, valid, trace); });
+               [&](const Slots& slots, MF valid) HWY_ATTR {
+                 const RayArrays rays(LoadRays(path, slots), slots);
+                 const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+                 for (int i = 0; i < count; ++i) {
+                   const uint32_t slot = rays.slot[i];
+                   const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
+                   const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
+                   RoundHit hit{rays.t_max[i], path.prim[slot]};
+                   TraceShapes<Shape, false, kAlpha>(wave, o, d, hit);
+                   if (!hit.found) continue;
+                   path.t[slot] = hit.t;
+                   path.prim[slot] = hit.prim;
+                   if constexpr (kInstances) path.inst[slot] = kWorldInstance;
+                 }
+               });
 }
 
 template <class Shape, bool kAlpha>
 LANELIGHT_INLINE void ShadowTree(Wave& wave) {
   RemoveOccluded(wave, [&](const Rays& batch, VI slots, MF valid) HWY_ATTR {
     uint32_t blocked = 0;
-    ForEachRay(batch, slots, valid,
-               [&](int i, const RayArrays& rays, const float o[3], const float d[3])
-                   HWY_ATTR {
-                     RoundHit hit{rays.t_max[i], 0};
-                     TraceShapes<Shape, true, kAlpha>(wave, o, d, hit);
-                     blocked |= uint32_t{hit.found} << i;
-                   });
+    const RayArrays rays(batch, slots);
+    const int count = static_cast<int>(hn::CountTrue(DF(), valid));
+    for (int i = 0; i < count; ++i) {
+      const float o[3] = {rays.o[0][i], rays.o[1][i], rays.o[2][i]};
+      const float d[3] = {rays.d[0][i], rays.d[1][i], rays.d[2][i]};
+      RoundHit hit{rays.t_max[i], 0};
+      TraceShapes<Shape, true, kAlpha>(wave, o, d, hit);
+      blocked |= uint32_t{hit.found} << i;
+    }
     return MaskOf(DF(), blocked);
   });
 }
