@@ -78,6 +78,13 @@ HWY_INLINE VF CameraWeight(const Wave& wave, VF ratio, VF found) {
   return hn::Div(found, hn::Add(found, t));
 }
 
+/// Returns the entry of a light vertex in LightSplats.
+HWY_INLINE VI EntryOf(const PathColumns& p, const Slots& slots) {
+  const VI first = hn::Mul(Gather(p.output, slots),
+                           hn::Set(DI(), static_cast<int32_t>(kMaxLightVertices)));
+  return hn::Add(first, hn::Sub(Gather(p.lp_vertex, slots), hn::Set(DI(), 1)));
+}
+
 /// Densities of a material in both directions.
 template <class Bsdf>
 struct BothDensities {

@@ -33,12 +33,6 @@ HWY_INLINE V3 LensPoint(const Wave& wave, const Slots& slots) {
   return {hn::Mul(lens.x, Splat(radius)), hn::Mul(lens.y, Splat(radius)), Splat(0)};
 }
 
-HWY_INLINE VI EntryOf(const PathColumns& p, const Slots& slots) {
-  const VI first = hn::Mul(Gather(p.output, slots),
-                           hn::Set(DI(), static_cast<int32_t>(kMaxLightVertices)));
-  return hn::Add(first, hn::Sub(Gather(p.lp_vertex, slots), hn::Set(DI(), 1)));
-}
-
 HWY_INLINE MF IsBetween(VF v, float low, float high) {
   return hn::And(hn::Ge(v, Splat(low)), hn::Le(v, Splat(high)));
 }

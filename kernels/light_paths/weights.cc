@@ -92,7 +92,9 @@ HWY_NOINLINE void WeighSplatsOf(Wave& wave, const Queue& queue) {
     const VF density =
         hn::Div(hn::Mul(view.Density(-to_camera), cosine), hn::Mul(distance, distance));
     const VF others = hn::Mul(hn::Mul(density, Gather(p.lp_inverse, slots)), through);
-    const VF weight = hn::Div(n, hn::Add(n, others));
+    const VF inverse = hn::Div(Splat(1.0f), hn::Add(n, others));
+    const VF weight = hn::Mul(n, inverse);
+    Scatter(hn::Mul(others, inverse), wave.light_splats->share, EntryOf(p, slots));
     const V3 carried = Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
     Scatter3(Mul(carried, weight), p.sh_r, p.sh_g, p.sh_b, slots);
   });
@@ -164,7 +166,7 @@ Stage WeighConnectionsStage() {
           .reads =
               FirstVertexFields(true, true) | kLightSample | kShadow |
               FieldSet{Field::lp_chain, Field::lp_inverse, Field::lp_in_x, Field::lp_in_y,
-                       Field::lp_in_z, Field::lp_vertex, Field::ls_light},
+                       Field::lp_in_z, Field::lp_vertex, Field::ls_light, Field::output},
           .writes = kShadow,
           .resolve = ByFeature<Feature::kLightSubpath, WeighConnections<true>,
                                WeighConnections<false>>};

@@ -155,11 +155,6 @@ void ResolveCheckpoint(const CheckpointFlags& flags, RenderTargets& targets) {
 
 void CheckPart(const CheckpointSettings& settings, const Job& job) {
   if (settings.part.count == 1) return;
-  if (job.plan.features.Has(Feature::kLightPaths)) {
-    throw InputError(
-        "--part does not support light-paths, whose light falls on all of the image: "
-        "render with other seeds instead, and merge these");
-  }
   if (!job.OpenEnded()) return;
   throw InputError(
       "--part needs a fixed --spp: time and target error apply to the whole image");

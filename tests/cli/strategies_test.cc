@@ -53,9 +53,10 @@ TEST_CASE("the default of decide is documented for each command", "[cli]") {
   CHECK_THAT(plan("1000000"), Contains("decide=pilot"));
   const std::string list = RunLanelight({"strategies"}).out;
   const std::string decide = list.substr(list.find("decide=\n"));
-  CHECK_THAT(decide, Contains("default for short renders, and if a strategy is named") &&
-                         Contains("chooses another roulette or reuse") &&
-                         Contains("from 4 s or 8 million samples"));
+  CHECK_THAT(decide,
+             Contains("default for short renders, and if a strategy is named") &&
+                 Contains("chooses another roulette, path reuse or light subpaths") &&
+                 Contains("from 4 s or 8 million samples"));
 }
 
 TEST_CASE("--strategy is used, reported, and changes the plan", "[cli]") {
@@ -89,12 +90,6 @@ TEST_CASE("a strategy that the scene does not support is refused with a remedy",
              Contains("roulette=throughput"));
   CHECK_THAT(refusal(sky, "paper-control,reuse=block"),
              Contains("control=regression needs samples of single paths"));
-  const ProcessResult part = RunLanelight(
-      {"render", LANELIGHT_SOURCE_DIR "/scenes/cornell-box.pbrt", "--spp", "4", "--part",
-       "1/2", "--checkpoint", out + ".state", "--strategy", "light-paths=splats"});
-  CHECK(part.exit_code == kExitBadInput);
-  CHECK_THAT(part.err,
-             Contains("--part does not support light-paths") && Contains("merge"));
   const std::string point = WriteScene(
       directory, "LightSource \"point\" \"rgb I\" [ 9 9 9 ] \"point3 from\" [ 0 3 0 ]\n");
   const ProcessResult note = RunLanelight(

@@ -65,6 +65,19 @@ constexpr StateType StateTypeOf() {
   if constexpr (std::is_same_v<Value, std::int32_t>) return StateType::kInt32;
 }
 
+/// Returns some rows of a column.
+inline MutableStateColumn RowsOf(MutableStateColumn column, std::size_t first,
+                                 std::size_t count) {
+  LL_CHECK_LE(first + count, column.rows);
+  column.data = static_cast<char*>(column.data) + first * column.RowBytes();
+  column.rows = count;
+  return column;
+}
+
+/// Adds the values of a column of the same rows and type: doubles, or integers of 64
+/// bits.
+void AddColumn(const MutableStateColumn& sum, const StateColumn& more);
+
 /// The column of a contiguous container (std::vector, std::array, std::span) whose
 /// elements consist of Values alone: the arithmetic type itself, or a trivially copyable
 /// struct of them. By default a row is an element; `shape` may split it, {4, 3} for 12

@@ -21,7 +21,7 @@ namespace {
 // Fractions of the trial for its rounds: all candidates; those that may be better; the
 // best two; the best.
 constexpr double kProbe = 0.15, kFirst = 0.25, kSecond = 0.2, kLast = 0.25;
-// Fraction of the trial for path reuse with the chosen strategy.
+// Fraction of the trial for path reuse and light subpaths with the chosen strategy.
 constexpr double kTiles = 0.15;
 // Samples that a candidate needs; a short trial omits candidates instead.
 constexpr std::uint64_t kMinSamples = 4096;
@@ -81,7 +81,7 @@ class Adviser {
       DropWorseCandidates(tried);
       if (tried.size() > 1 && RunRound(tried, kFirst)) RunSecondRound(tried);
     }
-    if (advice_.rays > 0 && !advice_.interrupted) TryBlocks(tried);
+    if (advice_.rays > 0 && !advice_.interrupted) TryOnTiles(tried);
     Conclude();
     return advice_;
   }
@@ -222,33 +222,36 @@ class Adviser {
     tried.push_back({all_.size() - 1, {}});
   }
 
-  void TryBlocks(std::vector<Tried>& tried) {
+  void TryOnTiles(std::vector<Tried>& tried) {
     const Tried& baseline = tried.front();
     const Tried& chosen = chosen_ == 0 ? baseline : tried.back();
     const Tried& base = chosen.entry.splits ? baseline : chosen;
     const double gain = chosen_ == 0 ? 1 : EfficiencyOf(chosen).value;
-    // A sample with blocks costs 1.5 times as much as one without.
-    const auto samples =
-        std::uint64_t(kTiles * pilot_ * kRaysPerSecond / (2.5 * base.entry.measure.cost));
-    for (const TriedBlocks& blocks :
-         trial_.TryBlocks(baseline.entry, chosen.entry, gain, samples)) {
-      AddBlocks(base, blocks, samples);
-      if (blocks.is_efficient) chosen_ = all_.size() - 1;
+    // A sample with a change costs 1.25 to 1.5 times as much as one without.
+    const auto samples = std::uint64_t(kTiles * pilot_ * kRaysPerSecond /
+                                       (3.75 * base.entry.measure.cost));
+    const std::vector<TriedOnTiles> on_tiles =
+        trial_.TryOnTiles(baseline.entry, chosen.entry, gain, samples);
+    const TriedOnTiles* const best = BestOf(on_tiles);
+    const Tried beside = base;
+    for (const TriedOnTiles& t : on_tiles) {
+      AddOnTiles(beside, t, samples);
+      if (&t == best) chosen_ = all_.size() - 1;
     }
     advice_.rays = trial_.spent().rays;
   }
 
-  // Adds `base` combined with the blocks.
-  void AddBlocks(const Tried& base, const TriedBlocks& blocks, std::uint64_t samples) {
-    AdvisedCandidate both = WithAddedChanges(all_[base.index], blocks.changes);
-    both.meaning = "gains where most of the noise is indirect light";
+  // Adds `base` combined with a change that was tried on tiles.
+  void AddOnTiles(const Tried& base, const TriedOnTiles& tried, std::uint64_t samples) {
+    AdvisedCandidate both = WithAddedChanges(all_[base.index], tried.candidate.changes);
+    both.meaning = tried.candidate.reason;
     const Interval baseline = base.index == 0 ? Interval{1, 1, 1} : EfficiencyOf(base);
-    const Interval more =
-        WithUncertainty(blocks.gain, blocks.gain.minimum, kReusePriceUncertainty);
+    const Interval more = WithUncertainty(tried.per_pixel, tried.per_pixel.minimum,
+                                          tried.candidate.price_uncertainty);
     both.efficiency = {baseline.value * more.value, baseline.low * more.low,
                        baseline.high * more.high};
     both.status = CandidateStatus::kDropped;
-    both.reason = blocks.has_gain_per_pixel
+    both.reason = tried.has_gain_per_pixel
                       ? "more efficient per pixel, less efficient after a filter"
                       : "not clearly better";
     both.samples = samples;

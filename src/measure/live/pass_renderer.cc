@@ -65,6 +65,7 @@ class PassRenderer::PassCheckpointer : public Checkpointer {
     for (std::size_t i = 0; i < from.size(); ++i) {
       std::memcpy(to[i].data, from[i].data, from[i].Bytes());
     }
+    films.film().AddShared(*before_);
   }
 
   PassRenderer& renderer_;

@@ -225,14 +225,20 @@ std::vector<MutableStateColumn> FilmAccumulator::Columns() {
         gbuffer_, {kGbufferPlanes}));
   }
   if (bucket_film_) columns.push_back(bucket_film_->Column());
-  if (splat_film_) {
-    for (MutableStateColumn& column : splat_film_->Columns())
-      columns.push_back(std::move(column));
-  }
   if (!control_) return columns;
   for (MutableStateColumn& column : control_->Columns())
     columns.push_back(std::move(column));
   return columns;
+}
+
+std::vector<MutableStateColumn> FilmAccumulator::SharedColumns() {
+  return splat_film_ ? splat_film_->Columns() : std::vector<MutableStateColumn>();
+}
+
+void FilmAccumulator::AddShared(FilmAccumulator& other) {
+  const auto columns = SharedColumns(), others = other.SharedColumns();
+  LL_CHECK_EQ(columns.size(), others.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) AddColumn(columns[i], others[i]);
 }
 
 }  // namespace lanelight

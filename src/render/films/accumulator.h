@@ -92,8 +92,13 @@ class FilmAccumulator {
   double Bucket(int x, int y, int bucket) const;
 
   /// Returns all sums by pixel, row by row; a film of the same pixels, planes and groups
-  /// that loads them resumes from there.
+  /// that loads them and SharedColumns() resumes from there.
   std::vector<MutableStateColumn> Columns();
+  /// Returns the sums of light subpaths, which reach pixels outside their tile: those of
+  /// parts and ranks add up. Empty without UseSplats.
+  std::vector<MutableStateColumn> SharedColumns();
+  /// Adds those of another film of the same pixels.
+  void AddShared(FilmAccumulator& other);
 
  private:
   // Sums of a pixel whose observations are single units.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 namespace lanelight {
 namespace {
@@ -13,6 +13,11 @@ constexpr double kHigh[SplatSums::kValues] = {0x1p24, 0x1p24, 0x1p24,
 constexpr double kLow = 0x1p40;  // times kHigh
 // Added to a number below 2^51, it leaves the nearest integer in the lowest bits.
 constexpr double kRound = 0x1.8p52;
+
+// Returns what of a low part belongs to the high one.
+constexpr std::int64_t CarryOf(std::int64_t low) {
+  return (low + (std::int64_t{1} << 39)) >> 40;
+}
 
 }  // namespace
 
@@ -37,46 +42,36 @@ void SplatSums::Add(const float light[3]) {
 
 void SplatSums::Normalize() {
   for (int i = 0; i < kValues; ++i) {
-    const std::int64_t carry = (low[i] + (std::int64_t{1} << 39)) >> 40;
+    const std::int64_t carry = CarryOf(low[i]);
     high[i] += carry;
     low[i] -= carry << 40;
   }
 }
 
 double SplatSums::Value(int i) const {
-  return (static_cast<double>(high[i]) + static_cast<double>(low[i]) / kLow) / kHigh[i];
+  const std::int64_t carry = CarryOf(low[i]);
+  const auto whole = static_cast<double>(high[i] + carry);
+  return (whole + static_cast<double>(low[i] - (carry << 40)) / kLow) / kHigh[i];
 }
 
-void SplatFilm::Add(const std::vector<PixelSplat>& splats,
-                    const std::vector<std::size_t>& pixels,
-                    std::uint64_t paths_per_pixel) {
+void SplatFilm::Add(const std::vector<PixelSplat>& splats, std::uint64_t paths) {
   const std::lock_guard lock(mutex_);
   for (const PixelSplat& splat : splats) sums_[splat.pixel].Add(splat.light);
-  for (const std::size_t pixel : pixels) paths_[pixel] += paths_per_pixel;
-  total_ = counted_ ? total_ + paths_per_pixel * pixels.size() : 0;
-}
-
-std::uint64_t SplatFilm::Paths() const {
-  if (!counted_ || total_ == 0) {
-    total_ = std::accumulate(paths_.begin(), paths_.end(), std::uint64_t{0});
-    counted_ = true;
-  }
-  return total_;
+  paths_ += paths;
 }
 
 Rgb SplatFilm::Mean(std::size_t pixel) const {
   const std::lock_guard lock(mutex_);
-  const auto paths = double(Paths());
   Rgb mean;
-  if (paths == 0) return mean;
-  const double scale = unit_ * double(sums_.size()) / paths;
+  if (paths_ == 0) return mean;
+  const double scale = unit_ * double(sums_.size()) / double(paths_);
   for (int c = 0; c < 3; ++c) mean[c] = sums_[pixel].Value(c) * scale;
   return mean;
 }
 
 Rgb SplatFilm::Variance(std::size_t pixel) const {
   const std::lock_guard lock(mutex_);
-  const auto n = double(Paths());
+  const auto n = double(paths_);
   Rgb variance;
   if (n < 2) return variance;
   const double scale = unit_ * double(sums_.size());
@@ -90,15 +85,14 @@ Rgb SplatFilm::Variance(std::size_t pixel) const {
 
 std::vector<MutableStateColumn> SplatFilm::Columns() {
   for (SplatSums& sums : sums_) sums.Normalize();
-  counted_ = false;  // the caller may fill them
+  std::span<std::uint64_t> paths(&paths_, 1);
   return {MakeStateColumn<std::uint64_t>(
               "splats",
-              "sums of what light subpaths bring, then of its squares, by channel, in "
-              "splat_unit: integers times 2^-24 and 2^-16, then times 2^-64 and 2^-56; "
-              "two's complement",
+              "light of light subpaths: sums by channel for each pixel of the film, then "
+              "sums of squares, in splat_unit: integers times 2^-24 and 2^-16, then "
+              "times 2^-64 and 2^-56; two's complement",
               sums_, {2, 2, 3}),
-          MakeStateColumn<std::uint64_t>("light_paths", "light subpaths started", paths_,
-                                         {})};
+          MakeStateColumn<std::uint64_t>("light_paths", "light subpaths started", paths)};
 }
 
 }  // namespace lanelight

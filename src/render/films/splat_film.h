@@ -37,34 +37,27 @@ struct PixelSplat {
 class SplatFilm {
  public:
   /// `unit`: of the light that is added, in units of the film.
-  SplatFilm(std::size_t pixels, double unit)
-      : unit_(unit), sums_(pixels), paths_(pixels) {}
-  static constexpr std::size_t BytesPerPixel() {
-    return sizeof(SplatSums) + sizeof(std::uint64_t);
-  }
+  SplatFilm(std::size_t pixels, double unit) : unit_(unit), sums_(pixels) {}
+  static constexpr std::size_t BytesPerPixel() { return sizeof(SplatSums); }
   double unit() const { return unit_; }
 
-  /// Adds the splats of subpaths, of which `paths_per_pixel` started for each of these
-  /// pixels. Safe from any thread.
-  void Add(const std::vector<PixelSplat>& splats, const std::vector<std::size_t>& pixels,
-           std::uint64_t paths_per_pixel);
+  /// Adds the splats of so many subpaths. Safe from any thread.
+  void Add(const std::vector<PixelSplat>& splats, std::uint64_t paths);
 
   /// Returns what subpaths bring to a pixel; zero without subpaths.
   Rgb Mean(std::size_t pixel) const;
   /// Returns the estimated variance of Mean.
   Rgb Variance(std::size_t pixel) const;
 
+  /// Returns all sums, with equal parts if they are equal. Those of different subpaths
+  /// add up.
   std::vector<MutableStateColumn> Columns();
 
  private:
-  std::uint64_t Paths() const;
-
   double unit_;
   std::vector<SplatSums> sums_;
-  std::vector<std::uint64_t> paths_;  // started for the pixel
+  std::uint64_t paths_ = 0;  // that have started
   mutable std::mutex mutex_;
-  mutable std::uint64_t total_ = 0;  // of paths_
-  mutable bool counted_ = true;      // total_ is up to date
 };
 
 }  // namespace lanelight

@@ -2,7 +2,6 @@
 
 #include "src/base/core/check.h"
 #include "src/base/core/error.h"
-#include "src/base/core/parallel.h"
 #include "src/render/films/accumulator.h"
 
 namespace lanelight {
@@ -31,16 +30,6 @@ void CheckWhole(const MergedRender& render) {
                   render.seeds.front(), render.minimum, render.maximum, cycle));
 }
 
-template <class T>
-void AddColumn(const MutableStateColumn& sum, const MutableStateColumn& more) {
-  T* const to = static_cast<T*>(sum.data);
-  const T* const from = static_cast<const T*>(more.data);
-  ParallelForRange(sum.rows * sum.ValuesPerRow(), 1 << 16,
-                   [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t i = begin; i < end; ++i) to[i] += from[i];
-                   });
-}
-
 }  // namespace
 
 void AddSeed(MergedRender& sum, MergedRender& more) {
@@ -50,10 +39,9 @@ void AddSeed(MergedRender& sum, MergedRender& more) {
   LL_CHECK_EQ(columns.size(), others.size());
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].name == "weights") continue;  // each had its own
-    columns[i].type == StateType::kUint64
-        ? AddColumn<std::uint64_t>(columns[i], others[i])
-        : AddColumn<double>(columns[i], others[i]);
+    AddColumn(columns[i], others[i]);
   }
+  sum.film->AddShared(*more.film);
   sum.run.counts.Add(more.run.counts);
   for (const MachineInfo& machine : more.machines) AddMachine(machine, sum.machines);
   sum.seeds.push_back(more.seeds.front());

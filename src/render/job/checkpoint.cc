@@ -12,6 +12,7 @@
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
 #include "src/render/job/saving.h"
+#include "src/render/wave/light_paths.h"
 #include "src/render/wave/tiles.h"
 
 namespace lanelight {
@@ -129,6 +130,12 @@ void Checkpoint::CheckSame(const StateFile& file) {
 bool Checkpoint::Restore(RunState& state) {
   if (!from_) return false;
   from_->ReadPixels(state.films.Columns(), job_.window);
+  FilmAccumulator& film = state.films.film();
+  // A trial run may have chosen light subpaths.
+  if (from_->HasTable("splats") && film.splats() == nullptr) {
+    film.UseSplats(SplatUnit(job_.scene));
+  }
+  for (const MutableStateColumn& column : film.SharedColumns()) from_->ReadTable(column);
   static_cast<RunRecord&>(state) = FromJsonOf(
       from_->path(), [&] { return ReadRecord(*from_, ParseJson(from_->report())); });
   CheckNotTooMany(state.films);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "src/base/core/error.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
 #include "src/render/job/loaded_scene.h"
@@ -43,6 +44,29 @@ void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
       {choice.refused_at, "rendered in red, green and blue, since " + choice.why});
 }
 
+// Plans the render. Where light subpaths are not supported that only the scene's
+// integrator asks for, the scene loses them.
+Plan PlanOf(const RenderSettings& settings, SceneDescription& description,
+            PreparedScene& scene) {
+  const PlanOptions options = PlanOptionsOf(settings, description);
+  if (!StartsAtLights(settings, description)) return MakePlan(scene, options);
+  const SourceLocation& where = *description.integrator.from_lights;
+  try {
+    Plan plan = MakePlan(scene, options);
+    if (plan.features.Has(Feature::kLightPaths)) {
+      description.notes.push_back({where, "its strategy is light-paths=splats"});
+    }
+    return plan;
+  } catch (const InputError& error) {
+    Strategy strategy = scene.strategy;
+    strategy.light_paths = LightPaths::kNone;
+    scene = WithStrategy(std::move(scene), strategy);
+    description.notes.push_back(
+        {where, fmt::format("no path starts at a light: {}", error.what())});
+    return MakePlan(scene, options);
+  }
+}
+
 Job Prepare(LoadedScene loaded, const RenderSettings& requested) {
   Job job;
   job.settings = requested;
@@ -60,11 +84,11 @@ Job Prepare(LoadedScene loaded, const RenderSettings& requested) {
   compile.bvh_report = &loaded.trees;
   job.scene = PrepareScene(description, compile);
   job.settings.cached_bvh.reset();  // which may be all that keeps it
+  job.plan = PlanOf(settings, description, job.scene);
   // Reports look for notes in one place.
   const std::vector<Note>& notes = job.scene.notes();
   description.notes.insert(description.notes.end(), notes.begin(), notes.end());
   ReleaseCopies(description);
-  job.plan = MakePlan(job.scene, PlanOptionsOf(settings, description));
   loaded.build_seconds = watch.Lap();
   job.loaded = std::make_shared<const LoadedScene>(std::move(loaded));
   return WithAmount(std::move(job), settings);

@@ -9,6 +9,7 @@
 #include "src/base/core/machine_info.h"
 #include "src/render/films/accumulator.h"
 #include "src/render/films/regression_film.h"
+#include "src/render/train/training.h"
 #include "src/scene/description/film.h"
 #include "src/scene/prepare/parameters.h"
 
@@ -30,8 +31,11 @@ std::uint64_t ControlPerPixel(const Strategy& strategy) {
   return RegressionFilm::BytesPerPixel(GroupsOf(strategy));
 }
 
-std::uint64_t SplatsPerPixel(const Strategy& strategy) {
-  return strategy.light_paths == LightPaths::kNone ? 0 : SplatFilm::BytesPerPixel();
+// A trial run may choose light subpaths.
+std::uint64_t SplatsPerPixel(const Strategy& strategy, std::uint64_t pixels) {
+  const bool tried = strategy.decide == Decide::kPilot && pixels <= kMaxTrialSplatPixels;
+  const bool used = tried || strategy.light_paths != LightPaths::kNone;
+  return used ? SplatFilm::BytesPerPixel() : 0;
 }
 
 constexpr double kGiB = 1 << 30;
@@ -57,7 +61,8 @@ std::uint64_t FilmBytes(const PixelRect& window, const FilmLayers& layers,
   const std::uint64_t per_pixel =
       FilmAccumulator::BytesPerPixel(GroupsOf(strategy), layers.auxiliary) +
       BucketFilm::BytesPerPixel({layers.buckets}) + 2 * kPlanesPerPixel +
-      2 * LayersPerPixel(layers) + ControlPerPixel(strategy) + SplatsPerPixel(strategy);
+      2 * LayersPerPixel(layers) + ControlPerPixel(strategy) +
+      SplatsPerPixel(strategy, window.pixels());
   return window.pixels() * per_pixel;
 }
 

@@ -74,7 +74,7 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
     merged.film->UseBuckets(BucketsOf(merged.identity));
     features.Add(Feature::kSpectralFilm);
   }
-  if (file.HasPixels("splats")) {
+  if (file.HasTable("splats")) {
     merged.film->UseSplats(merged.head.at("splat_unit"));
   }
   merged.films = std::make_unique<Films>(SamplePlanes(features),
@@ -129,6 +129,17 @@ void CheckTraining(const RunRecord& first, const RunRecord& other,
     return;
   }
   throw InputError("'" + path + "' has other training data than the files before it");
+}
+
+// Adds what the file's part has brought to pixels of all parts.
+void AddShared(const StateFile& file, FilmAccumulator& film) {
+  for (const MutableStateColumn& sum : film.SharedColumns()) {
+    std::vector<char> memory(sum.Bytes());
+    MutableStateColumn more = sum;
+    more.data = memory.data();
+    file.ReadTable(more);
+    AddColumn(sum, more);
+  }
 }
 
 // Reads the files one by one: two would be in memory at a time only for different seeds.
@@ -211,6 +222,7 @@ class Merger {
     AddMachines(report, merged.machines);
     CheckTraining(merged.run, run, input.path);
     file.ReadPixels(merged.films->Columns(), merged.window);
+    AddShared(file, *merged.film);
     merged.run.counts.Add(run.counts);
   }
 

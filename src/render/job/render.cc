@@ -60,11 +60,6 @@ RenderTargets PartialTargets(RenderTargets targets, bool any) {
 
 // Throws InputError if a rank would render something else.
 void AgreeOnJob(const Job& job, RankGroup& group) {
-  if (group.ranks() > 1 && job.plan.features.Has(Feature::kLightPaths)) {
-    throw InputError(
-        "light-paths does not support MPI: render with one process for each seed, and "
-        "merge their states");
-  }
   const std::string own = DumpJson(IdentityOf(job));
   group.Gather(own, [&](int rank, std::string_view its) {
     const std::string differs =

@@ -57,6 +57,9 @@ StateContent ContentOf(const Json& identity, Json about, Films& films,
   for (const MutableStateColumn& column : films.Columns()) {
     content.pixels.push_back(column);
   }
+  for (const MutableStateColumn& column : films.film().SharedColumns()) {
+    content.tables.push_back(column);
+  }
   for (const TrainedTable& table : run.tables) {
     content.tables.push_back(
         MakeStateColumn<double>(table.name, table.meaning, table.values));

@@ -137,10 +137,19 @@ void ApplySettings(const RenderSettings& settings, SceneDescription& scene) {
                                  settings.wavefront, kMaxWavefront));
   }
   if (settings.sampler) scene.strategy.sampler = *settings.sampler;
-  if (DecidesByDefault(settings, scene)) scene.strategy.decide = Decide::kPilot;
+  if (StartsAtLights(settings, scene)) {
+    scene.strategy.light_paths = LightPaths::kSplats;
+  } else if (DecidesByDefault(settings, scene)) {
+    scene.strategy.decide = Decide::kPilot;
+  }
   Apply(settings.strategy, scene.strategy);
   if (settings.seed) scene.sampler.seed = *settings.seed;
   if (settings.gbuffer) scene.film.gbuffer = *settings.gbuffer;
+}
+
+bool StartsAtLights(const RenderSettings& settings, const SceneDescription& scene) {
+  return scene.integrator.from_lights && settings.strategy.text.empty() &&
+         settings.compared.empty();
 }
 
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene) {

@@ -85,6 +85,10 @@ inline constexpr int kMaxThreads = 1024;
 /// for sizes, windows, depths and sample counts out of range, of either source.
 void ApplySettings(const RenderSettings& settings, SceneDescription& scene);
 
+/// Returns whether light-paths=splats is the default of this render, for the integrator
+/// of the scene.
+bool StartsAtLights(const RenderSettings& settings, const SceneDescription& scene);
+
 /// Returns whether decide=pilot is the default of this render: with kIfLong, from 4
 /// seconds on, or from the samples that the trial run is planned for (DecidedBy).
 bool DecidesByDefault(const RenderSettings& settings, const SceneDescription& scene);

@@ -21,9 +21,6 @@ std::string Cbor(const nlohmann::json& json) {
   return bytes;
 }
 
-// 3 to 25 MB of films, in memory that all pieces use.
-constexpr std::uint64_t kPixelsOfPiece = 1 << 15;
-
 // Calls copy(address, bytes) for each row of each tile in each column of the films.
 template <class Copy>
 void ForEachRow(std::span<const TileProgress> packed, const std::vector<PixelRect>& tiles,

@@ -15,6 +15,9 @@
 
 namespace lanelight {
 
+/// Pixels of a message: 3 to 25 MB of films, in memory that all pieces use.
+inline constexpr std::uint64_t kPixelsOfPiece = 1 << 15;
+
 /// Appends these tiles and their pixels in all columns of the films. `tiles`: the places
 /// of all tiles.
 void SerializeTiles(std::span<const TileProgress> packed,

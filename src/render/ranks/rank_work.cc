@@ -29,6 +29,15 @@ std::string ToString(const Value& value) {
   return {reinterpret_cast<const char*>(&value), sizeof(Value)};
 }
 
+// Adds the rows that a worker has sent.
+void AddBytes(const MutableStateColumn& rows, std::string_view bytes) {
+  LL_CHECK_EQ(bytes.size(), rows.Bytes());
+  std::vector<char> memory(bytes.begin(), bytes.end());
+  MutableStateColumn sent = rows;
+  sent.data = memory.data();
+  AddColumn(rows, sent);
+}
+
 // Stops the tasks of a worker: for a signal to this rank, or if another rank stops.
 class WorkerWatch : public TaskWatcher {
  public:
@@ -239,7 +248,22 @@ void RankWork::Gather() {
   for (int piece = MaxPieces(0); piece > 0; --piece) {
     group_.Gather("", [this](int, std::string_view bytes) { ReceiveTiles(bytes); });
   }
+  MoveShared();
   gathered_ = true;
+}
+
+// Moves the sums of light subpaths to the leader, in pieces.
+void RankWork::MoveShared() {
+  for (const MutableStateColumn& column : films_.film().SharedColumns()) {
+    for (std::size_t first = 0; first < column.rows; first += kPixelsOfPiece) {
+      const auto count = std::min<std::size_t>(kPixelsOfPiece, column.rows - first);
+      const MutableStateColumn rows = RowsOf(column, first, count);
+      const std::string_view own(static_cast<char*>(rows.data), rows.Bytes());
+      group_.Gather(group_.is_leader() ? "" : std::string(own),
+                    [&](int, std::string_view bytes) { AddBytes(rows, bytes); });
+      if (!group_.is_leader()) std::memset(rows.data, 0, rows.Bytes());
+    }
+  }
 }
 
 // Adds the counts of a worker and some of its tiles.
@@ -266,6 +290,7 @@ void RankWork::SendTiles() {
                    tiles(), films_, bytes);
     group_.Gather(bytes, nullptr);
   }
+  MoveShared();
 }
 
 // Returns the largest number of pieces of any rank.

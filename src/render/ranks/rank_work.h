@@ -61,6 +61,7 @@ class RankWork : public RoundRunner {
   bool BalanceRanks(std::uint64_t step, OwnRound& own, const StopPredicate& should_stop);
   void SendTiles();
   void ReceiveTiles(std::string_view bytes);
+  void MoveShared();
   int MaxPieces(int own);
   const std::vector<PixelRect>& tiles() const { return threads_.scheduler().tiles(); }
 

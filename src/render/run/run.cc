@@ -25,15 +25,14 @@ namespace {
 struct Runner {
   Runner(const PreparedScene& scene, const Plan& plan, const RunOptions& options,
          FilmAccumulator& film)
-      : strategy(scene, plan, options, clock),
+      : scene(scene),
+        strategy(scene, plan, options, clock),
         films(strategy.run().planes, scene.strategy.coefficient.value_or(1), film),
         threads(scene, strategy.plan(), strategy.run(), options, films) {
     LL_CHECK_EQ(film.groups().replicates, GroupsOf(scene.strategy).replicates);
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films.UseResponse(scene.view->film.response);
-    if (strategy.plan().features.Has(Feature::kLightPaths) && film.splats() == nullptr) {
-      film.UseSplats(SplatUnit(scene));
-    }
+    MakeRoomForSplats();
     min_tile_side = scene.strategy.MayReuse() ? kReuseTile : 1;
     if (options.group != nullptr && options.group->ranks() > 1) {
       LL_CHECK(options.windows.empty());
@@ -45,6 +44,7 @@ struct Runner {
   }
 
   void Start();
+  void MakeRoomForSplats();
   void Save(bool finished);
   RunResult Result();
   /// All of a run, for a worker.
@@ -58,6 +58,7 @@ struct Runner {
   bool Restore();
   RunCounts Counts();
 
+  const PreparedScene& scene;
   RunClock clock;
   RankGroup alone;
   RunStrategy strategy;
@@ -71,6 +72,12 @@ struct Runner {
   TickScale ticks;  // the last to be made: a trace begins when the run does
 };
 
+// Light subpaths may be what a trial run has chosen.
+void Runner::MakeRoomForSplats() {
+  if (!strategy.plan().features.Has(Feature::kLightPaths)) return;
+  if (films.film().splats() == nullptr) films.film().UseSplats(SplatUnit(scene));
+}
+
 // Starts the clock, and trains the strategy or resumes the run.
 void Runner::Start() {
   clock.Start();
@@ -83,6 +90,7 @@ void Runner::Start() {
     Group().Share(ToBytes(start));
   }
   if (start.planned_training > 0) strategy.Train(start.planned_training, Group());
+  MakeRoomForSplats();
   films.film().set_dependents(strategy.Dependents());
   if (ranks) {
     Group().Share(ToBytes(
@@ -131,6 +139,7 @@ void Runner::Serve(const RunStart& start, const std::atomic<bool>* stop) {
     training.changes = learned.changes;
     strategy.Restore(std::move(training), learned.tables);
   }
+  MakeRoomForSplats();
   ranks->AssignTiles(start.have_samples, min_tile_side);
   ranks->Serve([this](const Round& round) { strategy.SetFirstSample(round.begin); },
                stop);

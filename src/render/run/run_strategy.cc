@@ -90,6 +90,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
   TrainingOptions options;
   options.planned_samples = planned;
   options.keep_roulette = options_.keep_roulette;
+  options.whole_image = options_.windows.empty();
   const bool together = group.ranks() > 1;
   options.stop = together ? ranks.stop() : options_.stop;
   options.ranks = together ? &ranks : nullptr;

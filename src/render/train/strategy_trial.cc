@@ -159,9 +159,9 @@ TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
 
 TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
                                       const PlanOptions& options,
-                                      const TrainingWork& work) {
-  TrainingPass pass = {tried.scene, options,   &tried.tables,
-                       seed_,       &watcher_, training_.ranks};
+                                      const TrainingWork& work, const PilotImage* image) {
+  TrainingPass pass = {tried.scene, options,         &tried.tables, seed_,
+                       &watcher_,   training_.ranks, image};
   pass.options.has_own_sequences = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();

@@ -29,10 +29,6 @@ struct DecisionCandidate {
 /// Least gain for which a change is chosen: a wrong change costs more than a missed one.
 inline constexpr double kMinChangeGain = 1.05;
 
-/// Processor time of a counted ray with reuse=block relative to that without, and its
-/// scatter.
-inline constexpr double kReusePrice = 1.2, kReusePriceUncertainty = 0.27;
-
 // Costs are counted in rays, so that a choice depends on the scene only; prices make
 // up for what rays do not say. They are means over 32 scenes, 96 pixels wide, 64 spp, one
 // thread, AVX-512, and so are their spreads. What a sample costs beside its rays and what
@@ -60,6 +56,14 @@ inline constexpr DecisionCandidate kDecisionCandidates[] = {
      0.4},
 };
 inline constexpr std::size_t kNumDefaultCandidates = 2;  // the first ones
+
+/// Changes that are tried on whole tiles, beside what has been chosen.
+inline constexpr DecisionCandidate kTileCandidates[] = {
+    {"reuse=block", "gains where most of the noise is indirect light", 1.2, 0.27},
+    {"reuse=block:32", "gains where most of the noise is indirect light", 1.2, 0.27},
+    {"light-paths=splats", "gains where caustics or hidden lamps cause the noise", 1.2,
+     0.27},
+};
 
 /// The image's light by one pass, pixels weighted as in relative errors.
 struct TrialLight {
@@ -112,15 +116,24 @@ struct TriedStrategy {
 TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& options,
                            const std::string& changes, double price);
 
-/// Result of path reuse (reuse=block) on whole tiles, beside a strategy.
-struct TriedBlocks {
-  const char* changes = "";  // as in --strategy
-  bool has_gain_per_pixel = false, is_efficient = false;
+/// Result of a change on whole tiles, beside a strategy.
+struct TriedOnTiles {
+  DecisionCandidate candidate;
   /// Relative efficiency by pixels, and by squares of 8 x 8 pixels: errors of the pixels
   /// of a block have much in common, so a filter removes less of them.
-  TrialGain gain;
-  double per_pixel = 1, filtered = 1;
+  TrialGain per_pixel, filtered;
+  bool has_gain_per_pixel = false, is_efficient = false;
+
+  /// Returns the logarithm of the geometric mean of both gains, without the best tile and
+  /// square of each.
+  double LogJointGain() const;
+  /// Sets `has_gain_per_pixel` if the gain by pixels is more than `must_gain` and clear,
+  /// also without any one tile; and `is_efficient` if nothing is lost by squares either.
+  void Judge(double must_gain);
 };
+
+/// Returns the efficient one with the largest joint gain; null if none is efficient.
+const TriedOnTiles* BestOf(const std::vector<TriedOnTiles>& tried);
 
 class StrategyTrial {
  public:
@@ -136,18 +149,16 @@ class StrategyTrial {
   /// one tried is the baseline strategy. Returns false if the user has stopped it.
   bool Try(TriedStrategy& tried, const TriedStrategy& baseline);
 
-  /// Tries path reuse beside the chosen strategy, whose efficiency relative to the
-  /// baseline one is `gain`. Where the chosen one splits paths, reuse takes its place
-  /// beside the baseline one if it gains more; where both split, nothing is tried.
+  /// Tries kTileCandidates beside the chosen strategy, whose efficiency relative to the
+  /// baseline one is `gain`. Where the chosen one splits paths, they take its place
+  /// beside the baseline one if they gain more; where both split, nothing is tried.
   ///
-  /// Renders about this many samples of whole tiles with blocks of 64 paths. Also renders
-  /// blocks of 32 if 64 gain by pixels but lose after a filter: smaller blocks gain less
-  /// by pixels and more after a filter. The last result is the one to use if it gains
-  /// significantly by pixels, also without any one tile, and loses nothing by squares.
-  /// Empty if the scene or the strategy refuses reuse, or after an interrupt.
-  std::vector<TriedBlocks> TryBlocks(const TriedStrategy& baseline,
-                                     const TriedStrategy& chosen, double gain,
-                                     std::uint64_t samples);
+  /// Renders about this many samples of whole tiles with each. Omits what the scene or
+  /// the strategy refuses, blocks of 32 unless 64 gain by pixels and lose after a filter,
+  /// and all after an interrupt.
+  std::vector<TriedOnTiles> TryOnTiles(const TriedStrategy& baseline,
+                                       const TriedStrategy& chosen, double gain,
+                                       std::uint64_t samples);
 
   /// Trains the strategy for so many planned samples.
   TrainingOutcome TrainStrategy(const TriedStrategy& tried, std::uint64_t planned,
@@ -161,11 +172,10 @@ class StrategyTrial {
 
  private:
   TrainingSamples Render(const TriedStrategy& tried, const PlanOptions& options,
-                         const TrainingWork& work);
+                         const TrainingWork& work, const PilotImage* image = nullptr);
+  bool MayUse(const TriedStrategy& beside, const char* changes) const;
   void Measure(TriedStrategy& tried, const TriedStrategy& baseline);
   TrialLight LightOf(const TrainingSamples& samples, const TrialMeasure& measure) const;
-  TriedBlocks CompareBlocks(const TriedStrategy& baseline, const PlanOptions& blocks,
-                            const TrainingWork& work, double must_gain);
 
   const PreparedScene& scene_;
   const TrainingOptions& training_;

@@ -1,9 +1,9 @@
-// decide=pilot: which change of roulette or reuse, if any, makes the render cheaper at
-// equal error. All candidates learn what they need from a pilot of their own, shorter
-// than that of a render; then the same pixels are rendered with each, with the points of
-// the render: in four randomisations, whose scatter is the variance. Independent samples
-// would show variance that the render does not have, and hide what a change does to the
-// rest. The chosen one learns anew, as if it had been asked for.
+// decide=pilot: which change of roulette, reuse or light subpaths, if any, makes the
+// render cheaper at equal error. All candidates learn what they need from a pilot of
+// their own, shorter than that of a render; then the same pixels are rendered with each,
+// with the points of the render: in four randomisations, whose scatter is the variance.
+// Independent samples would show variance that the render does not have, and hide what a
+// change does to the rest. The chosen one learns anew, as if it had been asked for.
 //
 // Where few bright samples carry the error, all pixels have to count, the worst most of
 // all: they are what roulette=adjoint is for. One pilot sees few of them or none. So the
@@ -15,12 +15,12 @@
 // live longer and that is all, no sample of it varies more; where few pixels carry the
 // error all others decide.
 //
-// Path reuse is tried beside the chosen strategy, on whole tiles.
+// Path reuse and light subpaths are tried beside the chosen strategy, on whole tiles.
 //
 // Shares of the planned samples: 1/100 for each candidate that learns (adjoint), 1/120
-// for each that is compared, twice 1/200 on tiles: 4.5 percent, before the chosen one
-// learns. What is decided
-// depends on scene, settings and seed alone: costs are counted in rays.
+// for each that is compared, three times 1/200 on tiles: 5 percent, before the chosen one
+// learns. What is decided depends on scene, settings and seed alone: costs are counted in
+// rays.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ namespace lanelight {
 namespace {
 
 constexpr std::uint64_t kCompared = 120;  // of so many planned samples one is compared
-constexpr std::uint64_t kTiled = 200;     // and so many with paths that serve blocks
+constexpr std::uint64_t kTiled = 200;     // and so many on whole tiles
 constexpr std::uint64_t kLearned = 4;     // and candidates learn as if for a quarter
 constexpr std::uint64_t kMinComparedSamples = 256;
 // A change must gain its least gain and half a standard error. A change made by mistake
@@ -72,7 +72,7 @@ class Decider {
       chosen = Compare();
     }
     if (!trial_.IsStopped() && planned_ / kCompared >= kMinComparedSamples)
-      TryBlocksBeside(*chosen);
+      TryOnTilesBeside(*chosen);
     if (!trial_.IsStopped()) TrainFor(*chosen);
     outcome_.samples = trial_.spent().samples;
     outcome_.rays = trial_.spent().rays;
@@ -102,19 +102,22 @@ class Decider {
     return Choose();
   }
 
-  // Tries path reuse beside what has been chosen, or in its place where that splits
-  // paths.
-  void TryBlocksBeside(TriedStrategy& chosen) {
+  // Tries path reuse and light subpaths beside what has been chosen, or in its place
+  // where that splits paths.
+  void TryOnTilesBeside(TriedStrategy& chosen) {
     const double gain = chosen.changes.empty() ? 1 : std::exp(chosen.Gain().log);
-    TriedStrategy reused = chosen.splits ? entries_.front() : chosen;
-    for (const TriedBlocks& blocks :
-         trial_.TryBlocks(entries_.front(), chosen, gain, planned_ / kTiled)) {
-      note_ += fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", blocks.changes,
-                           blocks.per_pixel, blocks.filtered);
-      if (!blocks.is_efficient) continue;
-      reused.changes = JoinedChanges(reused.changes, blocks.changes);
-      chosen = std::move(reused);
+    const std::vector<TriedOnTiles> tried =
+        trial_.TryOnTiles(entries_.front(), chosen, gain, planned_ / kTiled);
+    for (const TriedOnTiles& t : tried) {
+      note_ +=
+          fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", t.candidate.changes,
+                      std::exp(t.per_pixel.log), std::exp(t.filtered.log));
     }
+    const TriedOnTiles* const best = BestOf(tried);
+    if (best == nullptr) return;
+    TriedStrategy beside = chosen.splits ? entries_.front() : chosen;
+    beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
+    chosen = std::move(beside);
   }
 
   TriedStrategy* Choose() {

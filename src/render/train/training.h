@@ -22,6 +22,7 @@ class RankPasses;  // src/render/train/rank_passes.h
 struct TrainingOptions {
   std::uint64_t planned_samples = 0;  // of the image
   bool keep_roulette = false;         // even where another would be more efficient
+  bool whole_image = true;            // not windows of it: light subpaths may be chosen
   const std::atomic<bool>* stop = nullptr;
   RankPasses* ranks = nullptr;  // that train together (src/render/train/rank_passes.h)
 };
@@ -30,6 +31,8 @@ struct TrainingOptions {
 /// rare bright samples that matter.
 inline constexpr std::uint64_t kMaxTrialSamples = std::uint64_t{1} << 25;
 inline constexpr std::uint64_t kMinTrialSamples = std::uint64_t{1} << 23;
+/// Largest image that is tried with light subpaths, whose sums take 96 bytes per pixel.
+inline constexpr std::uint64_t kMaxTrialSplatPixels = std::uint64_t{1} << 24;
 /// Returns the planned samples of the trial run for an image of so many pixels, without a
 /// time budget.
 std::uint64_t DecidedBy(std::uint64_t pixels);

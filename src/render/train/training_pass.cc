@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -10,11 +11,13 @@
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/rank_passes.h"
 #include "src/render/wave/block_reuse.h"
+#include "src/render/wave/light_paths.h"
 #include "src/render/wave/phase_driver.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/film.h"
+#include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
@@ -30,6 +33,72 @@ std::uint64_t RunLength(std::uint64_t pixels, std::uint32_t spp) {
   return pixels >= 512 && spp < 16 ? 16 : 1;
 }
 
+// Measures what light subpaths bring to pixels, as relative variances.
+class SubpathMeter {
+ public:
+  SubpathMeter(const PreparedScene& scene, const PilotImage& image, double scale)
+      : window_(RenderedPixels(scene.view->film)),
+        full_width_(std::uint32_t(scene.view->film.width)),
+        image_(image),
+        scale_(scale / 3) {}
+
+  // Adds the splats of a vertex, of which camera paths have the MIS weight `share`.
+  void Add(float share, const std::vector<PixelSplat>& splats,
+           SubpathVariance& sum) const {
+    double pixels = 0, squares = 0;
+    std::vector<Square> sums;
+    for (const PixelSplat& splat : splats) {
+      Square& square = SquareOf(FullPixel(splat), sums);
+      for (int c = 0; c < 3; ++c) {
+        const double light = double(splat.light[c]);
+        pixels += light * light * square.weight[c];
+        square.light[c] += light;
+      }
+    }
+    for (const Square& square : sums) {
+      for (int c = 0; c < 3; ++c) {
+        squares += square.light[c] * square.light[c] * square.weight[c];
+      }
+    }
+    squares /= SubpathVariance::kSide * SubpathVariance::kSide;
+    sum.by_pixels += float(pixels * scale_);
+    sum.by_squares += float(squares * scale_);
+    // Light that camera paths do not find is not compared.
+    if (!(share > 0)) return;
+    sum.camera_by_pixels += float(pixels * scale_ / double(share));
+    sum.camera_by_squares += float(squares * scale_ / double(share));
+  }
+
+ private:
+  struct Square {
+    std::uint32_t place;
+    Vec3d weight, light;
+  };
+
+  std::uint32_t FullPixel(const PixelSplat& splat) const {
+    const auto width = std::uint32_t(window_.width());
+    return (std::uint32_t(window_.y0) + splat.pixel / width) * full_width_ +
+           std::uint32_t(window_.x0) + splat.pixel % width;
+  }
+  // Pixels of a square have the same weights (PilotImage).
+  Square& SquareOf(std::uint32_t pixel, std::vector<Square>& squares) const {
+    constexpr auto kSide = std::uint32_t{SubpathVariance::kSide};
+    const std::uint32_t place =
+        pixel / full_width_ / kSide * full_width_ + pixel % full_width_ / kSide;
+    for (Square& square : squares) {
+      if (square.place == place) return square;
+    }
+    Square& square = squares.emplace_back(Square{place, {}, {}});
+    for (int c = 0; c < 3; ++c) square.weight[c] = image_.ErrorWeight(pixel, c);
+    return square;
+  }
+
+  const PixelRect window_;
+  const std::uint32_t full_width_;
+  const PilotImage& image_;
+  const double scale_;
+};
+
 class Pass {
  public:
   Pass(const TrainingPass& pass, const TrainingWork& work)
@@ -41,10 +110,15 @@ class Pass {
         work_(work),
         ranks_(pass.ranks),
         watcher_(ranks_ != nullptr ? &ranks_->watcher() : pass.watcher),
-        max_split_(plan_.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1) {
-    wavefronts_.resize(std::size_t(ThreadSlots()));
+        max_split_(plan_.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1),
+        image_(pass.image) {
+    threads_.resize(std::size_t(ThreadSlots()));
     samples_.colors.resize(work.samples());
     samples_.planes = run_.planes.count() - kColorPlanes;
+    if (plan_.features.Has(Feature::kLightPaths)) {
+      LL_CHECK(samples_.planes == 0 && pass.image != nullptr);
+      samples_.planes = kSubpathPlanes;
+    }
     samples_.observations = has_own_sequences_ ? kReplicates : work.spp;
     LL_CHECK(work.spp % samples_.observations == 0 && samples_.observations > 1);
     samples_.recorded.resize(work.samples() * std::size_t(samples_.planes));
@@ -56,10 +130,10 @@ class Pass {
       if (ranks_ != nullptr && !ranks_->Renders(task)) return;
       RunTask(task, begins[task], begins[task + 1] - begins[task]);
     });
-    for (const auto& wavefront : wavefronts_) {
-      if (!wavefront) continue;
-      samples_.rays_closest += wavefront->wave().rays_closest;
-      samples_.rays_shadow += wavefront->wave().rays_shadow;
+    for (const auto& thread : threads_) {
+      if (!thread) continue;
+      samples_.rays_closest += thread->wavefront.wave().rays_closest;
+      samples_.rays_shadow += thread->wavefront.wave().rays_shadow;
     }
     if (ranks_ != nullptr) ranks_->Exchange(SampleBegins(begins), samples_);
     return std::move(samples_);
@@ -95,8 +169,9 @@ class Pass {
   }
 
   void RunTask(std::size_t task, std::size_t first, std::size_t pixels) {
-    auto& wavefront = wavefronts_[std::size_t(ThreadIndex())];
-    if (!wavefront) wavefront = std::make_unique<Wavefront>(scene_, plan_, run_);
+    auto& thread = threads_[std::size_t(ThreadIndex())];
+    if (!thread) thread = std::make_unique<Thread>(scene_, plan_, run_);
+    Wavefront* const wavefront = &thread->wavefront;
     TileWork work;
     work.pixels = work_.pixels.data() + first;
     work.num_pixels = std::uint32_t(pixels);
@@ -112,6 +187,7 @@ class Pass {
     wavefront->wave().Begin(work, {values.data(), rows});
     if (!RunPhase(wavefront->wave(), plan_.paths(), nullptr, watcher_)) return;
     if (reuse) reuse->Connect(work_.tiles[task], wavefront->wave(), nullptr);
+    if (thread->light_paths) TraceSubpaths(first, work, *thread);
     if (max_split_ > 1) SumSplitPaths(values.data(), rows, run_.planes);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t sample = first * work_.spp + i;
@@ -120,6 +196,37 @@ class Pass {
         samples_.recorded[sample * (planes - kColorPlanes) + p - kColorPlanes] =
             values[p * count + i];
       }
+    }
+  }
+
+  // Memory of a thread.
+  struct Thread {
+    Thread(const PreparedScene& scene, const Plan& plan, const RunParameters& run)
+        : wavefront(scene, plan, run) {
+      if (!plan.features.Has(Feature::kLightPaths)) return;
+      light_paths.emplace(scene, plan, RenderedPixels(scene.view->film), wavefront);
+    }
+    Wavefront wavefront;
+    std::optional<LightSubpaths> light_paths;
+    std::vector<PixelSplat> splats;
+  };
+
+  // Traces the subpaths of the pixels of a task.
+  void TraceSubpaths(std::size_t first, const TileWork& work, Thread& thread) {
+    LightSubpaths& subpaths = *thread.light_paths;
+    subpaths.Trace(work, thread.wavefront.wave(), nullptr, thread.splats);
+    const std::size_t each = subpaths.PathsOf(0, work.samples);
+    const double n = strategy_.light_path_samples, unit = SplatUnit(scene_);
+    const SubpathMeter meter(scene_, *image_, n * n * unit * unit / work.samples);
+    std::vector<SubpathVariance> sums(work.num_pixels);
+    subpaths.ForEachVertex(
+        each * work.num_pixels,
+        [&](std::size_t path, float share, const std::vector<PixelSplat>& splats) {
+          meter.Add(share, splats, sums[path / each]);
+        });
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      std::memcpy(&samples_.recorded[(first + i) * work_.spp * kSubpathPlanes], &sums[i],
+                  sizeof(sums[i]));
     }
   }
 
@@ -132,7 +239,8 @@ class Pass {
   RankPasses* const ranks_;
   const TaskWatcher* const watcher_;
   const std::uint32_t max_split_;
-  std::vector<std::unique_ptr<Wavefront>> wavefronts_;
+  const PilotImage* const image_;
+  std::vector<std::unique_ptr<Thread>> threads_;
   TrainingSamples samples_;
 };
 

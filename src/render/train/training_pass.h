@@ -12,6 +12,7 @@
 
 namespace lanelight {
 
+class PilotImage;   // src/scene/prepare/estimate_path_values.h
 class RankPasses;   // src/render/train/rank_passes.h
 class TaskWatcher;  // src/render/wave/task_watcher.h
 
@@ -30,7 +31,19 @@ struct TrainingPass {
   const TaskWatcher* watcher = nullptr;
   /// Ranks that share the tasks, whose watcher then counts; may be null.
   RankPasses* ranks = nullptr;
+  /// With light-paths=splats: weighs the errors of subpaths.
+  const PilotImage* image = nullptr;
 };
+
+/// Relative variances of a sample that light subpaths cause, anywhere in the image: by
+/// pixels, and by squares of 8 x 8 pixels; and what the light that these subpaths have
+/// found causes where camera paths alone find it.
+struct SubpathVariance {
+  static constexpr int kSide = 8;
+  float by_pixels = 0, by_squares = 0;
+  float camera_by_pixels = 0, camera_by_squares = 0;
+};
+inline constexpr int kSubpathPlanes = sizeof(SubpathVariance) / sizeof(float);
 
 /// Pixels of a pass, and samples of each: at least four, so that it shows the
 /// variance within a pixel.
@@ -45,9 +58,11 @@ struct TrainingWork {
 };
 
 struct TrainingSamples {
-  std::vector<Vec3f> colors;    // of a pixel one after the other
-  std::vector<float> recorded;  // the planes behind the colour, sample by sample
-  int planes = 0;               // how many these are
+  std::vector<Vec3f> colors;  // of a pixel one after the other
+  /// The planes behind the colour, sample by sample; with light-paths=splats, of the
+  /// first sample of each pixel the SubpathVariance of the pixel's subpaths.
+  std::vector<float> recorded;
+  int planes = 0;  // how many these are
   // Independent observations of each pixel, with equally many samples
   // (PlanOptions::has_own_sequences).
   std::uint32_t observations = 1;

@@ -40,17 +40,6 @@ void Films::RespondToSplats(std::vector<PixelSplat>& splats) const {
   }
 }
 
-// Returns the places in the film of the pixels of a tile.
-std::vector<std::size_t> Films::FilmPixels(const TileSamples& tile) const {
-  std::vector<std::size_t> places;
-  for (const std::uint32_t pixel : tile.pixels) {
-    const int x = int(pixel) % tile.width - film_.x0();
-    const int y = int(pixel) / tile.width - film_.y0();
-    places.push_back(std::size_t(y) * std::size_t(film_.width()) + std::size_t(x));
-  }
-  return places;
-}
-
 void Films::Add(const TileSamples& tile) {
   if (response_) Respond(tile);
   const std::vector<std::uint32_t>& pixels = tile.pixels;
@@ -66,7 +55,7 @@ void Films::Add(const TileSamples& tile) {
   }
   if (film_.splats() == nullptr) return;
   if (response_) RespondToSplats(*tile.splats);
-  film_.splats()->Add(*tile.splats, FilmPixels(tile), tile.light_paths);
+  film_.splats()->Add(*tile.splats, tile.light_paths);
 }
 
 }  // namespace lanelight

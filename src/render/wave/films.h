@@ -20,10 +20,10 @@ struct TileSamples {
   int width = 0;
   float* values = nullptr;
   std::uint32_t count = 0;  // per pixel
-  /// What light subpaths have brought to pixels of the film, if it keeps that, and the
-  /// number of subpaths for each pixel.
+  /// What light subpaths have brought to pixels of the film, if it keeps that, and their
+  /// number.
   std::vector<PixelSplat>* splats = nullptr;
-  std::uint32_t light_paths = 0;
+  std::uint64_t light_paths = 0;
 };
 
 class Films {
@@ -46,7 +46,6 @@ class Films {
 
  private:
   void Respond(const TileSamples& tile) const;
-  std::vector<std::size_t> FilmPixels(const TileSamples& tile) const;
   void RespondToSplats(std::vector<PixelSplat>& splats) const;
 
   SamplePlanes planes_;

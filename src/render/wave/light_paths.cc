@@ -113,12 +113,12 @@ void LightSubpaths::MakeRoom(std::size_t paths) {
   const std::size_t entries = paths * kMaxLightVertices;
   if (paths > room_) {
     room_ = paths;
-    entries_.resize(6 * entries);
+    entries_.resize(7 * entries);
   }
   std::uint32_t* next = entries_.data();
   splats_.present = next;
   for (float** column : {&splats_.x, &splats_.y, &splats_.light[0], &splats_.light[1],
-                         &splats_.light[2]}) {
+                         &splats_.light[2], &splats_.share}) {
     next += entries;
     *column = reinterpret_cast<float*>(next);
   }

@@ -32,6 +32,19 @@ class LightSubpaths {
   /// to the counts of `paths`.
   void Trace(const TileWork& work, Wave& paths, StageClock* clock,
              std::vector<PixelSplat>& out);
+  /// Calls visit(subpath, share, splats) for each vertex of the last task that the camera
+  /// sees: the MIS weight of camera paths there, and what it brings to pixels. Subpaths
+  /// of a pixel are consecutive.
+  template <class Visit>
+  void ForEachVertex(std::size_t paths, const Visit& visit) {
+    std::vector<PixelSplat> splats;
+    for (std::size_t e = 0; e < paths * kMaxLightVertices; ++e) {
+      if (splats_.present[e] == 0) continue;
+      splats.clear();
+      AddEntry(e, 0, splats);
+      visit(e / kMaxLightVertices, splats_.share[e], splats);
+    }
+  }
 
  private:
   void MakeRoom(std::size_t paths);

@@ -35,7 +35,7 @@ struct TaskSamples {
   AlignedVector<float> values;
   std::uint32_t count = 0;         // samples per pixel; 0 = not run
   std::vector<PixelSplat> splats;  // of light subpaths, with kLightPaths
-  std::uint32_t light_paths = 0;   // per pixel
+  std::uint64_t light_paths = 0;   // number of these
   RunCounts counts;
 };
 

@@ -96,7 +96,8 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
     if (space.reuse) space.reuse->Connect(rect, space.wavefront.wave(), clock);
     if (space.light_paths) {
       space.light_paths->Trace(work, space.wavefront.wave(), clock, out.splats);
-      out.light_paths = space.light_paths->PathsOf(work.first_sample, work.samples);
+      out.light_paths = work.num_pixels * std::uint64_t{space.light_paths->PathsOf(
+                                              work.first_sample, work.samples)};
     }
     const Wave& wave = space.wavefront.wave();
     out.counts = {stride, wave.rays_closest, wave.rays_shadow, wave.health};

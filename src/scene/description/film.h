@@ -27,6 +27,9 @@ struct Integrator {
   int max_depth = 5;     // scattering events at most, as in pbrt
   std::string strategy;  // changes to the strategy (src/vocabulary/strategy/strategy.h)
   SourceLocation strategy_where;
+  /// The file asks for paths from the lights as well (pbrt-v4's "bdpt", "lightpath"),
+  /// there.
+  std::optional<SourceLocation> from_lights;
   /// Surfaces scatter evenly, with the reflectance that their material has for light from
   /// where they are seen (pbrt-v4's option "forcediffuse").
   bool force_diffuse = false;

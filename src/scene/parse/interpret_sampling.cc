@@ -86,13 +86,15 @@ void InterpretIntegrator(ParseState& state, const std::string& type, ParamSet& p
   const bool ours = type == "path" || type == "volpath";
   if (!ours) {
     const bool changes_image = type == "ambientocclusion" || type == "function";
-    const bool starts_at_lights =
-        type == "bdpt" || type == "lightpath" || type == "mlt" || type == "sppm";
+    const bool finds_caustics = type == "mlt" || type == "sppm";
+    if (type == "bdpt" || type == "lightpath") {
+      state.scene.integrator.from_lights = params.where();
+    }
     state.scene.notes.push_back(
         {params.where(),
          fmt::format(
              "integrator {} is replaced by \"path\"{}", Quoted(type),
-             starts_at_lights ? "; for caustics use --strategy light-paths=splats" : ""),
+             finds_caustics ? "; for caustics use --strategy light-paths=splats" : ""),
          changes_image});
   }
   state.scene.integrator.max_depth = params.Integer("maxdepth", 5, {0, 1000000});

@@ -135,7 +135,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 
 #define LANELIGHT_DECISIONS(X, T, K)                                                            \
   X(T, K, None, PLAIN, ({}), "none", "", "the strategy is used as given (default for short renders, and if a strategy is named)", "one strategy", "")       \
-  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses another roulette or reuse if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
+  X(T, K, Pilot, PLAIN, ({kDecides}), "pilot", "", "a short trial run before the image chooses another roulette, path reuse or light subpaths if that is clearly more efficient (default of `render`, `plan` and `profile` from 4 s or 8 million samples, if no strategy is named)", \
     "argmin over strategies of variance times cost", "")
 // clang-format on
 

@@ -86,10 +86,16 @@ TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts
        {"points=independent", "points=sobol", "pairs=antithetic",
         "points=independent,pairs=antithetic", "roulette=adjoint", "roulette=efficiency",
         "points=cmj", "points=halton", "decide=pilot", "reuse=block:16",
-        "points=independent,reuse=block:64:compact"}) {
+        "points=independent,reuse=block:64:compact", "light-paths=splats:3"}) {
     INFO(strategy);
     CheckCuts(RenderOf("cornell-box", strategy), {1, 3, 7});
   }
+}
+
+TEST_CASE("any split: light subpaths that a trial run has chosen",
+          "[cuts][light_paths]") {
+  const CheckpointedRender r = RenderOf("caustic", "decide=pilot");
+  CheckCuts(r, {3});
 }
 
 TEST_CASE("any split: wavelengths that tiles share", "[cuts]") {

@@ -6,8 +6,11 @@
 #include <catch2/catch.hpp>
 
 #include "src/base/core/error.h"
+#include "src/render/job/job.h"
+#include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
 #include "src/render/run/run.h"
+#include "src/scene/parse/parse.h"
 
 namespace lanelight {
 
@@ -128,6 +131,38 @@ TEST_CASE("long renders choose a strategy by a trial run, unless one is given",
   explicit_settings.strategy = ParseStrategy("points=cmj,decide=pilot", {});
   CHECK(DecisionOf(explicit_settings) == Decide::kPilot);
   CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
+}
+
+TEST_CASE("integrators that start at lights select light subpaths where these work",
+          "[render][light_paths]") {
+  const std::string lamp = R"(
+    AreaLightSource "diffuse" Shape "sphere" "float radius" 0.1
+    AttributeBegin Translate 0 0 2 Shape "disk" AttributeEnd)";
+  const std::string fog = R"( MakeNamedMedium "fog" "string type" "homogeneous"
+    MediumInterface "" "fog" Shape "sphere" "float radius" 9)";
+  const auto job_of = [](const std::string& integrator, const std::string& world,
+                         const std::string& strategy) {
+    RenderSettings settings;
+    settings.resolution = {4, 4};
+    settings.strategy = ParseStrategy(strategy, {});
+    return PrepareJob(
+        ParseSceneText("Integrator \"" + integrator + "\" WorldBegin " + world, "s.pbrt",
+                       "."),
+        settings);
+  };
+  const auto splats = [](const Job& job) {
+    return job.plan.features.Has(Feature::kLightPaths) &&
+           job.scene.strategy.light_paths == LightPaths::kSplats;
+  };
+  CHECK(splats(job_of("bdpt", lamp, "")));
+  CHECK(splats(job_of("lightpath", lamp, "")));
+  CHECK_FALSE(splats(job_of("path", lamp, "")));
+  CHECK_FALSE(splats(job_of("bdpt", lamp, "points=cmj")));
+  const Job hazy = job_of("bdpt", lamp + fog, "");
+  CHECK_FALSE(splats(hazy));
+  CHECK(hazy.scene.strategy.light_paths == LightPaths::kNone);
+  CHECK_THAT(hazy.loaded->description.notes.back().message,
+             Contains("no path starts at a light") && Contains("media"));
 }
 
 TEST_CASE("the strategy is decided only where allowed or resumed", "[render]") {

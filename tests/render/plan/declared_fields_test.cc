@@ -130,11 +130,11 @@ class Checker {
 
   void MakeLightSplats() {
     const std::size_t entries = std::size_t{Rows()} * kMaxLightVertices;
-    splat_memory_.resize(6 * entries);
+    splat_memory_.resize(7 * entries);
     splats_ = {1, -100, -100, 100, 100, splat_memory_.data()};
     float* next = reinterpret_cast<float*>(splat_memory_.data());
     for (float** column : {&splats_.x, &splats_.y, &splats_.light[0], &splats_.light[1],
-                           &splats_.light[2]}) {
+                           &splats_.light[2], &splats_.share}) {
       *column = next += entries;
     }
     wavefront_->wave().light_splats = &splats_;

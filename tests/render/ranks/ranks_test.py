@@ -18,7 +18,7 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic",
-              "control=regression", "roulette=adjoint", "decide=pilot"]
+              "control=regression", "roulette=adjoint", "light-paths=splats:3", "decide=pilot"]
 INTERRUPTED = 6
 
 
@@ -204,15 +204,6 @@ def test_other_scene(p):
     shutil.rmtree("there")
     text = on_two_hosts(p, lambda scene: None)
     check("error: rank 1 on " in text and "cannot read the scene file" in text, text)
-
-
-def test_light_paths(p):
-    result = subprocess.run(
-        p.command(2, "render", p.scene(), "--strategy", "light-paths=splats", "--resolution", "32x32",
-                  "-o", "image.exr"), stderr=subprocess.PIPE, text=True)
-    check(result.returncode == 1, f"exit code {result.returncode}")
-    check("light-paths does not support MPI" in result.stderr, result.stderr)
-    check(not os.path.exists("image.exr"), "an image was written")
 
 
 def test_other_commands(p):

@@ -1,4 +1,4 @@
-// decide=pilot on scenes that others have made, by pilots of a render of ten seconds.
+// decide=pilot on whole scenes, by pilots of a render of ten seconds.
 #include <catch2/catch.hpp>
 
 #include "src/base/core/source_location.h"
@@ -12,7 +12,7 @@ constexpr std::uint64_t kPlanned = 4'000'000;
 constexpr int kSeeds = 8;
 
 struct Choices {
-  int adjoint = 0, blocks = 0;
+  int adjoint = 0, blocks = 0, splats = 0;
 };
 
 // In how many of kSeeds renders each is chosen.
@@ -33,6 +33,7 @@ Choices ChoicesFor(const std::string& scene) {
     UNSCOPED_INFO(seed << ": " << result.training.note);
     chosen.adjoint += result.training.changes == "roulette=adjoint,decide=none";
     chosen.blocks += result.training.changes.find("reuse=block") != std::string::npos;
+    chosen.splats += result.training.changes.find("splats") != std::string::npos;
   }
   return chosen;
 }
@@ -52,8 +53,14 @@ TEST_CASE("a trial run accounts for rare bright samples", "[decision]") {
   const Choices box = ChoicesFor(folder + "/cornell-box/reference.pbrt");
   CHECK(box.adjoint <= 1);
   CHECK(box.blocks >= 6);
+  CHECK(box.splats == 0);  // which gain nothing there
   // Hardly any path meets a second surface that serves others.
   CHECK(ChoicesFor(folder + "/coffee/reference.pbrt").blocks == 0);
+}
+
+TEST_CASE("a trial run finds caustics that camera paths miss",
+          "[decision][light_paths]") {
+  CHECK(ChoicesFor(LANELIGHT_SOURCE_DIR "/scenes/caustic.pbrt").splats == kSeeds);
 }
 
 }  // namespace lanelight

@@ -155,6 +155,8 @@ TEST_CASE("integrators", "[parse]") {
     CHECK(HasNote(ParseOptionsBlock(std::string("Integrator \"") + name + '"'),
                   "replaced by \"path\""));
   }
+  CHECK(ParseOptionsBlock("Integrator \"bdpt\"").integrator.from_lights);
+  CHECK_FALSE(ParseOptionsBlock("Integrator \"mlt\"").integrator.from_lights);
 }
 
 TEST_CASE("accelerator, options and color space are noted", "[parse]") {
