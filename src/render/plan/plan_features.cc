@@ -124,7 +124,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
 }
 
 FeatureSet LightPathFeatures(FeatureSet f) {
-  bool played = false;  // roulette
+  const bool plays_roulette = f.Has(Feature::kRoulette);
   // Shadow rays go to the camera, and lights are neither sampled nor hit.
   f.Remove({Feature::kManyLights, Feature::kMis, Feature::kProjectedHits,
             Feature::kLightCandidates, Feature::kLightTable, Feature::kLightTree,
@@ -144,11 +144,9 @@ FeatureSet LightPathFeatures(FeatureSet f) {
     f.Remove(TurnsOn(static_cast<Pairs>(i)));
   }
   for (std::size_t i = 0; i < std::size(kRouletteNames); ++i) {
-    const FeatureSet roulette = TurnsOn(static_cast<Roulette>(i));
-    if (f.HasAll(roulette) && roulette.Has(Feature::kRoulette)) played = true;
-    f.Remove(roulette);
+    f.Remove(TurnsOn(static_cast<Roulette>(i)));
   }
-  if (played) f.Add(TurnsOn(Roulette::kThroughput));
+  if (plays_roulette) f.Add(TurnsOn(Roulette::kThroughput));
   f.Add({Feature::kIndependentSampleSequence, Feature::kLightSubpath});
   return f;
 }

@@ -34,11 +34,12 @@ Plan PlanOf(const std::string& world, std::uint32_t max_depth = 5,
   return MakePlan(scene, options);
 }
 
-std::set<std::string> StageNames(const Plan& plan) {
+std::set<std::string> StageNames(const Phase& phase) {
   std::set<std::string> names;
-  for (const PlannedStage& s : plan.paths().stages) names.insert(s.stage.name);
+  for (const PlannedStage& s : phase.stages) names.insert(s.stage.name);
   return names;
 }
+std::set<std::string> StageNames(const Plan& plan) { return StageNames(plan.paths()); }
 
 bool IsLive(const Plan& plan, Field field) {
   return std::count(plan.live_fields.begin(), plan.live_fields.end(), field) > 0;
@@ -126,6 +127,18 @@ TEST_CASE("plan: small depths need neither roulette nor shading", "[plan]") {
     CHECK(name.rfind("surface", 0) != 0);
   }
   CHECK_FALSE(IsLive(emission_only, Field::p_x));
+}
+
+TEST_CASE("plan: light subpaths end by roulette as camera paths do", "[plan]") {
+  const std::string scene = "AreaLightSource \"diffuse\"\n" + kTriangle;
+  const auto names = [&](const char* roulette) {
+    const Plan plan =
+        PlanOf(scene, 5, std::string("light-paths=splats,roulette=") + roulette);
+    return StageNames(*plan.Find(PhaseId::kLightPaths));
+  };
+  CHECK(names("throughput").count("roulette_throughput"));
+  CHECK(names("constant").count("roulette_throughput"));
+  CHECK_FALSE(names("none").count("roulette_throughput"));
 }
 
 TEST_CASE("plan: stages that are left out are never called", "[plan]") {
