@@ -67,6 +67,37 @@ HWY_INLINE EmittedFrom PointOf(const Wave& wave, const Lights& light, V2 u) {
   return from;
 }
 
+// Returns the image of shapes at points `at`; 1 for lights without one.
+HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
+  const SceneParts& scene = wave;
+  LightUv uv = {Splat(0), Splat(0)};
+  const auto take = [&](LightShape shape, uint32_t any, auto&& uv_of) HWY_ATTR {
+    if (!wave.chances->emission.Has(shape)) return;
+    const MF mine = HasShape(light, shape);
+    const LightUv its = uv_of(PrimitiveOf(light, mine, any), mine);
+    uv = {hn::IfThenElse(mine, its.u, uv.u), hn::IfThenElse(mine, its.v, uv.v)};
+  };
+  take(LightShape::kTriangle, 0, [&](VI prim, MF) HWY_ATTR {
+    return UvOnTriangle(scene, LightTriangle(scene, prim), prim, at);
+  });
+  take(LightShape::kRectangle, 0, [&](VI prim, MF mine) HWY_ATTR {
+    const VI second = hn::IfThenElseZero(
+        hn::RebindMask(DI(), mine), light.I(offsetof(LightRecord, second_primitive)));
+    return UvOnRectangle(scene, LightTriangle(scene, prim), prim, second, at);
+  });
+  take(LightShape::kSphere, scene.ranges->spheres, [&](VI prim, MF) HWY_ATTR {
+    return SphereUv(scene, prim, Normalize(at - LightSphere(scene, prim).center));
+  });
+  take(LightShape::kDisk, scene.ranges->disks, [&](VI prim, MF) HWY_ATTR {
+    const LightDisk disk(scene, prim);
+    return DiskUv(scene, prim, disk, at - disk.center);
+  });
+  const MF has_image = hn::Gt(light.Area(), hn::Zero(DF()));
+  const VI image = hn::IfThenElseZero(hn::RebindMask(DI(), has_image),
+                                      light.I(offsetof(LightRecord, image)));
+  return LightImages(*scene.lights, image).Bilinear(uv.u, hn::Sub(Splat(1.0f), uv.v));
+}
+
 // The start of a light subpath.
 struct Start {
   V3 o, d;
@@ -126,9 +157,13 @@ HWY_INLINE Start StartAtShape(const Wave& wave, const Lights& light, VI index,
   const VF density = AreaDensity(wave, light, index), per_cosine = PerCosine(light);
   const VF area =
       hn::IfThenElseZero(hn::Gt(density, hn::Zero(DF())), hn::Div(Splat(1.0f), density));
+  V3 radiance = light.Radiance();
+  if (wave.chances->emission.has_images) {
+    radiance = Mul(radiance, ImageAtStart(wave, light, from.at));
+  }
   return {MulAdd(from.n, clearance, from.at),
           Renormalize(FrameFromNormal(from.n).FromLocal(local)),
-          light.Radiance(),
+          radiance,
           hn::Div(area, per_cosine),
           hn::Mul(local.z, area),
           hn::Mul(local.z, per_cosine)};

@@ -16,7 +16,6 @@ bool StartsSubpaths(const LightRecord& light) {
     case LightShape::kRectangle:
     case LightShape::kSphere:
     case LightShape::kDisk:
-      return light.image == 0 && light.two_sided == 0;
     case LightShape::kPoint:
     case LightShape::kGoniometric:
       return true;

@@ -102,6 +102,43 @@ TEST_CASE("splats: spots that are stretched, goniometric and projection lights",
   CheckSame(scene);
 }
 
+// A lamp that shines to both sides hangs between walls; only its back lights what is
+// behind it.
+TEST_CASE("splats: shapes with two sides", "[light_paths]") {
+  SceneBuilder b = Corner();
+  const Index black = b.AddDiffuse(Grey(0));
+  b.AddQuad({-0.9, 0.6, 0.9}, {0.6, 0, 0}, {0.1, 0.1, 0.5}, black,
+            b.AddEmission({9, 7, 5}, true));
+  b.AddDisk({0.8, -0.6, 1.2}, {1, 1, 0.3}, 0.25, black, b.AddEmission({5, 7, 9}, true));
+  b.AddSphere({-0.7, -0.4, 0.4}, 0.15, black, b.AddEmission({9, 5, 9}, true));
+  b.AddDisk({-0.7, -0.4, 0.9}, {0, 0, 1}, 0.2, black, b.AddEmission({5, 5, 3}));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+}
+
+TEST_CASE("splats: shapes with an image", "[light_paths]") {
+  SceneBuilder b = Corner();
+  const Index black = b.AddDiffuse(Grey(0));
+  const auto picture = [&](Rgb scale) {
+    const Index light = b.AddEmission(scale, true);
+    b.scene().area_lights[static_cast<std::size_t>(light)].image_path = Picture(
+        "steep.exr", 4, 4,
+        [](int x, int y) { return Rgb{x < 2 ? 0.1 : 2.0, y < 2 ? 0.1 : 2.0, 1}; });
+    return light;
+  };
+  b.AddQuad({-0.9, 0.6, 0.9}, {0.8, 0, 0}, {0, 0, 0.8}, black, picture({9, 7, 5}));
+  b.AddDisk({0.8, -0.6, 1.2}, {1, 1, 0.3}, 0.3, black, picture({5, 7, 9}));
+  b.AddSphere({-0.7, -0.4, 0.4}, 0.2, black, picture({9, 5, 9}));
+  TriangleMesh triangle;
+  triangle.positions = {{-0.2, -1, 1.5}, {0.3, -1, 1.5}, {0.3, -0.5, 1.4}};
+  triangle.uvs = {{0, 0}, {1, 0}, {0.2, 0.9}};
+  triangle.indices = {0, 1, 2};
+  b.AddMesh(triangle, black, picture({7, 7, 7}));
+  b.AddQuad({0, 0.5, 1.6}, {0.3, 0, 0}, {0, 0.3, 0}, black, b.AddEmission({5, 5, 3}));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+}
+
 // Lights over a floor beside a mirror that the camera does not see; or, instead of the
 // mirror, the images of the lights in it.
 SceneBuilder FloorWith(bool mirror) {
