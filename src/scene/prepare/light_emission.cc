@@ -10,7 +10,8 @@
 namespace lanelight {
 namespace {
 
-bool StartsSubpaths(const LightRecord& light) {
+bool StartsSubpaths(const LightTable& table, const LightRecord& light) {
+  const bool has_disk = table.radius > 0;
   switch (static_cast<LightShape>(light.shape)) {
     case LightShape::kTriangle:
     case LightShape::kRectangle:
@@ -23,6 +24,7 @@ bool StartsSubpaths(const LightRecord& light) {
     case LightShape::kProjection:
       return light.size[0] > 0;
     case LightShape::kDistant:
+      return has_disk;
     case LightShape::kInfiniteConstant:
     case LightShape::kInfiniteImage:
     case LightShape::kPortal:
@@ -60,7 +62,7 @@ LightEmission MakeLightEmission(const CompiledScene& scene) {
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const LightRecord& light = table.lights[i];
-    if (!StartsSubpaths(light)) continue;
+    if (!StartsSubpaths(table, light)) continue;
     weights[i] = table.power[i] * ShareOfPower(table, light);
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;

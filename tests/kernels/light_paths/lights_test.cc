@@ -102,6 +102,18 @@ TEST_CASE("splats: spots that are stretched, goniometric and projection lights",
   CheckSame(scene);
 }
 
+TEST_CASE("splats: distant lights", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.AddDistant({0.3, -0.5, 0.7}, {2, 1.5, 1});
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+  // Beside lamps, and across the scene.
+  b.AddDistant({-0.6, 0.1, 0.05}, {1, 2, 3});
+  b.AddPoint({-0.6, 0.3, 1.2}, {1, 1.5, 2});
+  ReuseScene mixed = Lit(b);
+  CheckSame(mixed);
+}
+
 // A lamp that shines to both sides hangs between walls; only its back lights what is
 // behind it.
 TEST_CASE("splats: shapes with two sides", "[light_paths]") {
@@ -178,6 +190,15 @@ TEST_CASE("splats: a spot's caustic of a plane mirror is the light of its image"
   mirror.AddSpot({-0.2, 0.1, 1.2}, {1.2, 0, 0.6}, {9, 6, 3}, 30, 20);
   images.AddSpot({-0.2, 0.1, 1.2}, {1.2, 0, 0.6}, {9, 6, 3}, 30, 20);
   images.AddSpot({2.6, 0.1, 1.2}, {1.2, 0, 0.6}, {9, 6, 3}, 30, 20);
+  CheckCaustic(mirror, images);
+}
+
+TEST_CASE("splats: a distant light's caustic of a plane mirror is that of its image",
+          "[light_paths]") {
+  SceneBuilder mirror = FloorWith(true), images = FloorWith(false);
+  mirror.AddDistant({-0.5, 0.1, 0.9}, {3, 2, 1});
+  images.AddDistant({-0.5, 0.1, 0.9}, {3, 2, 1});
+  images.AddDistant({0.5, 0.1, 0.9}, {3, 2, 1});
   CheckCaustic(mirror, images);
 }
 
