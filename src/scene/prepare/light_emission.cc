@@ -27,6 +27,7 @@ bool StartsSubpaths(const LightTable& table, const LightRecord& light) {
       return has_disk;
     case LightShape::kInfiniteConstant:
     case LightShape::kInfiniteImage:
+      return has_disk && table.portals.empty();
     case LightShape::kPortal:
     case LightShape::kCount:
       break;

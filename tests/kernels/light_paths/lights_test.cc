@@ -114,6 +114,42 @@ TEST_CASE("splats: distant lights", "[light_paths]") {
   CheckSame(mixed);
 }
 
+Light Sky(const std::string& name, double brightest) {
+  Light light;
+  light.kind = LightKind::kInfinite;
+  light.image_path = Picture(name, 8, 8, [=](int x, int y) {
+    const bool sun = x == 3 && y == 2;
+    return sun ? Rgb{brightest, brightest, brightest / 2} : 0.2 * Patchwork(x, y);
+  });
+  light.world_from_light = Transform::Rotate(30, {0.4, 1, 0.2});
+  return light;
+}
+
+TEST_CASE("splats: constant infinite lights", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.AddEnvironment({0.5, 0.7, 1});
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+}
+
+TEST_CASE("splats: infinite lights with an image", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.scene().lights.push_back(Sky("sky.exr", 30));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+  CheckSame(scene, "points=sobol,environment=compensated", "light-paths=splats:2");
+}
+
+TEST_CASE("splats: several infinite lights are weighed together", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.AddEnvironment({0.5, 0.3, 0.1});
+  b.scene().lights.push_back(Sky("first.exr", 20));
+  b.scene().lights.push_back(Sky("second.exr", 3));
+  b.AddDistant({0.3, -0.5, 0.7}, {2, 1.5, 1});
+  ReuseScene scene = Lit(b);
+  CheckSame(scene);
+}
+
 // A lamp that shines to both sides hangs between walls; only its back lights what is
 // behind it.
 TEST_CASE("splats: shapes with two sides", "[light_paths]") {
