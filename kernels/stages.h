@@ -40,6 +40,7 @@ namespace lanelight {
   X(MediumTracking)                            \
   X(Hits)                                      \
   X(WeighHits)                                 \
+  X(WeighEscaped)                              \
   X(Escape)                                    \
   X(HitLightTree)                              \
   X(EmissionTriangle)                          \

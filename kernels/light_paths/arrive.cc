@@ -7,12 +7,19 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-// Continues the chain with the distance to this vertex.
-HWY_INLINE void UpdateChain(const PathColumns& p, const StoreSlots& slots) {
+// Continues the chain with the distance to this vertex. `from_far`: subpaths may come
+// from lights at infinity, with parallel rays.
+HWY_INLINE void UpdateChain(const PathColumns& p, const StoreSlots& slots,
+                            bool from_far) {
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
   const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
-  const VF t = Gather(p.t, slots), t2 = hn::Mul(t, t);
-  const VF density = hn::Mul(Gather(p.lp_pdf, slots), hn::Abs(Dot(ng, d)));
+  const VF t = Gather(p.t, slots);
+  VF pdf = Gather(p.lp_pdf, slots), t2 = hn::Mul(t, t);
+  if (from_far) {
+    t2 = hn::IfThenElse(hn::Lt(pdf, hn::Zero(DF())), Splat(1.0f), t2);
+    pdf = hn::Abs(pdf);
+  }
+  const VF density = hn::Mul(pdf, hn::Abs(Dot(ng, d)));
   Scatter(hn::Div(t2, density), p.lp_inverse, slots);
   Scatter(hn::Div(Gather(p.lp_chain, slots), t2), p.lp_chain, slots);
   Scatter3(d, p.lp_in_x, p.lp_in_y, p.lp_in_z, slots);
@@ -32,7 +39,7 @@ void ArriveCamera(Wave& wave) {
           Scatter(hn::IfThenElse(first, CameraView(*wave.camera).Density(d), pdf),
                   p.lp_pdf, slots);
         }
-        UpdateChain(p, slots);
+        UpdateChain(p, slots, false);
         const MF lost = hn::Or(IsNumber(before, kNotFromLight),
                                hn::AndNot(IsOfKind(wave, slots, kSplattingKinds), first));
         Scatter(hn::IfThenElse(hn::RebindMask(di, lost),
@@ -45,9 +52,10 @@ void ArriveCamera(Wave& wave) {
 
 void ArriveLight(Wave& wave) {
   const PathColumns& p = wave.path;
+  const bool from_far = wave.chances->emission.HasAny(kFarLight);
   ForEachBatch(wave, wave.queue(QueueId::kVertex),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 UpdateChain(p, slots);
+                 UpdateChain(p, slots, from_far);
                  const VI before = Gather(p.lp_vertex, slots);
                  Scatter(hn::Add(before, hn::Set(DI(), 1)), p.lp_vertex, slots);
                });

@@ -7,6 +7,9 @@
 //
 //   T / E = product over j = 1, ..., k of r_j / p_j, times r_y / p_y.
 //
+// E cannot find lights without extent. Both T and N choose such a light with the same
+// probability, so that T / N is the product over j alone.
+//
 // Both sides keep the product so far in `lp_chain`, which lacks what depends on the next
 // direction: at arrival at a vertex 1 / p of the vertex before it, times the cosine there
 // over the squared distance. `lp_inverse` is 1 / p of the vertex itself. So at a
@@ -16,8 +19,8 @@
 //
 // For specular vertices both densities are 1. The weights are those of the balance
 // heuristic between T and (E + N), of which the latter share theirs as without T. There N
-// is taken as if it chose lights by power and points by area, whatever it does: the
-// weights of a path sum to 1 for any such choice.
+// is taken as if it chose lights and points as T does (starts-inl.h), whatever it does:
+// the weights of a path sum to 1 for any such choice.
 #ifndef LANELIGHT_LIGHT_PATHS_CHAIN_INL_H_
 #define LANELIGHT_LIGHT_PATHS_CHAIN_INL_H_
 
@@ -49,29 +52,7 @@ HWY_INLINE MF IsOfKind(const Wave& wave, const Slots& slots, uint32_t kinds) {
   return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, kinds)), hn::Zero(du)));
 }
 
-HWY_INLINE MF HasShape(const Lights& light, LightShape shape) {
-  return hn::RebindMask(DF(), hn::Eq(light.I(offsetof(LightRecord, shape)),
-                                     hn::Set(DI(), static_cast<int32_t>(shape))));
-}
-
-/// Returns the density, by area, of the points from which light subpaths start; 0 for
-/// lights from which none do: those that have no area, or an image, or two sides.
-HWY_INLINE VF EmissionDensity(const Wave& wave, const Lights& light, VI index) {
-  const auto plain = hn::Eq(light.I(offsetof(LightRecord, image)), hn::Zero(DI()));
-  const VF area = light.Area();
-  const MF emits = hn::And(hn::AndNot(light.TwoSided(), hn::RebindMask(DF(), plain)),
-                           hn::Gt(area, hn::Zero(DF())));
-  const VF pmf = Gather(wave.chances->pmf.data(), index);
-  return hn::IfThenElseZero(emits, hn::Div(pmf, area));
-}
-
-/// Returns the density of a light sample at a point with the normal n.
-HWY_INLINE VF SampledDensity(VF emission, VF distance, V3 n, V3 direction) {
-  return hn::Div(hn::Mul(emission, hn::Mul(distance, distance)),
-                 hn::Abs(Dot(n, direction)));
-}
-
-/// Returns the weight of E or N: `ratio` is T / E times the density `pdf_sa` of E's last
+/// Returns the weight of E or N: `ratio` is T / E times the density of E's last
 /// direction, `found` that density and N's together.
 HWY_INLINE VF CameraWeight(const Wave& wave, VF ratio, VF found) {
   const VF t = hn::Mul(ratio, Splat(wave.light_splats->paths_per_sample));

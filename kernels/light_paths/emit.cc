@@ -1,12 +1,12 @@
-// light-paths=splats: starts a light subpath at a point of an emitting shape, chosen by
-// the probability of the light and uniform over its area, in a direction distributed like
-// the cosine.
-//   estimator   Le cos / (p_A p_dir) = Le pi area / pmf
+// light-paths=splats: starts light subpaths at lights (kernels/light_paths/starts-inl.h).
+//   estimator   Le cos / (p_A p_dir) of shapes, I / p_dir of lights with a position,
+//               L / (p_dir p_disk) of lights at infinity
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"
-#include "kernels/lights/geometry-inl.h"
-#include "kernels/light_paths/chain-inl.h"
+#include "kernels/lights/intensity-inl.h"
+#include "kernels/lights/light_points-inl.h"
+#include "kernels/light_paths/starts-inl.h"
 #include "kernels/warp/sphere-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -19,12 +19,6 @@ struct EmittedFrom {
     n = IfThenElse(mask, other_n, n);
   }
 };
-
-// Returns a primitive of the shape in all lanes: that of lights that have it.
-HWY_INLINE VI PrimitiveOf(const Lights& light, MF has_shape, uint32_t any) {
-  return hn::IfThenElse(hn::RebindMask(DI(), has_shape), light.Primitive(),
-                        hn::Set(DI(), static_cast<int32_t>(any)));
-}
 
 HWY_INLINE void TakeTriangle(const Wave& wave, const Lights& light, V2 u,
                              EmittedFrom& from) {
@@ -73,56 +67,242 @@ HWY_INLINE EmittedFrom PointOf(const Wave& wave, const Lights& light, V2 u) {
   return from;
 }
 
-// The light with the cumulative probability u, among those that emit subpaths.
-HWY_INLINE VI SelectEmitter(const Wave& wave, VF u) {
-  const LightChances& table = *wave.chances;
-  const VF scaled = hn::Mul(u, Splat(static_cast<float>(table.alias.size())));
+// Returns the image of shapes at points `at`; 1 for lights without one.
+HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
+  const SceneParts& scene = wave;
+  LightUv uv = {Splat(0), Splat(0)};
+  const auto take = [&](LightShape shape, uint32_t any, auto&& uv_of) HWY_ATTR {
+    if (!wave.chances->emission.Has(shape)) return;
+    const MF mine = HasShape(light, shape);
+    const LightUv its = uv_of(PrimitiveOf(light, mine, any), mine);
+    uv = {hn::IfThenElse(mine, its.u, uv.u), hn::IfThenElse(mine, its.v, uv.v)};
+  };
+  take(LightShape::kTriangle, 0, [&](VI prim, MF) HWY_ATTR {
+    return UvOnTriangle(scene, LightTriangle(scene, prim), prim, at);
+  });
+  take(LightShape::kRectangle, 0, [&](VI prim, MF mine) HWY_ATTR {
+    const VI second = hn::IfThenElseZero(
+        hn::RebindMask(DI(), mine), light.I(offsetof(LightRecord, second_primitive)));
+    return UvOnRectangle(scene, LightTriangle(scene, prim), prim, second, at);
+  });
+  take(LightShape::kSphere, scene.ranges->spheres, [&](VI prim, MF) HWY_ATTR {
+    return SphereUv(scene, prim, Normalize(at - LightSphere(scene, prim).center));
+  });
+  take(LightShape::kDisk, scene.ranges->disks, [&](VI prim, MF) HWY_ATTR {
+    const LightDisk disk(scene, prim);
+    return DiskUv(scene, prim, disk, at - disk.center);
+  });
+  const MF has_image = hn::Gt(light.Area(), hn::Zero(DF()));
+  const VI image = hn::IfThenElseZero(hn::RebindMask(DI(), has_image),
+                                      light.I(offsetof(LightRecord, image)));
+  return LightImages(*scene.lights, image).Bilinear(uv.u, hn::Sub(Splat(1.0f), uv.v));
+}
+
+// The start of a light subpath.
+struct Start {
+  V3 o, d;
+  V3 light;    // that leaves, ...
+  VF scale;    // ... times this it is divided by its density; 0: there is none
+  VF chain;    // density of E and N over that of T, up to the next vertex
+  VF density;  // column lp_pdf
+
+  HWY_INLINE void Take(MF mask, const Start& s) {
+    o = IfThenElse(mask, s.o, o);
+    d = IfThenElse(mask, s.d, d);
+    light = IfThenElse(mask, s.light, light);
+    scale = hn::IfThenElse(mask, s.scale, scale);
+    chain = hn::IfThenElse(mask, s.chain, chain);
+    density = hn::IfThenElse(mask, s.density, density);
+  }
+};
+
+// The numbers of a light subpath.
+struct StartNumbers {
+  VF select, alias, side;
+  V2 place, direction;
+
+  HWY_INLINE StartNumbers(const Wave& wave, const Slots& slots) {
+    const DU du;
+    const PathColumns& p = wave.path;
+    LaneRandom random = {hn::BitCast(du, Gather(p.pixel, slots)),
+                         hn::BitCast(du, Gather(p.sample, slots)), hn::Zero(du),
+                         hn::Set(du, wave.run->seed ^ 0x51ed270bu)};
+    VF u[4], v[4];
+    random.Next4(u);
+    random.Next4(v);
+    select = u[0];
+    place = {u[1], u[2]};
+    direction = {u[3], v[0]};
+    alias = v[1];
+    side = v[2];
+  }
+};
+
+HWY_INLINE VI SelectStart(const LightEmission& table, const StartNumbers& u) {
+  const VF count = Splat(static_cast<float>(table.alias.size()));
   const VI last = hn::Set(DI(), static_cast<int32_t>(table.alias.size()) - 1);
-  if (table.alias.empty()) return hn::Zero(DI());
-  const VI bin = hn::Min(hn::ConvertTo(DI(), scaled), last);
-  const VF fraction = hn::Sub(scaled, hn::ConvertTo(DF(), bin));
-  const auto keep =
-      hn::RebindMask(DI(), hn::Lt(fraction, Gather(table.alias_q.data(), bin)));
-  return hn::IfThenElse(keep, bin, Gather(table.alias.data(), bin));
+  const VI bin = hn::Min(hn::ConvertTo(DI(), hn::Mul(u.select, count)), last);
+  const VF own = Gather(table.alias_q.data(), bin);
+  return hn::IfThenElse(hn::RebindMask(DI(), hn::Lt(u.alias, own)), bin,
+                        Gather(table.alias.data(), bin));
+}
+
+HWY_INLINE Start StartAtShape(const Wave& wave, const Lights& light, VI index,
+                              const StartNumbers& u) {
+  EmittedFrom from = PointOf(wave, light, u.place);
+  const MF second = hn::And(light.TwoSided(), hn::Lt(u.side, Splat(0.5f)));
+  from.n = IfThenElse(second, -from.n, from.n);
+  const V3 local = SampleCosineHemisphere(u.direction.x, u.direction.y);
+  const VF clearance = hn::Mul(Splat(2e-6f), SumAbs(from.at));
+  const VF density = AreaDensity(wave, light, index), per_cosine = PerCosine(light);
+  const VF area =
+      hn::IfThenElseZero(hn::Gt(density, hn::Zero(DF())), hn::Div(Splat(1.0f), density));
+  V3 radiance = light.Radiance();
+  if (wave.chances->emission.has_images) {
+    radiance = Mul(radiance, ImageAtStart(wave, light, from.at));
+  }
+  return {MulAdd(from.n, clearance, from.at),
+          Renormalize(FrameFromNormal(from.n).FromLocal(local)),
+          radiance,
+          hn::Div(area, per_cosine),
+          hn::Mul(local.z, area),
+          hn::Mul(local.z, per_cosine)};
+}
+
+// Multiplies the light by the share of it that leaves in direction d.
+HWY_INLINE void ScaleIntensity(const Wave& wave, const Lights& light, Start& start) {
+  const LightEmission& emission = wave.chances->emission;
+  if (emission.Has(LightShape::kSpot)) {
+    const VF share = wave.lights->stretched_spots
+                         ? SpotShare<true>(wave, light, start.d)
+                         : SpotShare<false>(wave, light, start.d);
+    const MF spot = HasShape(light, LightShape::kSpot);
+    start.light = IfThenElse(spot, Mul(start.light, share), start.light);
+  }
+  const auto multiply = [&](auto kind) HWY_ATTR {
+    using Kind = decltype(kind);
+    if (!emission.Has(Kind::kShape)) return;
+    const MF mine = HasShape(light, Kind::kShape);
+    const VI image = hn::IfThenElseZero(hn::RebindMask(DI(), mine),
+                                        light.I(offsetof(LightRecord, image)));
+    const V3 value = Kind::Intensity(LightImages(*wave.lights, image), start.d);
+    start.light = IfThenElse(mine, Mul(start.light, value), start.light);
+  };
+  multiply(Goniometric());
+  multiply(Projection());
+}
+
+HWY_INLINE Start StartAtPosition(const Wave& wave, const Lights& light, VF inverse_pmf,
+                                 const StartNumbers& u) {
+  const StartCone cone(wave, light);
+  const VF below = hn::Mul(cone.versine, u.direction.x);  // 1 - cos
+  const VF sin2 = hn::Mul(below, hn::Sub(Splat(2.0f), below));
+  const V3 local = FromHeight(hn::Sub(Splat(1.0f), below), sin2, u.direction.y);
+  const VF pdf = cone.Pdf();
+  Start start = {light.F3(offsetof(LightRecord, position)),
+                 Renormalize(FrameFromNormal(cone.axis).FromLocal(local)),
+                 light.Radiance(),
+                 hn::Div(inverse_pmf, pdf),
+                 hn::Zero(DF()),
+                 pdf};
+  ScaleIntensity(wave, light, start);
+  return start;
+}
+
+// Of light that comes from the direction `toward` it, with that density over its inverse.
+HWY_INLINE Start StartOnDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
+                             const StartNumbers& u) {
+  const LightTable& table = *wave.lights;
+  const VF radius = Splat(table.radius), disk = DiskDensity(wave);
+  const V2 at = SampleDisk(u.place.x, u.place.y);
+  const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
+  const V3 local = {hn::Mul(at.x, radius), hn::Mul(at.y, radius), radius};
+  return {center + FrameFromNormal(toward).FromLocal(local),
+          -toward,
+          light,
+          hn::Div(inverse, disk),
+          hn::Zero(DF()),
+          hn::Neg(disk)};
+}
+
+// Takes the starts of infinite lights, one image after the other.
+HWY_INLINE void TakeSky(const Wave& wave, const Lights& light, VF inverse_pmf,
+                        const StartNumbers& u, Start& start) {
+  const LightTable& table = *wave.lights;
+  const auto take = [&](MF mine, V3 toward, V3 radiance, VF pdf_sa) HWY_ATTR {
+    const VF inverse = hn::Div(inverse_pmf, pdf_sa);
+    Start from = StartOnDisk(wave, toward, radiance, inverse, u);
+    // At the edges of texels the two may differ.
+    const VF density = SkyDensity(wave, toward);
+    from.chain = hn::Min(inverse, hn::Div(Splat(1.0f), density));
+    start.Take(mine, from);
+  };
+  const MF constant = HasShape(light, LightShape::kInfiniteConstant);
+  if (!hn::AllFalse(DF(), constant)) {
+    const VF z = hn::NegMulAdd(Splat(2.0f), u.direction.x, Splat(1.0f));
+    const VF sin2 = hn::NegMulAdd(z, z, Splat(1.0f));
+    take(constant, FromHeight(z, sin2, u.direction.y), light.Radiance(),
+         Splat(0.25f * kInvPi));
+  }
+  for (std::size_t e = 0; e < table.environments.size(); ++e) {
+    const VI number = light.I(offsetof(LightRecord, environment));
+    const MF mine = hn::And(
+        HasShape(light, LightShape::kInfiniteImage),
+        hn::RebindMask(DF(), hn::Eq(number, hn::Set(DI(), static_cast<int32_t>(e)))));
+    if (hn::AllFalse(DF(), mine)) continue;
+    const Environment& map = table.environments[e];
+    const MapSample s = SampleEnvironment(map, *map.table, u.direction.x, u.direction.y);
+    take(mine, Renormalize(s.direction), s.radiance, s.pdf_sa);
+  }
+}
+
+HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
+                         const StartNumbers& u) {
+  const LightEmission& emission = wave.chances->emission;
+  const VF zero = hn::Zero(DF());
+  const V3 none = Splat3(0, 0, 0);
+  const VF inverse_pmf = hn::Div(Splat(1.0f), StartPmf(wave, index));
+  Start start = {none, Splat3(0, 0, 1), none, zero, zero, zero};
+  if (emission.HasAny(kEmittingShape)) start = StartAtShape(wave, light, index, u);
+  if (StartAtPositions(emission)) {
+    const MF mine = HasPosition(light);
+    if (!hn::AllFalse(DF(), mine)) {
+      start.Take(mine, StartAtPosition(wave, light, inverse_pmf, u));
+    }
+  }
+  if (emission.Has(LightShape::kDistant)) {
+    const MF mine = HasShape(light, LightShape::kDistant);
+    const V3 toward =
+        IfThenElse(mine, light.F3(offsetof(LightRecord, direction)), Splat3(0, 0, 1));
+    start.Take(mine, StartOnDisk(wave, toward, light.Radiance(), inverse_pmf, u));
+  }
+  if (StartAtSky(emission)) TakeSky(wave, light, inverse_pmf, u, start);
+  return start;
 }
 
 void EmitLightPath(Wave& wave) {
   const PathColumns& p = wave.path;
-  const DU du;
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
                [&](const StoreSlots& slots, MF valid) HWY_ATTR {
                  StoreFirstValues(wave, slots);
-                 LaneRandom random = {hn::BitCast(du, Gather(p.pixel, slots)),
-                                      hn::BitCast(du, Gather(p.sample, slots)),
-                                      hn::Zero(du),
-                                      hn::Set(du, wave.run->seed ^ 0x51ed270bu)};
-                 VF u[4], v[4];
-                 random.Next4(u);
-                 random.Next4(v);
-                 const VI index = SelectEmitter(wave, u[0]);
+                 const StartNumbers u(wave, slots);
+                 const VI index = SelectStart(wave.chances->emission, u);
                  const Lights light(wave, index);
-                 const EmittedFrom from = PointOf(wave, light, {u[1], u[2]});
-                 const ShadingFrame frame = FrameFromNormal(from.n);
-                 const V3 local = SampleCosineHemisphere(u[3], v[0]);
-                 const V3 d = Renormalize(frame.FromLocal(local));
-                 const VF density = EmissionDensity(wave, light, index);
-                 const VF area = hn::Div(Splat(1.0f), density);
-                 const V3 radiance = AsCarried(wave, slots, index, light.Radiance());
-                 const VF brightest = MaxComponent(radiance);
-                 const VF least = hn::Min(density, hn::Min(local.z, brightest));
-                 const MF emits = hn::Gt(least, hn::Zero(DF()));
-                 const VF clearance = hn::Mul(Splat(2e-6f), SumAbs(from.at));
-                 Scatter3(MulAdd(from.n, clearance, from.at), p.o_x, p.o_y, p.o_z, slots);
-                 Scatter3(d, p.d_x, p.d_y, p.d_z, slots);
-                 Scatter3(Mul(radiance, hn::Div(Splat(1.0f), brightest)), p.beta_r,
+                 const Start start = StartAt(wave, light, index, u);
+                 const V3 leaves = AsCarried(wave, slots, index, start.light);
+                 const VF brightest = MaxComponent(leaves);
+                 const MF starts = hn::And(IsPositiveFinite(start.scale),
+                                           hn::Gt(brightest, hn::Zero(DF())));
+                 Scatter3(start.o, p.o_x, p.o_y, p.o_z, slots);
+                 Scatter3(start.d, p.d_x, p.d_y, p.d_z, slots);
+                 Scatter3(Mul(leaves, hn::Div(Splat(1.0f), brightest)), p.beta_r,
                           p.beta_g, p.beta_b, slots);
-                 Scatter(hn::Mul(hn::Mul(brightest, area), Splat(3.14159265358979f)),
-                         p.lp_scale, slots);
-                 Scatter(hn::Mul(local.z, area), p.lp_chain, slots);
-                 Scatter(hn::Mul(local.z, Splat(0.318309886183791f)), p.lp_pdf, slots);
+                 Scatter(hn::Mul(brightest, start.scale), p.lp_scale, slots);
+                 Scatter(start.chain, p.lp_chain, slots);
+                 Scatter(start.density, p.lp_pdf, slots);
                  Scatter(light.Primitive(), p.prim, slots);
-                 Push(wave.queue(QueueId::kActive), slots, hn::And(valid, emits));
-                 Push(wave.queue(QueueId::kDone), slots, hn::AndNot(emits, valid));
+                 Push(wave.queue(QueueId::kActive), slots, hn::And(valid, starts));
+                 Push(wave.queue(QueueId::kDone), slots, hn::AndNot(starts, valid));
                });
 }
 

@@ -3,43 +3,70 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/light_paths/camera_view-inl.h"
-#include "kernels/light_paths/chain-inl.h"
+#include "kernels/light_paths/starts-inl.h"
 #include "kernels/lights/flat_hits-inl.h"
 #include "kernels/lights/geometry-inl.h"
 #include "kernels/lights/round_hits-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-constexpr float kInversePi = 0.318309886183791f;
-
 // Returns the paths whose light subpath connects at its last vertex.
 HWY_INLINE MF IsCovered(VI number) {
   return hn::And(IsAtLeast(number, 1), IsAtMost(number, kMaxLightVertices));
 }
 
-// Returns the normal of lights that emit subpaths at a point on them; of others anything.
+// Returns the normal of shapes at a point on them; of other lights anything.
 HWY_INLINE V3 NormalOfLight(const Wave& wave, const Lights& light, V3 at) {
   V3 n = LightRectangle(light).n;
   const MF rectangle = HasShape(light, LightShape::kRectangle);
   if (hn::AllTrue(DF(), rectangle)) return n;
-  const auto primitive = [&](MF mine, uint32_t any) HWY_ATTR {
-    return hn::IfThenElse(hn::RebindMask(DI(), mine), light.Primitive(),
-                          hn::Set(DI(), static_cast<int32_t>(any)));
-  };
   const MF triangle = HasShape(light, LightShape::kTriangle);
   if (!hn::AllFalse(DF(), triangle)) {
-    n = IfThenElse(triangle, LightTriangle(wave, primitive(triangle, 0)).n, n);
+    n = IfThenElse(triangle, LightTriangle(wave, PrimitiveOf(light, triangle, 0)).n, n);
   }
   const MF disk = HasShape(light, LightShape::kDisk);
   if (!hn::AllFalse(DF(), disk)) {
-    n = IfThenElse(disk, LightDisk(wave, primitive(disk, wave.ranges->disks)).n, n);
+    n = IfThenElse(disk, LightDisk(wave, PrimitiveOf(light, disk, wave.ranges->disks)).n,
+                   n);
   }
   const MF round = HasShape(light, LightShape::kSphere);
   if (!hn::AllFalse(DF(), round)) {
-    const LightSphere sphere(wave, primitive(round, wave.ranges->spheres));
+    const LightSphere sphere(wave, PrimitiveOf(light, round, wave.ranges->spheres));
     n = IfThenElse(round, Normalize(at - sphere.center), n);
   }
   return n;
+}
+
+// Returns the step to the light sample.
+HWY_NOINLINE LastStep StepToSample(const Wave& wave, const Slots& slots) {
+  const PathColumns& p = wave.path;
+  const LightEmission& emission = wave.chances->emission;
+  const V3 to_light = Gather3(p.ls_x, p.ls_y, p.ls_z, slots);
+  const VI index = p.ls_light == nullptr ? hn::Zero(DI()) : Gather(p.ls_light, slots);
+  const Lights light(wave, index);
+  const VF zero = hn::Zero(DF()), one = Splat(1.0f);
+  const VF distance = Gather(p.ls_distance, slots);
+  LastStep step = {zero, one, hn::Lt(one, zero)};
+  if (emission.HasAny(kEmittingShape)) {
+    const V3 at = MulAdd(to_light, distance, Gather3(p.p_x, p.p_y, p.p_z, slots));
+    step = StepToShape(wave, light, index, distance, NormalOfLight(wave, light, at),
+                       to_light);
+  }
+  const MF starts = hn::Gt(StartPmf(wave, index), zero);
+  if (StartAtPositions(emission)) {
+    const VF rate = hn::Div(StartCone(wave, light).Pdf(), hn::Mul(distance, distance));
+    step.Take(hn::And(starts, HasPosition(light)), {rate, one, hn::Lt(one, zero)});
+  }
+  if (emission.Has(LightShape::kDistant)) {
+    step.Take(hn::And(starts, HasShape(light, LightShape::kDistant)),
+              {DiskDensity(wave), one, hn::Lt(one, zero)});
+  }
+  if (StartAtSky(emission)) {
+    const MF sky = hn::Or(HasShape(light, LightShape::kInfiniteConstant),
+                          HasShape(light, LightShape::kInfiniteImage));
+    if (!hn::AllFalse(DF(), sky)) step.Take(sky, StepToSky(wave, to_light));
+  }
+  return step;
 }
 
 template <class Bsdf>
@@ -52,20 +79,14 @@ HWY_NOINLINE void WeighSamplesOf(Wave& wave, const Queue& queue) {
     const V3 wi = vertex.frame.ToLocal(to_light);
     const BothDensities<Bsdf> pdf(vertex.material, vertex.wo, wi);
     const VI number = Gather(p.lp_vertex, slots);
-    const VI index = p.ls_light == nullptr ? hn::Zero(DI()) : Gather(p.ls_light, slots);
-    const Lights light(wave, index);
-    const VF emission = EmissionDensity(wave, light, index);
+    const LastStep step = StepToSample(wave, slots);
     const VF chain = hn::IfThenElse(IsNumber(number, 1), Splat(1.0f),
                                     hn::Mul(Gather(p.lp_chain, slots), pdf.back));
     const VF cosine = hn::Abs(Dot(vertex.ng, to_light));
     const VF ratio = hn::Mul(hn::Mul(hn::Mul(chain, Gather(p.lp_inverse, slots)), cosine),
-                             hn::Mul(emission, Splat(kInversePi)));
-    const VF distance = Gather(p.ls_distance, slots);
-    const V3 at = MulAdd(to_light, distance, Gather3(p.p_x, p.p_y, p.p_z, slots));
-    const VF sampled =
-        SampledDensity(emission, distance, NormalOfLight(wave, light, at), to_light);
-    const VF found = hn::Add(pdf.forward, sampled);
-    const MF any = hn::And(IsCovered(number), hn::Gt(emission, hn::Zero(DF())));
+                             step.subpath);
+    const VF found = hn::Add(hn::IfThenElseZero(step.can_hit, pdf.forward), step.sample);
+    const MF any = hn::And(IsCovered(number), hn::Gt(step.subpath, hn::Zero(DF())));
     const VF weight = hn::IfThenElse(any, CameraWeight(wave, ratio, found), Splat(1.0f));
     const V3 carried = Gather3(p.sh_r, p.sh_g, p.sh_b, slots);
     Scatter3(Mul(carried, weight), p.sh_r, p.sh_g, p.sh_b, slots);
@@ -108,21 +129,26 @@ void WeighConnections(Wave& wave) {
   });
 }
 
+// A path whose ray has found a light by this step.
+HWY_INLINE void WeighFound(const Wave& wave, const StoreSlots& slots,
+                           const LastStep& step) {
+  const PathColumns& p = wave.path;
+  const VI number = Gather(p.lp_vertex, slots);
+  const MF by_density = hn::Gt(Gather(p.bsdf_pdf, slots), hn::Zero(DF()));
+  const VF found =
+      hn::Add(Gather(p.lp_pdf, slots), hn::IfThenElseZero(by_density, step.sample));
+  const VF ratio = hn::Mul(Gather(p.lp_chain, slots), step.subpath);
+  const MF any = hn::And(IsCovered(number), hn::Gt(step.subpath, hn::Zero(DF())));
+  Scatter(hn::IfThenElse(any, CameraWeight(wave, ratio, found), Splat(1.0f)),
+          p.hit_weight, slots);
+}
+
 // A path whose ray has hit a light at a point with the normal n.
 HWY_INLINE void WeighHit(const Wave& wave, const StoreSlots& slots, VI index, V3 n) {
   const PathColumns& p = wave.path;
-  const VF emission = EmissionDensity(wave, Lights(wave, index), index);
-  const VI number = Gather(p.lp_vertex, slots);
-  const MF by_density = hn::Gt(Gather(p.bsdf_pdf, slots), hn::Zero(DF()));
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
-  const VF sampled = SampledDensity(emission, Gather(p.t, slots), n, d);
-  const VF found =
-      hn::Add(Gather(p.lp_pdf, slots), hn::IfThenElseZero(by_density, sampled));
-  const VF ratio =
-      hn::Mul(Gather(p.lp_chain, slots), hn::Mul(emission, Splat(kInversePi)));
-  const MF any = hn::And(IsCovered(number), hn::Gt(emission, hn::Zero(DF())));
-  Scatter(hn::IfThenElse(any, CameraWeight(wave, ratio, found), Splat(1.0f)),
-          p.hit_weight, slots);
+  const Lights light(wave, index);
+  WeighFound(wave, slots, StepToShape(wave, light, index, Gather(p.t, slots), n, d));
 }
 
 template <LightShape kShape>
@@ -145,6 +171,7 @@ HWY_INLINE void WeighRoundHits(Wave& wave) {
 }
 
 void WeighHits(Wave& wave) {
+  if (!wave.chances->emission.HasAny(kEmittingShape)) return;
   const FeatureSet& features = wave.run->features;
   if (features.Has(Feature::kTriangleLights)) {
     WeighFlatHits<LightShape::kTriangle>(wave);
@@ -154,6 +181,16 @@ void WeighHits(Wave& wave) {
   }
   if (features.Has(Feature::kSphereLights)) WeighRoundHits<EmittingSphere>(wave);
   if (features.Has(Feature::kDiskLights)) WeighRoundHits<EmittingDisk>(wave);
+}
+
+void WeighEscaped(Wave& wave) {
+  if (!StartAtSky(wave.chances->emission)) return;
+  const PathColumns& p = wave.path;
+  ForEachBatch(wave, wave.queue(QueueId::kMiss),
+               [&](const StoreSlots& slots, MF) HWY_ATTR {
+                 const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
+                 WeighFound(wave, slots, StepToSky(wave, d));
+               });
 }
 
 Stage WeighConnectionsStage() {
@@ -183,6 +220,18 @@ Stage WeighHitsStage() {
               FieldSet{Field::lp_chain, Field::lp_pdf, Field::lp_vertex, Field::bsdf_pdf},
           .writes = {Field::hit_weight},
           .resolve = Always<WeighHits>};
+}
+
+Stage WeighEscapedStage() {
+  return {.name = "light_path_escaped",
+          .meaning = "weighs infinite lights that rays find against light subpaths",
+          .input = QueueId::kMiss,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kLightPaths, Feature::kInfiniteLights},
+          .reads = fields::kRay | FieldSet{Field::lp_chain, Field::lp_pdf,
+                                           Field::lp_vertex, Field::bsdf_pdf},
+          .writes = {Field::hit_weight},
+          .resolve = Always<WeighEscaped>};
 }
 
 LANELIGHT_END_KERNELS

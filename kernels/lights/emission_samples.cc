@@ -3,7 +3,7 @@
 // the light were evenly bright; their densities stay.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/lights/light_image-inl.h"
+#include "kernels/lights/light_points-inl.h"
 #include "kernels/lights/light_stage.h"
 #include "kernels/queue/batch-inl.h"
 #include "kernels/texture/mapping-inl.h"
@@ -11,25 +11,10 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-struct TriangleWeights {
-  VF b1, b2;
-};
-
-// Barycentric weights of the point of a triangle's plane that is nearest to q.
-HWY_INLINE TriangleWeights WeightsOf(const LightTriangle& triangle, V3 q) {
-  const V3 e1 = triangle.e1, e2 = triangle.e2, d = q - triangle.p0;
-  const VF a = Dot(e1, e1), b = Dot(e1, e2), c = Dot(e2, e2);
-  const VF along1 = Dot(d, e1), along2 = Dot(d, e2);
-  const VF inverse = hn::Div(Splat(1.0f), DifferenceOfProducts(a, c, b, b));
-  return {hn::Mul(DifferenceOfProducts(c, along1, b, along2), inverse),
-          hn::Mul(DifferenceOfProducts(a, along2, b, along1), inverse)};
-}
-
 HWY_INLINE PlacedPoint PointOnTriangle(const SceneParts& scene, const Lights& light,
                                        V3 q) {
   const LightTriangle triangle(scene, light.Primitive());
-  const TriangleWeights w = WeightsOf(triangle, q);
-  const LightUv uv = TriangleUv(*scene.geometry, light.Primitive(), w.b1, w.b2);
+  const LightUv uv = UvOnTriangle(scene, triangle, light.Primitive(), q);
   return {uv.u, uv.v, q, triangle.n};
 }
 
@@ -38,17 +23,7 @@ HWY_INLINE PlacedPoint PointOnRectangle(const SceneParts& scene, const Lights& l
   const VI first = light.Primitive();
   const VI second = light.I(offsetof(LightRecord, second_primitive));
   const LightTriangle triangle(scene, first);
-  const TriangleWeights a = WeightsOf(triangle, q);
-  const TriangleWeights b = WeightsOf(LightTriangle(scene, second), q);
-  const auto minimum = [](const TriangleWeights& w) HWY_ATTR {
-    const VF b0 = hn::Sub(hn::Sub(Splat(1.0f), w.b1), w.b2);
-    return hn::Min(b0, hn::Min(w.b1, w.b2));
-  };
-  const MF in_first = hn::Ge(minimum(a), minimum(b));
-  const VI prim = hn::IfThenElse(hn::RebindMask(DI(), in_first), first, second);
-  const LightUv uv =
-      TriangleUv(*scene.geometry, prim, hn::IfThenElse(in_first, a.b1, b.b1),
-                 hn::IfThenElse(in_first, a.b2, b.b2));
+  const LightUv uv = UvOnRectangle(scene, triangle, first, second, q);
   return {uv.u, uv.v, q, triangle.n};
 }
 

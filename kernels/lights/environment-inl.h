@@ -35,10 +35,9 @@ LANELIGHT_INLINE void TexelValues(const Environment& e, const EnvironmentTable& 
       hn::Mul(Gather(table.probability.data(), texel), Splat(texels * inv_four_pi));
 }
 
-/// Returns radiance and density of environment `index` in scene direction d.
-LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index, V3 d) {
-  const Environment& e = wave.lights->environments[index];
-  const EnvironmentTable& table = *wave.chances->environments[index];
+/// Returns radiance and density of an environment in scene direction d.
+LANELIGHT_INLINE MapSample LookUpEnvironment(const Environment& e,
+                                             const EnvironmentTable& table, V3 d) {
   const DI di;
   V3 local = ByRows(e.light_from_scene, d);
   VF length = Splat(1.0f);
@@ -58,6 +57,11 @@ LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index
   TexelValues(e, table, texel(t), texel(s), &out);
   if (e.stretched) out.pdf_sa = Stretched(out.pdf_sa, length);
   return out;
+}
+
+LANELIGHT_INLINE MapSample LookUpEnvironment(const Wave& wave, std::size_t index, V3 d) {
+  return LookUpEnvironment(wave.lights->environments[index],
+                           *wave.chances->environments[index], d);
 }
 
 /// A distribution per lane: the begin of its values and of its guide.
@@ -92,12 +96,11 @@ LANELIGHT_INLINE VI InvertCdf(const Distribution& d, int32_t bits, VF u, VF* ins
   return low;
 }
 
-/// Draws a direction of environment `index` with density proportional to the luminance of
-/// its texel.
-LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index, VF u0,
+/// Draws a direction of an environment with density proportional to the luminance of its
+/// texel.
+LANELIGHT_INLINE MapSample SampleEnvironment(const Environment& e,
+                                             const EnvironmentTable& table, VF u0,
                                              VF u1) {
-  const Environment& e = wave.lights->environments[index];
-  const EnvironmentTable& table = *wave.chances->environments[index];
   const DI di;
   VF inside_row, inside_column;
   const VI zero = hn::Zero(di);
@@ -120,6 +123,11 @@ LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index
     out.pdf_sa = Stretched(out.pdf_sa, hn::Div(one, length));
   }
   return out;
+}
+LANELIGHT_INLINE MapSample SampleEnvironment(const Wave& wave, std::size_t index, VF u0,
+                                             VF u1) {
+  return SampleEnvironment(wave.lights->environments[index],
+                           *wave.chances->environments[index], u0, u1);
 }
 
 LANELIGHT_END_KERNELS

@@ -167,7 +167,7 @@ void NotePaths(const Checked& c) {
     c.Note(std::string("light-paths=") + Name(s.light_paths),
            s.directions != Directions::kMis
                ? std::string(" with directions=") + Name(s.directions) + ": use mis"
-               : ": no shape emits, or no surface is diffuse or glossy");
+               : ": no light starts subpaths, or no surface is diffuse or glossy");
   }
   if (s.decide == Decide::kPilot && c.plan.Has(Feature::kReuse)) {
     c.Note("decide=pilot", ": the trial run tries no strategies with reuse=block");

@@ -1,5 +1,6 @@
 #include "src/render/plan/plan_features.h"
 
+#include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/block.h"
@@ -44,10 +45,10 @@ void AddReuse(const Strategy& strategy, const PlanOptions& options, FeatureSet& 
   if (f.Has(Feature::kReuse) && HasAnyOf(f, kGlossyKinds)) f.Add(Feature::kReuseGlossy);
 }
 
-// Adds light subpaths, which start at emitting shapes.
-void AddLightPaths(const Strategy& strategy, FeatureSet& f) {
+// Adds light subpaths if some light emits them.
+void AddLightPaths(const PreparedScene& scene, const Strategy& strategy, FeatureSet& f) {
   if (strategy.directions != Directions::kMis || !f.Has(Feature::kLights)) return;
-  if (!f.HasAny(LightsWith(kEmittingShape)) || !HasAnyOf(f, kSplattingKinds)) return;
+  if (scene.chances->emission.empty() || !HasAnyOf(f, kSplattingKinds)) return;
   f.Add(TurnsOn(strategy.light_paths));
 }
 
@@ -105,7 +106,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
     }
     if (options.max_depth > 1) f.Add(TurnsOn(strategy.roulette));
     AddReuse(strategy, options, f);
-    AddLightPaths(strategy, f);
+    AddLightPaths(scene, strategy, f);
     // Trial runs do not compare strategies beside path reuse.
     if (!f.Has(Feature::kReuse)) f.Add(TurnsOn(strategy.decide));
   } else {

@@ -17,6 +17,7 @@ std::uint64_t HashLights(const LightChances& chances) {
   hash.AddArray(chances.alias);
   hash.AddArray(chances.tree.nodes);
   hash.AddArray(chances.tree.far);
+  if (!chances.emission.empty()) hash.AddArray(chances.emission.pmf);
   return hash.Digest();
 }
 

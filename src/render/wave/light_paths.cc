@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/core/pi.h"
 #include "src/render/plan/plan_features.h"
 #include "src/render/wave/phase_driver.h"
 #include "src/scene/compiled/camera.h"
@@ -13,8 +14,11 @@ namespace lanelight {
 namespace {
 
 constexpr std::uint32_t kLightSeed = 0x3c6ef372u;
-// Larger contributions do not fit the sums, whose unit is about the brightest light.
+// Larger contributions do not fit the sums.
 constexpr float kMaxSplat = 0x1p15f;
+// White vertices at distance 1 from the camera bring about one part in this of the unit.
+// Some bring far more: near the camera, by smooth metals, of bright parts of images.
+constexpr double kHeadroom = 256;
 
 // One axis of the pixel filter.
 struct FilterAxis {
@@ -76,14 +80,20 @@ void CheckSplat(PixelSplat& splat, Health& health) {
 }  // namespace
 
 double SplatUnit(const PreparedScene& scene) {
-  double brightest = 0;
-  for (const LightRecord& light : scene.compiled->lights.lights) {
-    for (const float c : light.radiance) {
-      brightest = std::max(brightest, double(c));
-    }
+  const AlignedVector<float>& pmf = scene.chances->emission.pmf;
+  if (pmf.empty()) return 1;
+  const std::vector<double>& powers = scene.compiled->lights.power;
+  double power = 0;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (pmf[i] > 0) power += powers[i];
   }
-  brightest *= double(ExposureOf(scene));
-  return brightest > 0 ? std::exp2(std::round(std::log2(brightest))) : 1;
+  const CompiledCamera& camera = scene.view->camera;
+  const Film& film = scene.view->film;
+  const double pixel = double(camera.dx.x) * double(camera.dy.y) -
+                       double(camera.dx.y) * double(camera.dy.x);
+  const double image = std::abs(pixel) * film.width * film.height;
+  const double unit = kHeadroom * power / (kPi * image) * double(ExposureOf(scene));
+  return unit > 0 && unit < 1e300 ? std::exp2(std::round(std::log2(unit))) : 1;
 }
 
 LightSubpaths::LightSubpaths(const PreparedScene& scene, const Plan& plan,

@@ -15,8 +15,9 @@
 
 namespace lanelight {
 
-/// Returns the unit of the sums of light subpaths: a power of two near the brightest
-/// light.
+/// Returns the unit of the sums of light subpaths: a power of two, in proportion to the
+/// power of the lights at which they start over the solid angle of the image. Returns 1
+/// if they start nowhere.
 double SplatUnit(const PreparedScene& scene);
 
 class LightSubpaths {

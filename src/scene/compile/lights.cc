@@ -177,6 +177,15 @@ void ApplyFloor(std::vector<double>& weights) {
   for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * minimum * sum) : 1;
 }
 
+// Stores the sphere around all shapes, with room for the rounding of their coordinates.
+void StoreSphere(const Placement& placement, LightTable& table) {
+  if (!placement.planes.empty()) return;
+  const WorldFrame& frame = placement.frame;
+  Store(frame.Point(placement.bounds.Center()), table.center);
+  const double radius = placement.bounds.HalfDiagonal() * frame.scale;
+  table.radius = static_cast<float>(radius * 1.0001);
+}
+
 // Returns whether each direction or point has a colour of its own. Goniometric images are
 // grey.
 bool HasColors(const LightRecord& light) {
@@ -218,6 +227,7 @@ LightTable CompileLights(const SceneDescription& description, const Placement& p
   for (const Light& light : description.lights) compiler.Add(light);
   if (!lights.table.lights.empty()) ApplyFloor(lights.power);
   lights.table.power = std::move(lights.power);
+  StoreSphere(placement, lights.table);
   if (spectra != nullptr) AddSpectra(lights, *spectra);
   return std::move(lights.table);
 }

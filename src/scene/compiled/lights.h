@@ -110,6 +110,8 @@ struct LightTable {
   bool has_goniometric = false, has_projection = false;
   bool stretched_spots = false;         // all spots then have axes in `images`
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
+  /// Sphere around all shapes; radius 0 if there is none, as with infinite planes.
+  float center[3] = {}, radius = 0;
 };
 
 /// Node of a tree of lights, 16 words. The two children of an inner node are neighbours.
@@ -142,6 +144,28 @@ struct LightAnchor {
 };
 static_assert(sizeof(LightAnchor) == 16);
 
+/// Lights at which light subpaths start (light-paths=splats), selected by power. Walker's
+/// alias table as in LightChances.
+struct LightEmission {
+  AlignedVector<float> pmf;  // per light; 0: none start there
+  AlignedVector<float> alias_q;
+  AlignedVector<std::uint32_t> alias;
+  std::uint32_t shapes = 0;  // of those lights: a bit for each LightShape
+  bool has_images = false;   // emitting shapes with an image
+
+  bool empty() const { return pmf.empty(); }
+  bool Has(LightShape shape) const {
+    return (shapes >> static_cast<std::uint32_t>(shape) & 1) != 0;
+  }
+  bool HasAny(LightTraits trait) const {
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(LightShape::kCount); ++i) {
+      const auto shape = static_cast<LightShape>(i);
+      if (Has(shape) && HasTrait(shape, trait)) return true;
+    }
+    return false;
+  }
+};
+
 /// Selection of lights by a strategy (src/scene/prepare/prepared_scene.h).
 struct LightChances {
   /// Per light: probability of being selected; with a tree, only of lights without a
@@ -156,6 +180,7 @@ struct LightChances {
   // position have one that is not finite.
   AlignedVector<LightAnchor> anchors;
   AlignedVector<std::uint32_t> anchor_alias;
+  LightEmission emission;  // light-paths=splats only
 };
 
 }  // namespace lanelight

@@ -13,6 +13,7 @@
 #include "src/scene/compiled/scene.h"
 #include "src/scene/description/description.h"
 #include "src/scene/prepare/light_bounds.h"
+#include "src/scene/prepare/light_emission.h"
 
 namespace lanelight {
 
@@ -107,6 +108,9 @@ LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strate
                                        : environment.table);
   }
   if (HasAnchors(strategy, scene)) SetAnchors(scene, chances);
+  if (strategy.light_paths != LightPaths::kNone) {
+    chances.emission = MakeLightEmission(scene);
+  }
   const std::vector<double> weights = SelectionWeights(strategy, scene);
   chances.pmf.resize(weights.size());
   if (std::ranges::none_of(weights, [](double w) { return w > 0; })) {

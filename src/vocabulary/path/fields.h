@@ -70,7 +70,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   /* light-paths=splats (kernels/light_paths/chain-inl.h) */                              \
   X(u32, lp_vertex, ({kLightPaths}), kPath, (0u), "vertices so far; kNotFromLight: no light subpath finds this path") \
   X(f32, lp_chain, ({kLightPaths}), kPath, (0.0f), "ratio of the densities of both directions so far") \
-  X(f32, lp_pdf, ({kLightPaths}), kPath, (0.0f), "pdf_sa of the ray direction in it; 1 after a specular vertex") \
+  X(f32, lp_pdf, ({kLightPaths}), kPath, (0.0f), "pdf_sa of the ray direction in it; 1 after a specular vertex; from lights at infinity minus the density of the ray's origin on a disk") \
   X(f32, lp_inverse, ({kLightPaths}), kBounce, (), "1 / pdf_area of the vertex") \
   LANELIGHT_XYZ(X, f32, lp_in, ({kLightPaths}), kBounce, (), "direction of the ray that found the vertex") \
   X(f32, hit_weight, ({kLightPaths}), kPath, (1.0f), "MIS weight of light that the ray hits, against light subpaths") \

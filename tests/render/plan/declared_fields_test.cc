@@ -36,7 +36,7 @@ struct DeclaredCase {
   bool records = false;  // a training pass that records
 };
 
-// What light subpaths support: lamps, spheres, a lens and a filter.
+// What light subpaths support: lights of all kinds, spheres, a lens and a filter.
 constexpr char kLampsScene[] = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "perspective" "float fov" 40 "float lensradius" 0.1 "float focaldistance" 6
@@ -44,6 +44,10 @@ Film "rgb" "integer xresolution" 24 "integer yresolution" 18
 PixelFilter "gaussian"
 Integrator "path" "integer maxdepth" 5
 WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.5 ]
+LightSource "infinite" "string filename" "sky.pfm"
+LightSource "distant" "point3 from" [ 1 2 -1 ] "point3 to" [ 0 0 0 ]
+LightSource "spot" "point3 from" [ -2 3 -2 ] "point3 to" [ 0 0 0 ]
 AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 6 5 4 ]
   Translate -1 3 0

@@ -1,0 +1,143 @@
+// How light subpaths start at lights, and the densities of that for MIS weights
+// (chain-inl.h). The light is chosen by the table of LightEmission.
+//
+//   light                       start                                    density
+//   shapes                      point uniform over the area, direction   cos / (pi area),
+//                               by the cosine, on either side of two     half with two
+//                               sides
+//   with a position, no extent  direction uniform in a cone              1 / (2 pi
+//   versine) at infinity                 its direction; origin uniform on a disk  1 / (pi
+//   radius^2)
+//                               as large as the scene
+#ifndef LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
+#define LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
+
+#include "kernels/lights/environment-inl.h"
+#include "kernels/lights/light_points-inl.h"
+#include "kernels/light_paths/chain-inl.h"
+
+LANELIGHT_BEGIN_KERNELS
+
+/// Returns the probability of each light to start subpaths; 0: none start there.
+HWY_INLINE VF StartPmf(const Wave& wave, VI index) {
+  return Gather(wave.chances->emission.pmf.data(), index);
+}
+
+/// Returns the density, by area, of the points of shapes; 0 for other lights.
+HWY_INLINE VF AreaDensity(const Wave& wave, const Lights& light, VI index) {
+  const VF area = light.Area();
+  const MF has_area = hn::Gt(area, hn::Zero(DF()));
+  return hn::IfThenElseZero(has_area, hn::Div(StartPmf(wave, index), area));
+}
+
+/// Returns the density of directions from a shape over their cosine.
+HWY_INLINE VF PerCosine(const Lights& light) {
+  return hn::IfThenElse(light.TwoSided(), Splat(0.5f * kInvPi), Splat(kInvPi));
+}
+
+/// Directions from lights with a position: all, those of a spot's or projection's own
+/// cone, or from outside the scene those of the cone around it, whichever are fewest.
+struct StartCone {
+  V3 axis;
+  VF versine;  // 1 - cos of the half angle
+
+  HWY_INLINE StartCone(const Wave& wave, const Lights& light) {
+    const LightTable& table = *wave.lights;
+    const LightEmission& emission = wave.chances->emission;
+    axis = Splat3(0, 0, 1);
+    versine = Splat(2.0f);
+    if (table.radius > 0) {
+      const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
+      const V3 to_center = center - light.F3(offsetof(LightRecord, position));
+      const VF d2 = Dot(to_center, to_center), radius = Splat(table.radius);
+      const MF outside = hn::Gt(d2, hn::Mul(radius, radius));
+      axis = IfThenElse(outside, Normalize(to_center), axis);
+      versine = hn::IfThenElse(outside, OneMinusCosCone(radius, d2), versine);
+    }
+    if (!emission.Has(LightShape::kSpot) && !emission.Has(LightShape::kProjection)) {
+      return;
+    }
+    const VF own = light.F(offsetof(LightRecord, size));
+    const MF has_cone = hn::Or(HasShape(light, LightShape::kSpot),
+                               HasShape(light, LightShape::kProjection));
+    const MF narrower = hn::And(has_cone, hn::Lt(own, versine));
+    axis = IfThenElse(narrower, light.F3(offsetof(LightRecord, direction)), axis);
+    versine = hn::IfThenElse(narrower, own, versine);
+  }
+  HWY_INLINE VF Pdf() const { return hn::Div(Splat(0.5f * kInvPi), versine); }
+};
+
+/// Returns whether lights have a position and no extent.
+HWY_INLINE MF HasPosition(const Lights& light) {
+  return hn::Or(
+      hn::Or(HasShape(light, LightShape::kPoint), HasShape(light, LightShape::kSpot)),
+      hn::Or(HasShape(light, LightShape::kGoniometric),
+             HasShape(light, LightShape::kProjection)));
+}
+/// Returns whether subpaths start at lights of that kind.
+HWY_INLINE bool StartAtPositions(const LightEmission& emission) {
+  return emission.Has(LightShape::kPoint) || emission.Has(LightShape::kSpot) ||
+         emission.Has(LightShape::kGoniometric) || emission.Has(LightShape::kProjection);
+}
+
+/// Returns the density of origins on the disk before lights at infinity.
+HWY_INLINE VF DiskDensity(const Wave& wave) {
+  const float radius = wave.lights->radius;
+  return Splat(kInvPi / (radius * radius));
+}
+HWY_INLINE bool StartAtSky(const LightEmission& emission) {
+  return emission.Has(LightShape::kInfiniteConstant) ||
+         emission.Has(LightShape::kInfiniteImage);
+}
+
+/// Returns the density of the direction `toward` infinite lights, of all together: they
+/// are weighed as one light.
+HWY_INLINE VF SkyDensity(const Wave& wave, V3 toward) {
+  const LightTable& table = *wave.lights;
+  VF sum = hn::Zero(DF());
+  for (const uint32_t index : table.infinite) {
+    const LightRecord& light = table.lights[index];
+    VF pdf = Splat(0.25f * kInvPi);
+    if (light.environment >= 0) {
+      const Environment& e = table.environments[static_cast<uint32_t>(light.environment)];
+      pdf = LookUpEnvironment(e, *e.table, toward).pdf_sa;
+    }
+    sum = hn::MulAdd(pdf, Splat(wave.chances->emission.pmf[index]), sum);
+  }
+  return sum;
+}
+
+/// Densities with which the last step of a path, from x_k to the light y, is found. Those
+/// of light samples and subpaths are relative to the measure of y in which E has the
+/// density pdf_sa, or of the light alone if E cannot find it.
+struct LastStep {
+  VF subpath;  // of x_k and y, over the cosine at x_k; 0: no subpath starts there
+  VF sample;   // of y
+  MF can_hit;  // E finds the light
+
+  HWY_INLINE void Take(MF mask, const LastStep& other) {
+    subpath = hn::IfThenElse(mask, other.subpath, subpath);
+    sample = hn::IfThenElse(mask, other.sample, sample);
+    can_hit = hn::Or(hn::And(mask, other.can_hit), hn::AndNot(mask, can_hit));
+  }
+};
+
+/// Returns the step to a point of a shape with the unit normal n.
+HWY_INLINE LastStep StepToShape(const Wave& wave, const Lights& light, VI index,
+                                VF distance, V3 n, V3 direction) {
+  const VF density = AreaDensity(wave, light, index);
+  const VF cosine = hn::Abs(Dot(n, direction));
+  return {hn::Mul(density, PerCosine(light)),
+          hn::Div(hn::Mul(density, hn::Mul(distance, distance)), cosine),
+          hn::Gt(density, hn::Zero(DF()))};
+}
+
+/// Returns the step to infinite lights.
+HWY_INLINE LastStep StepToSky(const Wave& wave, V3 toward) {
+  const VF density = SkyDensity(wave, toward);
+  return {hn::Mul(density, DiskDensity(wave)), density, hn::Gt(density, hn::Zero(DF()))};
+}
+
+LANELIGHT_END_KERNELS
+
+#endif
