@@ -66,11 +66,13 @@ void PrintOutcome(const SweepOutcome& o, const SweepOptions& options) {
 void PrintSummary(const SweepOutcome& o, const SweepOptions& options) {
   std::string text = fmt::format("{} of {} cells are done, {} of them by this process",
                                  o.done, o.total, o.rendered);
-  const std::size_t missing = o.total - o.done - o.failures.size();
+  if (o.stopped > 0) text += fmt::format("; {} were not needed", o.stopped);
+  const std::size_t missing = o.total - o.done - o.stopped - o.failures.size();
   if (missing > 0) text += fmt::format("; {} are missing", missing);
   if (o.elsewhere > 0) text += fmt::format(", {} with other processes", o.elsewhere);
-  Print(fmt::format("{0}\n{1}/sweep.csv, {1}/sweep.json, {1}/report.html\n", text,
-                    options.out));
+  text += fmt::format("; {} of processor time", DurationText(o.cpu_seconds));
+  Print(fmt::format("{0}{1}\n{2}/sweep.csv, {2}/sweep.json, {2}/report.html\n", o.answer,
+                    text, options.out));
 }
 
 int PrintPlannedCells(const Sweep& sweep, SweepCommandOptions& options) {
@@ -113,6 +115,9 @@ void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
   command.add_flag(
       "--wait", options.sweep.wait,
       "Wait for cells of other processes, and render them if those processes die");
+  command.add_flag(
+      "--race", options.sweep.race,
+      "Stop strategies that are clearly less efficient than the best; seed by seed");
   command.add_flag_callback("--resume", [] {}, "Skip finished cells (always on)");
 }
 

@@ -151,6 +151,7 @@ class Adviser {
   // changes in the plan.
   PreparedScene PreparedFor(const AdvisedCandidate& candidate) const {
     Strategy prepared = candidate.strategy;
+    prepared.decide = Decide::kPilot;  // with the tables of all that trials compare
     const Strategy baseline;
     prepared.roulette = baseline.roulette;
     prepared.termination = baseline.termination;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "src/base/stat/efficiency.h"
 #include "src/base/stat/hypothesis.h"
@@ -78,6 +79,13 @@ struct StrategyCosts {
   Costs costs;
 };
 
+// The strategies of a context: those that are ranked, and how many have stopped.
+struct Contest {
+  std::vector<StrategyCosts> ranked;
+  std::set<std::string> stopped;
+  const CellGroup* sample = nullptr;
+};
+
 Json LeaderJson(const std::vector<StrategyCosts>& strategies,
                 const std::string& baseline) {
   std::vector<Costs> all;
@@ -88,8 +96,8 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (strategies[i].strategy == baseline) base = i;
   }
-  const double confidence =
-      1 - stat::SidakLevel(1 - kSweepConfidence, int(all.size()) - 1);
+  const int others = std::max(1, int(all.size()) - 1);
+  const double confidence = 1 - stat::SidakLevel(1 - kSweepConfidence, others);
   std::vector<Interval> ratios;
   for (const auto& costs : paired) {
     ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
@@ -154,9 +162,10 @@ std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& c
       one.values.insert(place.parameters.begin(), place.parameters.end());
       const auto [entry, is_new] = known.try_emplace(one.values, groups.size());
       if (is_new) groups.push_back(std::move(one));
-      if (cells[cell.index].at("status") == Name(CellState::kDone)) {
-        groups[entry->second].cells.push_back(cell.index);
-      }
+      const Json& status = cells[cell.index].at("status");
+      CellGroup& all = groups[entry->second];
+      if (status == Name(CellState::kDone)) all.cells.push_back(cell.index);
+      all.stopped |= status == Name(CellState::kStopped);
     }
   }
   return groups;
@@ -189,26 +198,33 @@ Json GroupsJson(const std::vector<CellGroup>& groups, const std::vector<Json>& c
 
 Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& cells,
                  const std::string& baseline) {
-  std::map<std::size_t, std::vector<StrategyCosts>> contexts;
-  std::map<std::size_t, const CellGroup*> samples;
+  std::map<std::size_t, Contest> contexts;
   for (const CellGroup& group : groups) {
+    Contest& contest = contexts[group.context];
+    if (group.stopped) {
+      contest.stopped.insert(group.strategy);
+      continue;
+    }
     Costs costs = CostsOf(group, cells);
-    std::vector<StrategyCosts>& in = contexts[group.context];
+    std::vector<StrategyCosts>& in = contest.ranked;
     if (costs.empty() || std::ranges::any_of(in, [&](const StrategyCosts& c) {
           return c.strategy == group.strategy;
         })) {
       continue;
     }
     in.push_back({group.strategy, std::move(costs)});
-    samples[group.context] = &group;
+    contest.sample = &group;
   }
   std::map<std::string, Json> last;  // by scene
   std::vector<std::string> order;
-  for (const auto& [context, strategies] : contexts) {
-    if (strategies.size() < 2) continue;
-    Json leader = LeaderJson(strategies, baseline);
+  for (const auto& [context, contest] : contexts) {
+    if (contest.ranked.size() + contest.stopped.size() < 2 || contest.ranked.empty()) {
+      continue;
+    }
+    Json leader = LeaderJson(contest.ranked, baseline);
     if (leader.is_null()) continue;
-    leader["values"] = ContextOf(*samples[context]);
+    leader["stopped"] = contest.stopped.size();
+    leader["values"] = ContextOf(*contest.sample);
     const std::string scene = leader["values"].at(Key(Axis::kScene));
     if (last.count(scene) == 0) order.push_back(scene);
     last[scene] = std::move(leader);

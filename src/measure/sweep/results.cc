@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "src/base/core/json_text.h"
@@ -11,6 +13,7 @@
 #include "src/base/image/atomic_file.h"
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
+#include "src/measure/sweep/race.h"
 #include "src/render/job/machine_json.h"
 
 namespace lanelight {
@@ -149,14 +152,36 @@ std::string SweepCsv(const std::vector<Json>& cells) {
   return text;
 }
 
-void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome) {
+void EnterIfDone(Race& race, SweepFolder& folder, const SweepCell& cell) {
+  const CellRecord record = folder.ReadCell(cell);
+  if (record.state != CellState::kDone) return;
+  const Json measured = CellJson(cell, record).at("measured");
+  const Json error = measured.value("relmse", Json());
+  const Json seconds = measured.value("cpu_seconds", Json());
+  const bool known = error.is_number() && seconds.is_number();
+  race.Enter(cell.index, known ? error.get<double>() : NAN,
+             known ? seconds.get<double>() : NAN);
+}
+
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
+                  SweepOutcome& outcome) {
+  std::optional<Race> all;
+  if (race) {
+    all.emplace(sweep);
+    for (const SweepCell& cell : sweep.cells) EnterIfDone(*all, folder, cell);
+  }
   std::vector<Json> cells;
   for (const SweepCell& cell : sweep.cells) {
-    const CellRecord record = folder.ReadCell(cell);
+    CellRecord record = folder.ReadCell(cell);
+    if (all && record.state == CellState::kMissing && all->IsStopped(cell.index)) {
+      record = {CellState::kStopped, {}, "clearly less efficient than the best (--race)"};
+      ++outcome.stopped;
+    }
     FromJsonOf(folder.File(cell, "report.json"), [&] {
       cells.push_back(CellJson(cell, record));
       if (record.state != CellState::kDone) return;
       ++outcome.done;
+      outcome.cpu_seconds += cells.back()["measured"].value("cpu_seconds", 0.0);
       outcome.invalid_samples +=
           cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
       outcome.differing += record.report.value("differs", false);
@@ -170,6 +195,7 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
   const Json json = SweepJson(sweep, cells, groups);
+  outcome.answer = AnswerText(json.at("leaders"));
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
   WriteFileAtomically(
       folder.File("report.html"),

@@ -18,8 +18,9 @@ namespace lanelight {
 nlohmann::json CellReport(const Rendering& rendering);
 
 /// Reads all cells, writes the table and the page, and adds the state of the whole sweep
-/// to `outcome`.
-void WriteResults(const Sweep& sweep, SweepFolder& folder, SweepOutcome& outcome);
+/// to `outcome`. `race`: missing cells of strategies that have lost are kStopped.
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
+                  SweepOutcome& outcome);
 
 /// Returns the names of stages of all cells, ascending.
 std::vector<std::string> StageNames(const std::vector<nlohmann::json>& cells);
@@ -41,6 +42,7 @@ struct CellGroup {
   std::string strategy;            // empty if the sweep has no such axis
   std::size_t context = 0;         // equal for groups that differ in strategy only
   std::vector<std::size_t> cells;  // finished ones, by index
+  bool stopped = false;            // by --race: it is not among the best
 };
 
 /// Returns all groups in the order of the grid, with or without finished cells. A
@@ -63,6 +65,10 @@ nlohmann::json GroupsJson(const std::vector<CellGroup>& groups,
 nlohmann::json LeadersJson(const std::vector<CellGroup>& groups,
                            const std::vector<nlohmann::json>& cells,
                            const std::string& baseline);
+
+/// Returns the same as text, a line for each scene; with fewer than four seeds, what a
+/// ranking needs. Empty without leaders.
+std::string AnswerText(const nlohmann::json& leaders);
 
 /// Returns "default" or else the first strategy of the grid; empty without any.
 std::string BaselineOf(const Sweep& sweep);

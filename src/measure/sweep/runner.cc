@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include "src/base/core/file_lock.h"
 #include "src/measure/sweep/cell_render.h"
+#include "src/measure/sweep/race.h"
 #include "src/measure/sweep/results.h"
 #include "src/measure/sweep/sweep_folder.h"
 #include "src/render/job/memory.h"
@@ -18,7 +20,7 @@ namespace lanelight {
 namespace {
 
 // State of a cell as far as this process knows.
-enum class CellStatus { kMissing, kDone, kFailed, kElsewhere, kNoTarget };
+enum class CellStatus { kMissing, kDone, kFailed, kElsewhere, kNoTarget, kStopped };
 
 class Runner {
  public:
@@ -29,7 +31,9 @@ class Runner {
         hooks_(hooks),
         folder_(folder),
         claims_(folder.File("claims")),
-        renderer_(sweep, folder.Outputs()) {}
+        renderer_(sweep, folder.Outputs()) {
+    if (options.race) race_.emplace(sweep);
+  }
 
   void Run(SweepOutcome& outcome) {
     if (!claims_.supports_locks() && options_.part.count == 1) {
@@ -39,6 +43,7 @@ class Runner {
           claims_.path());
     }
     FindPart();
+    if (race_) SortByRound();
     FirstOfAll();
     Help();
     if (options_.wait) WaitForOthers();
@@ -70,6 +75,23 @@ class Runner {
     }
   }
 
+  // All strategies race with the first seeds before any has the next one.
+  void SortByRound() {
+    for (Group& group : groups_) {
+      std::ranges::sort(group, {}, [this](std::size_t i) {
+        return std::pair(race_->Round(part_[i]->index), i);
+      });
+    }
+  }
+
+  // Returns whether the cell's strategy has lost its race, by all finished cells.
+  bool HasLost(const SweepCell& cell) {
+    for (const std::size_t rival : race_->Rivals(cell.index)) {
+      if (!race_->HasEntered(rival)) EnterIfDone(*race_, folder_, sweep_.cells[rival]);
+    }
+    return race_->IsStopped(cell.index);
+  }
+
   // Renders scenes that no process has claimed, so that no scene is compiled twice as
   // long as there are some.
   void FirstOfAll() {
@@ -96,8 +118,8 @@ class Runner {
       for (const std::size_t i : group) {
         if (known_[i] == CellStatus::kMissing) missing.push_back(i);
       }
-      std::ranges::reverse(missing);
-      if (!missing.empty()) {
+      if (!race_) std::ranges::reverse(missing);
+      if (!missing.empty() && !race_) {
         const auto place = std::size_t(getpid()) * 7 % missing.size();
         std::rotate(missing.begin(), missing.begin() + long(place), missing.end());
       }
@@ -123,6 +145,10 @@ class Runner {
 
   void TryCell(std::size_t i) {
     if (known_[i] != CellStatus::kMissing && known_[i] != CellStatus::kElsewhere) return;
+    if (race_ && HasLost(*part_[i])) {
+      known_[i] = CellStatus::kStopped;
+      return;
+    }
     const auto claim = claims_.TryLock(part_[i]->name);
     if (!claim) {
       known_[i] = CellStatus::kElsewhere;
@@ -188,8 +214,9 @@ class Runner {
 
   void Report(const SweepCell& cell, const Progress& progress) {
     if (!hooks_.on_progress) return;
-    hooks_.on_progress({Count(CellStatus::kDone) + Count(CellStatus::kFailed),
-                        part_.size(), &cell, progress});
+    const std::size_t done = Count(CellStatus::kDone) + Count(CellStatus::kFailed) +
+                             Count(CellStatus::kStopped);
+    hooks_.on_progress({done, part_.size(), &cell, progress});
   }
 
   bool IsStopped() const { return hooks_.stop != nullptr && *hooks_.stop; }
@@ -203,6 +230,7 @@ class Runner {
   SweepFolder& folder_;
   const LockFile claims_;  // of cells and scenes, by their names
   CellRenderer renderer_;
+  std::optional<Race> race_;
   std::vector<const SweepCell*> part_;  // cells of this process
   std::vector<CellStatus> known_;       // of each
   std::vector<bool> failed_before_;     // failed before this process started; retried
@@ -223,7 +251,7 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   // Processes write results one after the other, so that the last one includes all cells.
   const LockFile claims(folder.File("claims"));
   const auto claim = claims.Wait("the table", [](double) { return true; });
-  WriteResults(sweep, folder, outcome);
+  WriteResults(sweep, folder, options.race, outcome);
   return outcome;
 }
 

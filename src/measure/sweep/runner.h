@@ -18,6 +18,7 @@ struct SweepOptions {
   Part part = {};
   bool wait = false;  // waits for other processes, and renders their cells if they die
   bool table_only = false;  // renders nothing
+  bool race = false;        // strategies that are clearly worse stop (race.h)
 };
 
 struct SweepProgress {
@@ -41,6 +42,9 @@ struct SweepOutcome {
   std::size_t done = 0, total = 0;       // of the whole sweep, at the end
   std::size_t elsewhere = 0;             // of this part, claimed by other processes
   std::size_t without_target = 0;        // of this part, whose target this machine lacks
+  std::size_t stopped = 0;               // of the whole sweep, by --race
+  double cpu_seconds = 0;                // of all finished cells
+  std::string answer;                    // the best strategies (AnswerText)
   std::vector<CellFailure> failures;     // of the whole sweep, by index
   std::vector<std::string> other_cells;  // directories of other sweeps' cells
   std::uint64_t invalid_samples = 0;     // of all finished cells

@@ -47,7 +47,7 @@ std::string Differences(const Json& there, const Json& here) {
 }  // namespace
 
 const char* Name(CellState state) {
-  constexpr const char* kNames[] = {"missing", "failed", "done"};
+  constexpr const char* kNames[] = {"missing", "failed", "done", "stopped"};
   return kNames[int(state)];
 }
 

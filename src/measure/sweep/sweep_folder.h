@@ -11,8 +11,9 @@
 
 namespace lanelight {
 
-enum class CellState { kMissing, kFailed, kDone };
-/// "missing", "failed", "done".
+/// kStopped: missing, since its strategy has lost a race (sweep --race).
+enum class CellState { kMissing, kFailed, kDone, kStopped };
+/// "missing", "failed", "done", "stopped".
 const char* Name(CellState state);
 
 /// The files of a cell.

@@ -180,7 +180,7 @@ struct LightChances {
   // position have one that is not finite.
   AlignedVector<LightAnchor> anchors;
   AlignedVector<std::uint32_t> anchor_alias;
-  LightEmission emission;  // light-paths=splats only
+  LightEmission emission;  // with light-paths=splats, or a trial run that may choose it
 };
 
 }  // namespace lanelight

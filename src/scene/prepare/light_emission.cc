@@ -57,13 +57,16 @@ double ShareOfPower(const LightTable& table, const LightRecord& light) {
 
 }  // namespace
 
-LightEmission MakeLightEmission(const CompiledScene& scene) {
+LightEmission MakeLightEmission(const CompiledScene& scene, bool shapes_alone) {
   const LightTable& table = scene.lights;
   LightEmission emission;
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const LightRecord& light = table.lights[i];
     if (!StartsSubpaths(table, light)) continue;
+    if (shapes_alone && !HasTrait(static_cast<LightShape>(light.shape), kEmittingShape)) {
+      continue;
+    }
     weights[i] = table.power[i] * ShareOfPower(table, light);
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;

@@ -108,8 +108,11 @@ LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strate
                                        : environment.table);
   }
   if (HasAnchors(strategy, scene)) SetAnchors(scene, chances);
-  if (strategy.light_paths != LightPaths::kNone) {
-    chances.emission = MakeLightEmission(scene);
+  // A trial run does not change what the image converges to, and subpaths from the sky
+  // seldom reach what the camera sees.
+  const bool asked = strategy.light_paths != LightPaths::kNone;
+  if (asked || strategy.decide == Decide::kPilot) {
+    chances.emission = MakeLightEmission(scene, !asked);
   }
   const std::vector<double> weights = SelectionWeights(strategy, scene);
   chances.pmf.resize(weights.size());

@@ -50,6 +50,29 @@ TEST_CASE("sweep: a cell equals the render of its settings", "[sweep][cli]") {
   CHECK(different.size() == kSweepCells - 10);  // the two scenes are the same
 }
 
+TEST_CASE("sweep: a race stops a strategy that is clearly worse", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string file =
+      WriteText(directory / "race.toml",
+                "[grid]\nscene = \"" LANELIGHT_SOURCE_DIR
+                "/scenes/cornell-box.pbrt\"\n"
+                "resolution = \"48x36\"\nspp = 32\nseed = [1, 2, 3, 4, 5, 6]\n"
+                "strategy = [\"points=cmj\", \"directions=bsdf\", \"reuse=block\"]\n");
+  const std::string out = directory / "out";
+  const ProcessResult race = Sweep(file, out, {"--race"});
+  INFO(race.out << race.err);
+  REQUIRE(race.exit_code == kExitGood);
+  CHECK_THAT(race.out, Contains("reuse=block has") && Contains("stopped early"));
+  CHECK_THAT(race.out, Contains("of 18 cells are done") && Contains("were not needed"));
+  CHECK(DoneCells(out).size() < 18);
+  CHECK_THAT(Contents(out + "/sweep.csv"), Contains(",stopped,"));
+  // The others are rendered if they are asked for.
+  const ProcessResult full = Sweep(file, out);
+  CHECK_THAT(full.out,
+             Contains("18 of 18 cells are done") && Contains("reuse=block has"));
+  CHECK(DoneCells(out).size() == 18);
+}
+
 TEST_CASE("sweep: the table", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";

@@ -7,11 +7,12 @@ function whereText(values) {
   return axes.map((axis) => valueLabel(axis, values[axis.name])).join(", ");
 }
 
-function certaintyText({ equals, seeds, strategies }) {
-  if (seeds < 3) {
+function certaintyText({ equals, seeds, strategies, stopped }) {
+  if (seeds < 4) {
     const are = seeds === 1 ? "1 seed is" : `${seeds} seeds are`;
-    return `${are} too few for intervals; use 3 or more`;
+    return `${are} too few to rank strategies; use 4 or more`;
   }
+  if (strategies === 1) return `the other ${stopped} strategies stopped early (--race)`;
   if (!known(equals)) return "too many strategies to test which others may be equally efficient";
   if (equals > 0) return `${equals} of the other ${strategies - 1} strategies may be equally efficient`;
   return "all other strategies are significantly less efficient";
@@ -49,12 +50,12 @@ function leadersText(leaders) {
   const parts = order.slice(0, 3).map(([name, n]) => `${name} on ${n}`);
   const more = order.length > 3 ? ", other strategies on the rest" : "";
   const head = `Most efficient on ${leaders.length} scenes: ${parts.join(", ")}${more}`;
-  const few = leaders.filter((l) => l.seeds < 3);
+  const few = leaders.filter((l) => l.seeds < 4);
   if (few.length === leaders.length) return `${head}; ${certaintyText(few[0])}.`;
-  const alone = leaders.filter((l) => l.seeds >= 3 && l.equals === 0).length;
+  const alone = leaders.filter((l) => l.seeds >= 4 && l.equals === 0).length;
   const better = leaders.filter((l) => l.best !== l.baseline && l.efficiency.low > 1);
   const without = few.length === 0 ? ""
-    : ` ${few.length === 1 ? "1 scene has" : `${few.length} scenes have`} too few seeds for intervals.`;
+    : ` ${few.length === 1 ? "1 scene has" : `${few.length} scenes have`} too few seeds to be ranked.`;
   return (
     `${head}. The most efficient strategy is significantly better than ${study.baseline} on ` +
     `${better.length || "none"} of the scenes, and than every other strategy on ` +

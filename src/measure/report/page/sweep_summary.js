@@ -62,7 +62,10 @@ function sweepSummary() {
     el("dl.facts",
       fact("Cells",
         `${fmtCount(doneCells.length)} of ${fmtCount(study.cells.length)} done`,
-        study.excluded > 0 ? `${fmtCount(study.excluded)} combinations excluded` : null,
+        [
+          countOf("stopped") > 0 && `${fmtCount(countOf("stopped"))} not needed (--race)`,
+          study.excluded > 0 && `${fmtCount(study.excluded)} combinations excluded`,
+        ].filter(Boolean).join(", ") || null,
       ),
       fact("Samples", fmtCount(sumOf("samples"))),
       study.seeds > 1 && fact("Seeds", fmtCount(study.seeds), "repetitions of each cell"),

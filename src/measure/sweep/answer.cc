@@ -1,0 +1,72 @@
+// What a sweep has found out, for the terminal.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "src/base/stat/values.h"
+#include "src/measure/sweep/results.h"
+
+namespace lanelight {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kMinSeeds = 4;  // of a ranking
+
+std::string WhereText(const Json& values) {
+  std::string text = values.at("scene").get<std::string>();
+  for (const auto& [axis, value] : values.items()) {
+    if (axis != "scene") text += fmt::format(", {} {}", axis, value.get<std::string>());
+  }
+  return text;
+}
+
+// Returns e.g. "reuse=block has 2.31 [2.10, 2.55] times the efficiency of default".
+std::string BestText(const Json& leader) {
+  const std::string best = leader.at("best"), baseline = leader.at("baseline");
+  const Json& efficiency = leader.at("efficiency");
+  if (best == baseline) return baseline + ", the baseline, is the most efficient";
+  const std::string bounds =
+      efficiency.at("low").is_number()
+          ? fmt::format(" [{:.3g}, {:.3g}]", efficiency.at("low").get<double>(),
+                        efficiency.at("high").get<double>())
+          : "";
+  return fmt::format("{} has {:.3g}{} times the efficiency of {}", best,
+                     efficiency.at("value").get<double>(), bounds, baseline);
+}
+
+std::string OpenText(const Json& leader) {
+  std::string text;
+  const Json& equals = leader.at("equals");
+  if (equals.is_number() && equals > 0) {
+    const auto n = equals.get<long>();
+    text = fmt::format("; not decided: {} {} may be as efficient", n,
+                       n == 1 ? "other" : "others");
+  }
+  const auto stopped = leader.at("stopped").get<std::size_t>();
+  if (stopped > 0) text += fmt::format("; {} stopped early", stopped);
+  return text;
+}
+
+std::string LineText(const Json& leader) {
+  const auto seeds = leader.at("seeds").get<int>();
+  const std::string where = WhereText(leader.at("values"));
+  if (seeds < kMinSeeds) {
+    return fmt::format(
+        "{}: {} {} not rank strategies; give at least {}: seed = [1, 2, 3, 4]", where,
+        seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds),
+        seeds == 1 ? "does" : "do", kMinSeeds);
+  }
+  return fmt::format("{}: {}{} ({} seeds)", where, BestText(leader), OpenText(leader),
+                     seeds);
+}
+
+}  // namespace
+
+std::string AnswerText(const Json& leaders) {
+  std::string text;
+  for (const Json& leader : leaders) text += LineText(leader) + "\n";
+  return text;
+}
+
+}  // namespace lanelight
