@@ -1,9 +1,10 @@
 // light-paths=splats with lights of every kind: the same image as without, and caustics
 // of lights without extent against closed forms.
 #include <catch2/catch.hpp>
-#include <cmath>
 
-#include "src/base/core/pi.h"
+#include "src/render/plan/plan.h"
+#include "src/render/plan/plan_features.h"
+#include "src/scene/compiled/lights.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/lights/pictures.h"
 #include "tests/kernels/reuse/same_light.h"
@@ -142,10 +143,70 @@ TEST_CASE("splats: infinite lights with an image", "[light_paths]") {
 
 TEST_CASE("splats: several infinite lights are weighed together", "[light_paths]") {
   SceneBuilder b = Corner();
-  b.AddEnvironment({0.5, 0.3, 0.1});
-  b.scene().lights.push_back(Sky("first.exr", 20));
+  b.AddEnvironment(Grey(0.4));
+  b.scene().lights.push_back(Sky("first.exr", 10));
   b.scene().lights.push_back(Sky("second.exr", 3));
-  b.AddDistant({0.3, -0.5, 0.7}, {2, 1.5, 1});
+  b.AddDistant({0.3, -0.5, 0.7}, {1, 0.7, 0.5});
+  ReuseScene scene = Lit(b);
+  scene.spp = 16384;
+  CheckSame(scene, "points=sobol", "light-paths=splats:1");
+}
+
+TEST_CASE("splats: light that a portal lets in keeps its weight", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.scene().lights.push_back(Sky("window.exr", 10));
+  b.scene().lights[0].portal = {{-2, -3, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -3, 2}};
+  b.AddEnvironment(Grey(0.5));
+  b.AddPoint({-0.6, 0.3, 1.2}, Grey(0.3));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene, "points=sobol", "light-paths=splats:1");
+}
+
+TEST_CASE("splats: lights that start subpaths, and those that do not", "[light_paths]") {
+  SceneBuilder b = Corner();
+  b.AddDistant({0.3, -0.5, 0.7}, {1, 0.7, 0.5});
+  b.AddEnvironment({0.5, 0.7, 1});
+  const auto starts = [&](std::initializer_list<bool> lights) {
+    const PreparedScene scene = PrepareScene(b.Build());
+    CHECK(scene.chances->emission.empty());
+    Strategy strategy = scene.strategy;
+    strategy.light_paths = LightPaths::kSplats;
+    const auto chances = MakeLightChances(*scene.compiled, strategy);
+    std::vector<bool> found;
+    for (const float pmf : chances.emission.pmf) found.push_back(pmf > 0);
+    CHECK(found == std::vector<bool>(lights));
+  };
+  starts({true, true});
+  b.AddPoint({0, 0, 1}, Grey(1));
+  starts({true, true, true});
+  // Of a ray that leaves the scene, subpaths would find a part only.
+  b.scene().lights.push_back(Sky("door.exr", 10));
+  b.scene().lights.back().portal = {{-2, -3, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -3, 2}};
+  starts({true, false, true, false});
+  b.scene().lights.pop_back();
+  b.AddPlane({0, 0, -1}, {0, 0, 1}, 0);
+  starts({false, false, true});
+  b.scene().lights.pop_back();
+  starts({});
+  const PreparedScene scene = PrepareScene(b.Build());
+  PlanOptions options;
+  options.strategy = scene.strategy;
+  options.strategy->light_paths = LightPaths::kSplats;
+  const PreparedScene planned = WithStrategy(scene, *options.strategy);
+  CHECK_FALSE(PlanFeatures(planned, options).Has(Feature::kLightPaths));
+  CHECK(CheckStrategy(planned, options).size() == 1);
+}
+
+TEST_CASE("splats: spectral paths from lights of every kind", "[light_paths][spectral]") {
+  SceneBuilder b = Corner();
+  b.scene().integrator.transport = Transport::kSpectral;
+  b.AddEnvironment({0.5, 0.3, 0.1});
+  b.AddDistant({0.3, -0.5, 0.7}, {0.2, 0.3, 0.9});
+  b.AddPoint({-0.6, 0.3, 1.2}, {1, 0.3, 0.1});
+  b.scene().lights.push_back(Sky("spectral.exr", 10));
+  b.scene().lights.push_back(WithPicture(
+      LightKind::kProjection,
+      Transform::Translate({-0.2, -1.5, 1.4}) * Transform::Rotate(-100, {1, 0.1, 0.1})));
   ReuseScene scene = Lit(b);
   CheckSame(scene);
 }
