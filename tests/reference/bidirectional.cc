@@ -122,9 +122,10 @@ double BidirectionalTwin::Density(const Vertex& v, Vec3d wo, Vec3d wi) const {
   return ScatteringDensity(v.material, v.Local(wo), v.Local(wi), v.material.index);
 }
 
-// What is left of importance that v scatters towards `out`. On its way back light arrives
-// from v.in: its edge to v has the shading cosine there, and the next one the geometric
-// cosine. Importance is not scaled by the index where it is refracted.
+// Returns the factor of importance that v scatters towards `out`. Light comes the other
+// way: in a path's measure, light that arrives from v.in has the shading cosine, and
+// light that leaves along `out` has the geometric one. Importance is not scaled by the
+// index where it is refracted.
 Rgb BidirectionalTwin::Importance(const Vertex& v, const BsdfSample& next,
                                   Vec3d out) const {
   double geometric = AbsDot(v.at.ng, out) / AbsDot(v.at.ng, v.in);
@@ -144,7 +145,7 @@ Rgb BidirectionalTwin::Importance(const Vertex& v, const BsdfSample& next,
 // Adds vertices to a subpath: as many as the depth limit lets it have.
 void BidirectionalTwin::Walk(Ray ray, Rgb beta, bool is_light,
                              std::vector<Vertex>& path) const {
-  // Of the last vertex of a camera subpath only the emission counts.
+  // The last vertex of a camera subpath only emits.
   const int vertices = scene.integrator.max_depth + (is_light ? 1 : 2);
   while (static_cast<int>(path.size()) < vertices) {
     const Hit hit = geometry.Intersect(ray, kInfinity, random);
