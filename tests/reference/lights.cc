@@ -306,4 +306,31 @@ std::vector<LightConnection> Lights::UnseenLights(Vec3d p, Random& random) const
   return out;
 }
 
+double Lights::PowerOf(const Emitter& emitter) const {
+  return kPi * emitter.area * Luminance(emitter.radiance) * (emitter.two_sided ? 2 : 1);
+}
+
+std::optional<EmittedPoint> Lights::SampleEmission(Random& random) const {
+  double power = 0;
+  for (const Emitter& emitter : emitters_) power += PowerOf(emitter);
+  double left = power * random.Uniform();
+  for (const Emitter& emitter : emitters_) {
+    left -= PowerOf(emitter);
+    if (left > 0) continue;
+    if (EmissionDensity(emitter.primitive) == 0) return std::nullopt;
+    const auto [p, n] = SamplePoint(geometry_.primitives()[emitter.primitive], random);
+    return EmittedPoint{emitter.primitive, p, n};
+  }
+  return std::nullopt;
+}
+
+double Lights::EmissionDensity(int primitive) const {
+  if (emitter_of_[primitive] == kNone) return 0;
+  const Emitter& emitter = emitters_[emitter_of_[primitive]];
+  if (emitter.two_sided || emitter.image != kNone) return 0;
+  double power = 0;
+  for (const Emitter& other : emitters_) power += PowerOf(other);
+  return PowerOf(emitter) / power / emitter.area;
+}
+
 }  // namespace lanelight::reference

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct LightConnection {
   Vec3d toward;
   double distance = kInfinity;
   Rgb radiance;
+};
+
+/// A point of an emitting shape, and the normal of the side that emits.
+struct EmittedPoint {
+  int primitive = kNone;
+  Vec3d p, n;
 };
 
 /// Where a goniometric map is looked up, (s, t) in [0, 1]^2, for a direction d of the
@@ -48,6 +55,13 @@ class Lights {
   /// were whole.
   std::vector<LightConnection> UnseenLights(Vec3d p, Random& random) const;
 
+  /// Returns a point from which a light subpath starts: of a shape chosen by power,
+  /// uniform over its area. Empty if the shape has two sides or an image, or if there is
+  /// none.
+  std::optional<EmittedPoint> SampleEmission(Random& random) const;
+  /// Returns the density of SampleEmission, by area, on this primitive.
+  double EmissionDensity(int primitive) const;
+
  private:
   struct Emitter {
     int primitive = kNone;
@@ -60,6 +74,7 @@ class Lights {
   Rgb InfiniteRadiance(Index light, Vec3d p, Vec3d toward) const;
   Rgb PortalRadiance(const Light& light, Index image, Vec3d p, Vec3d toward) const;
   Rgb PointIntensity(Index light, Vec3d away) const;
+  double PowerOf(const Emitter& emitter) const;
   bool IsUnseen(const Emitter& emitter) const;
   bool IsEven(const Emitter& emitter) const;
   Rgb RadianceAt(const Emitter& emitter, const Ray& ray, double distance) const;
