@@ -26,17 +26,14 @@ status 3 if a candidate's mean differs from the baseline's.
 import argparse
 import json
 import math
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 import efficiency_statistics as statistics
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(FOLDER / "python"))
-import lanelight
 
 FALSE_ALARM = 0.001  # of each comparison of means
 
@@ -60,38 +57,29 @@ def machine(program):
     return json.loads(done.stdout).get("machine", {"text": "machine unknown"})
 
 
-def render(options, scene, candidate, length, seed, folder, threads=1):
+def render(options, scene, candidate, length, seed, threads=1):
     """Colours, processor seconds, width and height of one render."""
+    import lanelight  # needs numpy, which the statistics do not
     _, program, strategy = candidate
-    image, report = os.path.join(folder, "image.exr"), os.path.join(folder, "report.json")
-    command = [program, "render", scene, "-o", image, "--json", report, "--quiet",
-               "--depth", "float", "--threads", str(threads), "--seed", str(seed),
-               *length]
-    if strategy != "default":
-        command += ["--strategy", strategy]
-    if options.resolution:
-        command += ["--resolution", options.resolution]
-    done = subprocess.run(command, stderr=subprocess.PIPE, text=True)
-    if done.returncode:
-        sys.exit(f"efficiency: {' '.join(command)}\n{done.stderr}")
-    picture = lanelight.read_exr(image)
-    width, height, values = picture.width, picture.height, picture.rgb()
-    if not all(map(math.isfinite, values)):
-        sys.exit(f"efficiency: {' '.join(command)}: a pixel is not finite")
-    return values, json.load(open(report))["cpu_seconds"], width, height
+    image = lanelight.render(
+        scene, strategy=None if strategy == "default" else strategy, depth="float", seed=seed,
+        threads=threads, resolution=options.resolution, program=program, progress=False,
+        **{length[0].strip("-"): length[1]})
+    values = image.rgb.ravel().tolist()
+    if not all(map(math.isfinite, values)) or any(image.report["health"].values()):
+        sys.exit(f"efficiency: {scene} {candidate}: invalid samples")
+    return values, image.report["cpu_seconds"], image.width, image.height
 
 
 def render_all(options, scene, who, length):
     """runs[k] = [(colours, seconds)] of candidate k, and the size of the image."""
     runs = [[] for _ in who]
-    with tempfile.TemporaryDirectory() as folder:
-        for i in range(options.rounds):
-            order = list(range(len(who)))
-            for k in order if i % 2 == 0 else reversed(order):
-                seed = options.seed + i * len(who) + k
-                values, seconds, *size = render(options, scene, who[k], length, seed,
-                                                folder)
-                runs[k].append((values, seconds))
+    for i in range(options.rounds):
+        order = list(range(len(who)))
+        for k in order if i % 2 == 0 else reversed(order):
+            seed = options.seed + i * len(who) + k
+            values, seconds, *size = render(options, scene, who[k], length, seed)
+            runs[k].append((values, seconds))
     return runs, size
 
 
@@ -116,9 +104,8 @@ def reference(options, scene, who, everything):
     """What errors are relative to. Noise in it makes bright outliers look small, so the
     renders count by their seconds, and one long render is better."""
     if options.reference_time:
-        with tempfile.TemporaryDirectory() as folder:
-            return render(options, scene, who[0], ["--time", options.reference_time], 0,
-                          folder, threads=0)[0]
+        return render(options, scene, who[0], ["--time", options.reference_time], 0,
+                      threads=0)[0]
     renders = [r for runs in everything for run in runs for r in run]
     return statistics.mean_image([v for v, _ in renders], [s for _, s in renders])
 

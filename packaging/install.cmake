@@ -41,6 +41,9 @@ install(CODE [[
 install(DIRECTORY scenes/ DESTINATION ${SHARE}/lanelight/scenes
   FILES_MATCHING PATTERN "*.pbrt" PATTERN "*.tga" PATTERN sweep.toml PATTERN stiff EXCLUDE
   PATTERN model EXCLUDE)
+# Debian's folder of modules for every version of Python 3.
+install(DIRECTORY python/lanelight DESTINATION lib/python3/dist-packages
+  PATTERN __pycache__ EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE packaging/copyright
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN site EXCLUDE)
@@ -58,7 +61,8 @@ measure which sampling strategy gives the least error for the time.")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS python3-matplotlib)  # lanelight plot
+# numpy for the Python package, matplotlib for its plots and `lanelight plot`.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-numpy, python3-matplotlib")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/package)

@@ -1,36 +1,40 @@
 #!/usr/bin/env python3
-"""Prints the errors of a study, draws them against time, and says what an image knows.
+"""Renders a scene with two strategies and draws the error against time, with intervals.
 
-    lanelight study scene.pbrt --out study --spp 1,4,16,64
-    lanelight render scene.pbrt -o out.exr --spp 64
-    PYTHONPATH=python docs/examples/error_against_time.py study/study.json out.exr plot.svg
+    python3 docs/examples/error_against_time.py scenes/cornell-box.pbrt plot.svg
 
-Drawing needs matplotlib (Debian: python3-matplotlib).
+In a notebook, the lines of main() can be cells. Drawing needs matplotlib (Debian:
+python3-matplotlib).
 """
 import sys
 
 import lanelight
-import lanelight_plot
+
+STRATEGIES = {"default": "default", "independent points": "points=independent"}
+COUNTS = 4, 16, 64, 256  # samples per pixel
 
 
-def main(study_path, image_path, plot_path):
-    study = lanelight.read_study(study_path)
-    rows = [r for r in lanelight.errors(study) if r.seconds > 0]
-    if not rows:
-        sys.exit(f"{study_path}: nothing was measured")
-    for r in rows:
-        print(f"{r.scene}  {r.strategy:<30} {r.samples:>6} spp  {r.seconds:8.3g} s  "
-              f"{100 * r.error:.3g} % [{100 * r.low:.3g}, {100 * r.high:.3g}]")
-    plot = lanelight_plot.make(study, "time", rows[0].scene)
-    lanelight_plot.draw(plot).savefig(plot_path)
+def main(scene, plot_path):
+    images = {name: [lanelight.render(scene, strategy=text, spp=spp, resolution="160x120")
+                     for spp in COUNTS]
+              for name, text in STRATEGIES.items()}
+    for name, row in images.items():
+        for image in row:
+            print(f"{name:<20}{image.settings['spp']:>6g} spp  "
+                  f"{image.report['cpu_seconds']:8.3g} s  error {image.error}")
+    plot = lanelight.plot.renders(images)  # a notebook shows it
+    lanelight.plot.draw(plot).savefig(plot_path)
 
-    image = lanelight.read_exr(image_path)
-    print(f"{image_path}: {image.width}x{image.height} pixels, "
-          f"{image.attributes['spp']:g} samples each; error {100 * image.error():.3g} % by "
-          f"its variances alone")
+    # Where the last render has spent its time, and where its noise is.
+    image = lanelight.render(scene, spp=64, resolution="160x120", profile=True)
+    for stage in sorted(image.profile.values(), key=lambda s: -s["seconds"])[:3]:
+        print(f"{stage['name']:<26}{100 * stage['share']:5.1f} %")
+    noise = image.variance.mean(axis=2)
+    print(f"{image}: {100 * noise[noise > noise.mean()].sum() / noise.sum():.0f} % of the "
+          f"variance is in {100 * (noise > noise.mean()).mean():.0f} % of the pixels")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
     main(*sys.argv[1:])

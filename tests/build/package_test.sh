@@ -39,6 +39,13 @@ done
 zcat "$root/usr/share/man/man1/lanelight-render.1.gz" | grep -q 'max.-depth' ||
   fail "no flags in lanelight-render(1)"
 
+# The Python package finds the program of the same installation.
+if /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+  found=$(env -u LANELIGHT PYTHONPATH="$root/usr/lib/python3/dist-packages" /usr/bin/python3 -c \
+    'import lanelight; print(lanelight.find_program())')
+  [[ $found == "$lanelight" ]] || fail "Python finds '$found'"
+fi
+
 # Away from the sources, so that nothing but the package is used.
 cd "$folder"
 "$lanelight" --version

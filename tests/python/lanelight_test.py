@@ -1,29 +1,54 @@
-"""Tests of python/lanelight.py and of docs/examples: run by ctest as python/lanelight.
+"""Tests of python/lanelight and of docs/examples: run by ctest as python/lanelight.
 
     lanelight_test.py PROGRAM
 
-Images are written here independently of the program, and by it. Run with numpy where it is
-installed, and without.
+Images are written here independently of the program, and by it.
 """
+import contextlib
 import importlib.util
-import math
+import io
+import json
 import os
 import pathlib
 import random
+import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 import xml.etree.ElementTree
 import zlib
+
+if not importlib.util.find_spec("numpy"):
+    print("no numpy (Debian: python3-numpy)")
+    sys.exit(77)
+import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import lanelight
 
-PROGRAM = sys.argv.pop(1)
-HAS_NUMPY = lanelight.numpy is not None
+os.environ["LANELIGHT"] = sys.argv.pop(1)
+SCENE = ROOT / "scenes" / "cornell-box.pbrt"
+TEXT = """Film "rgb" "integer xresolution" 40 "integer yresolution" 30
+Camera "perspective"
+WorldBegin
+LightSource "infinite" "rgb L" [1 1 1]
+Translate 0 0 4
+Shape "sphere"
+"""
+# Renders too long, and says what Ctrl-C left.
+STOPPED = """
+import sys, lanelight
+try:
+    lanelight.render(sys.argv[1], spp="1M", progress=True,
+                     output=sys.argv[2] if len(sys.argv) > 2 else None)
+except lanelight.Interrupted as stop:
+    print(stop.path, stop.image.rgb.shape, stop)
+"""
 
 
 def write_exr(path, width, height, channels):
@@ -56,119 +81,175 @@ def write_exr(path, width, height, channels):
                                    + b"".join(blocks))
 
 
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *arguments], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+def has(*modules):
+    return all(importlib.util.find_spec(name) for name in modules)
 
 
-class Synthetic(unittest.TestCase):
-    def test_what_is_written_is_read(self):
+def python(*arguments, path=ROOT / "python", **variables):
+    return subprocess.run([sys.executable, *map(str, arguments)], capture_output=True,
+                          text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": str(path), **variables})
+
+
+class Folder(unittest.TestCase):
+    """Each test has an empty folder, whose name has a space."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lanelight test ")
+        self.addCleanup(folder.cleanup)
+        self.at = pathlib.Path(folder.name)
+
+
+class Reading(Folder):
+    def test_written_values_are_read(self):
         rng = random.Random(2)
         width, height = 7, 37  # two blocks of lines and a rest
         channels = {n: [rng.uniform(0, 4) if n != "G" else 0.5 for _ in range(7 * 37)]
                     for n in ("B", "G", "R", "samples", "variance.R")}
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "image.exr")
-            write_exr(path, width, height, channels)
-            image = lanelight.read_exr(path)
-        self.assertEqual((image.width, image.height), (width, height))
-        self.assertEqual((image.x0, image.y0), (3, 5))
+        write_exr(self.at / "image.exr", width, height, channels)
+        image = lanelight.read_exr(self.at / "image.exr")
+        self.assertEqual((image.width, image.height, image.x0, image.y0), (7, 37, 3, 5))
         self.assertEqual(set(image.channels), set(channels))
-        values = image.rgb()
-        for c, name in enumerate("RGB"):
-            for expected, found in zip(channels[name], values[c::3]):
-                self.assertAlmostEqual(expected, found, places=6)
+        for name, values in channels.items():
+            numpy.testing.assert_array_equal(
+                image.channels[name], numpy.float32(values).reshape(height, width))
+        numpy.testing.assert_array_equal(numpy.asarray(image)[..., 1], image.channels["G"])
 
     def test_other_files_are_refused_by_name(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "no.exr"
-            for data in b"P6 no image", b"\x76\x2f\x31\x01\x02\x00\x00\x00":
-                path.write_bytes(data)
-                with self.assertRaisesRegex(lanelight.FormatError, "no.exr"):
-                    lanelight.read_exr(path)
-            path.write_text('{"schema": 3}')
-            with self.assertRaisesRegex(lanelight.FormatError, "lanelight study"):
+        path = self.at / "no.exr"
+        for data in b"P6 no image", b"\x76\x2f\x31\x01\x02\x00\x00\x00":
+            path.write_bytes(data)
+            with self.assertRaisesRegex(lanelight.FormatError, "no.exr"):
+                lanelight.read_exr(path)
+        for text, words in (('{"schema": 3}', "lanelight study"), ("?", "lanelight study"),
+                            ('{"kind": "lanelight-study", "schema": 9}', "schema 9"),
+                            ('{"kind": "profile"}', "`lanelight profile` wrote it")):
+            path.write_text(text)
+            with self.assertRaisesRegex(lanelight.FormatError, words):
                 lanelight.read_study(path)
 
+    def test_results_are_read(self):
+        sweep = self.at / "sweep.toml"
+        sweep.write_text(f'[grid]\nscene = ["{SCENE}"]\nspp = [1]\nresolution = ["9x9"]\n')
+        lanelight.run("sweep", sweep, out=self.at / "sweep", quiet=True)
+        read = lanelight.read_sweep(self.at / "sweep" / "sweep.json")
+        self.assertEqual(len(read["cells"]), 1)
+        path = self.at / "some.json"
+        lanelight.run("profile", SCENE, spp=1, resolution="9x9", json=path, quiet=True)
+        self.assertTrue(lanelight.read_profile(path)["rows"])
+        path.write_text(json.dumps({"schema": 1, "program": "lanelight", "rows": []}))
+        self.assertEqual(lanelight.read_bench(path)["rows"], [])
 
-class Written(unittest.TestCase):
-    """By the program."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.at = pathlib.Path(cls.folder.name)
-        cls.scene = str(ROOT / "scenes" / "cornell-box.pbrt")
-        run("render", cls.scene, "-o", str(cls.at / "out.exr"), "--resolution", "40x30",
-            "--spp", "64", "--aov", "--quiet")
+class Rendering(Folder):
+    def test_image_has_what_the_report_says(self):
+        image = lanelight.render(SCENE, spp=64, resolution="40x30", aov=True, profile=True,
+                                 strategy="points=halton", seed=3, output=self.at / "a.exr")
+        self.assertEqual(image.rgb.shape, (30, 40, 3))
+        self.assertEqual(image.variance.shape, (30, 40, 3))
+        self.assertLessEqual({"albedo.R", "depth.Z", "variance.B"}, set(image.channels))
+        self.assertTrue((image.channels["samples"] == 64).all())
+        stated = image.report["error"]["relmse"]
+        for end, value in zip(("value", "low", "high"), image.error):
+            self.assertAlmostEqual(value, stated[end] ** 0.5, places=6)
+        # The plain mean is near the better estimate of the program.
+        plain = (image.variance / (image.rgb ** 2 + 0.01)).mean() ** 0.5
+        self.assertTrue(0.5 < plain / image.error.value < 2)
+        self.assertEqual((image.settings["spp"], image.settings["seed"]), (64, "3"))
+        self.assertIn("points=halton", image.settings["strategy"])
+        self.assertGreater(image.profile["intersect_triangles"]["seconds"], 0)
+        self.assertEqual(image.png[:4], b"\x89PNG")
+        self.assertEqual([p.name for p in self.at.iterdir()], ["a.exr"])
+        half = lanelight.render(SCENE, spp=64, resolution="40x30", depth="half",
+                                strategy="points=halton", seed=3)
+        numpy.testing.assert_allclose(half.rgb, image.rgb, rtol=1e-3, atol=1e-3)
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+    def test_texts_and_crops_are_rendered(self):
+        image = lanelight.render(TEXT, spp=4, crop=(1, 2, 11, 12))
+        self.assertEqual((image.x0, image.y0, image.rgb.shape), (1, 2, (10, 10, 3)))
 
-    def test_images_have_their_channels_and_errors(self):
-        image = lanelight.read_exr(self.at / "out.exr")
-        self.assertEqual((image.width, image.height), (40, 30))
-        self.assertLessEqual({"R", "albedo.R", "depth.Z", "samples", "variance.B"},
-                             set(image.channels))
-        self.assertEqual(set(image.channels["samples"]), {64.0})
-        self.assertEqual(image.attributes["spp"], 64)
-        self.assertRegex(image.attributes["strategy"], "points=sobol")
-        # The plain mean is near the better estimate that the program states.
-        stated = math.sqrt(image.attributes["relmse"])
-        self.assertGreater(image.error(), stated / 2)
-        self.assertLess(image.error(), stated * 2)
+    def test_errors_are_the_programs(self):
+        for flags, code, words in (({"spb": 3}, 2, "--spb"), ({"spp": -1}, 2, "not an integer"),
+                                   ({"program": "/no/lanelight"}, None, "cannot start"),
+                                   ({"scene": "no scene.pbrt"}, 1, "no scene.pbrt"),
+                                   ({"scene": TEXT + "Foo"}, 1, "scene.pbrt:7:1: error: ")):
+            with self.assertRaisesRegex(lanelight.Error, words) as raised:
+                lanelight.render(**{"scene": TEXT, "spp": 1, **flags})
+            self.assertEqual(raised.exception.exit_code, code)
+        with self.assertRaisesRegex(TypeError, "image.report"):
+            lanelight.render(TEXT, json="report.json")
 
-    def test_half_is_read_and_arrays_are_shaped(self):
-        path = self.at / "half.exr"
-        run("render", self.scene, "-o", str(path), "--resolution", "40x30", "--spp", "64",
-            "--depth", "half", "--quiet")
-        half, full = lanelight.read_exr(path), lanelight.read_exr(self.at / "out.exr")
-        for a, b in zip(half.rgb(), full.rgb()):
-            self.assertAlmostEqual(a, b, delta=1e-3 * max(1, b))
-        if HAS_NUMPY:
-            pixels = full.array("R", "G", "B")
-            self.assertEqual(pixels.shape, (30, 40, 3))
-            self.assertEqual(list(pixels.reshape(-1)), list(full.rgb()))
+    def test_missed_targets_are_warnings(self):
+        with self.assertWarnsRegex(UserWarning, "target was not reached"):
+            image = lanelight.render(SCENE, resolution="40x30", spp=16, target="0.01%")
+        self.assertEqual(image.settings["spp"], 16)
 
-    def test_without_numpy_the_same_is_read(self):
-        with_numpy = lanelight.read_exr(self.at / "out.exr").channels
-        kept, lanelight.numpy = lanelight.numpy, None
-        try:
-            self.assertEqual(lanelight.read_exr(self.at / "out.exr").channels.keys(),
-                             with_numpy.keys())
-            plain = lanelight.read_exr(self.at / "out.exr")
-            for name, values in plain.channels.items():
-                self.assertEqual(values.tobytes(), with_numpy[name].tobytes())
-            with self.assertRaisesRegex(RuntimeError, "python3-numpy"):
-                plain.array("R")
-        finally:
-            lanelight.numpy = kept
+    def test_progress_is_shown_if_requested(self):
+        for progress, words in (True, "100 %"), (False, ""), (None, ""):
+            with contextlib.redirect_stderr(io.StringIO()) as shown:
+                lanelight.render(SCENE, spp=16, resolution="40x30", progress=progress)
+            self.assertEqual(bool(shown.getvalue()), bool(words))
+            self.assertIn(words, shown.getvalue())
 
-    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "no matplotlib")
-    def test_the_example_draws_a_study(self):
-        run("study", self.scene, "--out", str(self.at / "study"), "--resolution", "16x12",
-            "--spp", "1,4", "--repetitions", "4", "--quiet", "--strategies",
-            "default;points=halton")
+    def test_ctrl_c_leaves_the_image_so_far(self):
+        for arguments in [str(self.at / "out.exr")], []:
+            process = subprocess.Popen(
+                [sys.executable, "-c", STOPPED, SCENE, *arguments], text=True,
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
+            shown = ""
+            while "samples/s" not in shown:
+                shown += process.stderr.read(1)
+                self.assertIsNone(process.poll(), shown)
+            process.send_signal(signal.SIGINT)
+            said, errors = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 0, errors)
+            path = pathlib.Path(said[:said.index(".exr") + 4])
+            if arguments:
+                self.assertEqual(path.parent, self.at)
+            else:
+                self.addCleanup(shutil.rmtree, path.parent)
+            self.assertIn(str(lanelight.read_exr(path).rgb.shape), said)
+            self.assertIn("the image so far is", said)
+
+
+class Uses(Folder):
+    @unittest.skipUnless(has("matplotlib"), "no matplotlib")
+    def test_the_example_draws(self):
         plot = self.at / "plot.svg"
-        done = subprocess.run(
-            [sys.executable, ROOT / "docs/examples/error_against_time.py",
-             self.at / "study" / "study.json", self.at / "out.exr", plot],
-            env={**os.environ, "PYTHONPATH": str(ROOT / "python")}, text=True,
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        done = python(ROOT / "docs/examples/error_against_time.py", SCENE, plot)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("40x30 pixels, 64 samples each", done.stdout)
-        rows = list(lanelight.errors(lanelight.read_study(self.at / "study/study.json")))
-        self.assertEqual({(r.strategy, r.samples) for r in rows},
-                         {(s, n) for s in ("default", "points=halton") for n in (1, 4)})
-        for row in rows:
-            self.assertIn(f"{row.strategy:<30}", done.stdout)
-            self.assertGreater(row.error, 0)
+        for words in "independent points      16 spp", "intersect_triangles", "160x120":
+            self.assertIn(words, done.stdout)
         drawn = xml.etree.ElementTree.parse(plot).getroot()
         self.assertEqual(drawn.tag, "{http://www.w3.org/2000/svg}svg")
 
+    @unittest.skipUnless(has("matplotlib"), "no matplotlib")
+    def test_studies_draw_themselves(self):
+        lanelight.run("study", SCENE, out=self.at, resolution="16x12", spp=(1, 4),
+                      repetitions=4, quiet=True, strategies="default;points=halton")
+        study = lanelight.read_study(self.at / "study.json")
+        plot = lanelight.plot.make(study, "samples")
+        curves = plot.panels[0].series
+        self.assertEqual(set(curves), {"default", "points=halton"})
+        self.assertEqual([p.x for p in curves["default"][1]], [1, 4])
+        self.assertIn("<svg", plot._repr_svg_())
+
+    @unittest.skipUnless(has("pip", "setuptools", "wheel"), "no pip, setuptools or wheel")
+    def test_pip_installs_the_package(self):
+        shutil.copytree(ROOT / "python", self.at / "python")
+        done = python("-m", "pip", "install", "--no-build-isolation", "--no-index", "--no-deps",
+                      "--target", self.at / "site", self.at / "python")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        code = "import lanelight; print(lanelight.__file__, lanelight.run('--version'))"
+        said = python("-c", code, path=self.at / "site").stdout
+        version = next((self.at / "site").glob("lanelight-*.dist-info")).name.removesuffix(".dist-info")
+        self.assertIn(str(self.at / "site"), said)
+        self.assertIn(version.replace("-", " "), said)
+        said = python("-c", code, path=self.at / "site", LANELIGHT="", PATH="/none").stderr
+        self.assertIn("build it with `./run build`", said)
+
 
 if __name__ == "__main__":
+    warnings.simplefilter("error", ResourceWarning)
     unittest.main()

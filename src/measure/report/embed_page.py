@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Turns the report's pages and plots into one C++ file: embed_page.py PAGE_DIR PYTHON_DIR OUTPUT.cc
+"""Turns the report's pages and plots into one C++ file:
+embed_page.py PAGE_DIR OUTPUT.cc MODULE.py...
 
 Makes each page of PAGE_DIR/page.html, with its styles and scripts in it, puts their hashes
 into the content security policy, and cuts the result at the line <!-- data -->. Standard
@@ -129,18 +130,14 @@ def literal(name, text):
     return "\n".join(lines + ["  return text;", "}", ""])
 
 
-def plot_script(python_dir):
-    """lanelight_plot.py with the module that it imports in place of the import."""
-    script, draw = ((python_dir / f"lanelight_{name}.py").read_text(encoding="utf-8")
-                    for name in ("plot", "draw"))
-    whole, count = re.subn(r"(?m)^from lanelight_draw import .*\n", lambda _: draw, script)
-    if count != 1:
-        raise SystemExit("embed_page: lanelight_plot.py imports lanelight_draw not once")
-    return whole
+def plot_script(modules):
+    """The modules of the Python package that draw plots, without imports of each other."""
+    whole = "".join(module.read_text(encoding="utf-8") for module in modules)
+    return re.sub(r"(?m)^from \.\w+ import (\([^)]*\)|.*)\n", "", whole)
 
 
 def main():
-    page_dir, python_dir, output = map(pathlib.Path, sys.argv[1:])
+    page_dir, output, *modules = map(pathlib.Path, sys.argv[1:])
     body = HEADER
     cases = ""
     for name, page in PAGES.items():
@@ -149,7 +146,7 @@ def main():
         body += "\nstatic " + literal(f"{name}Tail", tail)
         cases += f"    case PageKind::k{name}: return {{{name}Head(), {name}Tail()}};\n"
     body += f"\nPageText TextOf(PageKind kind) {{\n  switch (kind) {{\n{cases}  }}\n  return {{}};\n}}\n"
-    body += "\n" + literal("PlotScript", plot_script(python_dir))
+    body += "\n" + literal("PlotScript", plot_script(modules))
     output.write_text(body + "\n}  // namespace lanelight\n", encoding="utf-8")
 
 

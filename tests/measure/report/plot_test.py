@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the synthetic study, a bench and a sweep: plot_test.py REPORT.html LANELIGHT
 
-Compares what the figures of python/lanelight_plot.py hold with the numbers of the JSON.
+Compares what the figures of python/lanelight hold with the numbers of the JSON.
 """
 
 import csv
@@ -16,7 +16,7 @@ import tempfile
 import xml.etree.ElementTree as xml
 
 try:
-    import matplotlib
+    import matplotlib  # which needs numpy
 except ImportError:
     print("no matplotlib")
     sys.exit(77)
@@ -25,8 +25,7 @@ REPORT, LANELIGHT = sys.argv[1:]
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 FOLDER = pathlib.Path(tempfile.mkdtemp())
 sys.path.insert(0, str(ROOT / "python"))
-import lanelight_draw
-import lanelight_plot
+from lanelight import draw, plot as plots
 
 
 def require(condition, *what):
@@ -50,7 +49,7 @@ def write_study():
 
 def drawn(plot, panel=0):
     """Markers (series, x, y) and ends of intervals that matplotlib has, as lists."""
-    axes = lanelight_plot.draw(plot).axes[panel]
+    axes = plots.draw(plot).axes[panel]
     names, rows = list(plot.panels[panel].series), not plot.panels[panel].x
     lines = [line for line in axes.get_lines() if line.get_marker() in list("os^Dv")]
     points = [(names[int(y)] if rows else line.get_label(), float(x), float(y))
@@ -66,7 +65,7 @@ def check_curves(study, scene, figure, error, time):
         for level in s["levels"]:
             x = level["cpu_seconds"]["value"] if time else level["spp"]
             wanted[s["name"], x] = level[error]
-    plot = lanelight_plot.make(study, figure, scene["name"])
+    plot = plots.make(study, figure, scene["name"])
     points, ends = drawn(plot)
     require(len({name for name, *_ in points}) == 6, "curves of", {p[0] for p in points})
     require(len(ends) == len(points), len(ends), "intervals of", len(points))
@@ -78,7 +77,7 @@ def check_curves(study, scene, figure, error, time):
 
 
 def check_rows(study, scene):
-    points, ends = drawn(lanelight_plot.make(study, "efficiency", scene["name"]))
+    points, ends = drawn(plots.make(study, "efficiency", scene["name"]))
     order = [scene["strategies"][i] for i in scene["ranking"]]
     require([(p[0], p[1]) for p in points]
             == [(s["name"], s["efficiency"]["value"]) for s in order], "not the ranking", points)
@@ -87,7 +86,7 @@ def check_rows(study, scene):
 
 
 def check_figure_8(study, scene):
-    plot = lanelight_plot.make(study, "8", scene["name"])
+    plot = plots.make(study, "8", scene["name"])
     slopes = {s["order"]["value"] for s in scene["strategies"] if s["order"]}
     require({x for _, x, _ in drawn(plot, 1)[0]} & slopes, "no slopes beside the curves")
     run(FOLDER / "study.json", "--figure", "8", "--scene", scene["name"], "-o",
@@ -153,12 +152,12 @@ def check_sweep():
         "roulette": [("q, spp 16", .1, 10), ("q, spp 16", .5, 2),
                      ("q, spp 4", .1, 10), ("q, spp 4", .5, 2)]}
     for figure, expected in wanted.items():
-        points, ends = drawn(lanelight_plot.make(sweep, figure))
+        points, ends = drawn(plots.make(sweep, figure))
         require(points == expected, figure, points)
         # Intervals are drawn where both ends are known.
         require(bool(ends) == (figure == "roulette"), figure, ends)
     for figure, rows in ("efficiency", 4), ("rate", 6):
-        require(len(drawn(lanelight_plot.make(sweep, figure))[0]) == rows, figure)
+        require(len(drawn(plots.make(sweep, figure))[0]) == rows, figure)
     said = run(file, "--figure", "nothing", "-o", out, good=False)
     require('unknown figure "nothing"' in said, said)
     file.write_text(json.dumps({**sweep, "axes": [1]}))
@@ -208,7 +207,7 @@ def check_programs(scene):
 def check_colors():
     style = (ROOT / "src/measure/report/page/base.css").read_text(encoding="utf-8").split("}")[0]
     pages = re.findall(r"--c\d: (#[0-9a-f]{6});", style)
-    require(pages == lanelight_draw.COLORS, pages, "in pages,", lanelight_draw.COLORS)
+    require(pages == draw.COLORS, pages, "in pages,", draw.COLORS)
 
 
 def main():

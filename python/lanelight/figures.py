@@ -1,29 +1,13 @@
-"""Draws what studies, sweeps and benches have measured, for papers.
-
-`lanelight plot` runs this file. From Python:
-
-    import json, lanelight_plot
-    with open("study/study.json") as file:
-        plot = lanelight_plot.make(json.load(file), "time", scene="room")
-    lanelight_plot.draw(plot).savefig("time.pdf")    # a matplotlib Figure
-    print(lanelight_plot.csv_text(plot))
-
-Drawing needs matplotlib (Debian: python3-matplotlib), all else Python 3 only.
-"""
-import csv
-import io
-import json
+"""Collects the numbers of each figure from the JSON of a study, sweep or bench."""
 import math
-import os
-import sys
 
-from lanelight_draw import SECONDS, SPP, Panel, Plot, Point, draw, picture
+from .draw import SECONDS, SPP, Panel, Plot, Point
+from .results import FormatError
 
 MOST_LEADING = 8  # strategies of a ranking, as MOST_CURVES of the report page
-SCHEMAS = {"study": 1, "sweep": 2, "bench": 1}
 
 
-class PlotError(ValueError):
+class PlotError(FormatError):
     """A plot that the file does not have; says which ones it has."""
 
 
@@ -39,21 +23,6 @@ def _drawn(panel, points):
     """The points that have a place on the panel's axes."""
     return [p for p in points
             if math.isfinite(p.value) and p.x > 0 and (p.value > 0 or not panel.log)]
-
-
-def _kind(data):
-    """Which command wrote the JSON. Throws PlotError for other files and schemas."""
-    known = isinstance(data, dict)
-    kind = str(data.get("kind", "")).removeprefix("lanelight-") if known else ""
-    if known and kind not in ("study", "sweep"):
-        kind = "bench" if "rows" in data and "program" in data else ""
-    if not kind:
-        raise PlotError("is not what can be drawn: study.json of `lanelight study`, sweep.json "
-                        "of `lanelight sweep`, or what `lanelight bench --json` writes")
-    if data["schema"] != SCHEMAS[kind]:
-        raise PlotError(f"has schema {data['schema']}; this program draws schema "
-                        f"{SCHEMAS[kind]}")
-    return kind
 
 
 # Figures: {name: (what it shows, title, [(Panel, points)])}. points(strategy) of a study; of a
@@ -77,7 +46,7 @@ STUDY_FIGURES = {
                      lambda s: [_point(1, s["efficiency"])])])}
 
 
-def _sweep_figures(sweep):
+def sweep_figures(sweep):
     efficiency = f"efficiency relative to {sweep['baseline']}"
     found = {
         "samples": (*STUDY_FIGURES["samples"][:2],
@@ -97,16 +66,7 @@ def _sweep_figures(sweep):
     return found
 
 
-def figures(data):
-    """{name: what it shows} of the plots that this JSON can be drawn as."""
-    kind = _kind(data)
-    if kind == "bench":
-        return {"rate": "samples per second of every row, with intervals"}
-    known = STUDY_FIGURES if kind == "study" else _sweep_figures(data)
-    return {name: shows for name, (shows, *_) in known.items()}
-
-
-def _chosen(kind, name, known):
+def chosen(kind, name, known):
     if name in known:
         return name
     listed = ", ".join(f'"{k}"' for k in known)
@@ -130,9 +90,9 @@ def _strategies(scene, figure, everything):
     return [scene["strategies"][i] for i in ranking]
 
 
-def _study_plot(study, figure, scene_name, everything):
+def study_plot(study, figure, scene_name, everything):
     scenes = {s["name"]: s for s in study["scenes"] if s["error"] is None}
-    scene = scenes[_chosen("scene", scene_name, list(scenes))]
+    scene = scenes[chosen("scene", scene_name, list(scenes))]
     strategies = _strategies(scene, figure, everything)
     _, title, panels = STUDY_FIGURES[figure]
     drawn = [panel._replace(series={s["name"]: (look, _drawn(panel, points(s)))
@@ -172,9 +132,9 @@ def _series_name(sweep, group, figure, x):
     return ", ".join(parts) or "all"
 
 
-def _sweep_plot(sweep, figure, scene_name):
-    _, title, [(panel, (y, x))] = _sweep_figures(sweep)[figure]
-    scene = _chosen("scene", scene_name, next(
+def sweep_plot(sweep, figure, scene_name):
+    _, title, [(panel, (y, x))] = sweep_figures(sweep)[figure]
+    scene = chosen("scene", scene_name, next(
         (a["values"] for a in sweep["axes"] if a["name"] == "scene"), []))
     series = {}
     for group in sweep["groups"]:
@@ -196,7 +156,7 @@ def _sweep_plot(sweep, figure, scene_name):
                 [panel._replace(series=series)])
 
 
-def _bench_plot(bench):
+def bench_plot(bench):
     series, targets = {}, []
     for row in bench["rows"]:
         if row["target"] not in targets:
@@ -208,100 +168,3 @@ def _bench_plot(bench):
     return Plot("Throughput", f"{100 * bench['confidence']:g} % intervals of the median; "
                 f"{bench['program']}; {bench['machine']['text']}",
                 [Panel("samples per second", series=series)])
-
-
-def make(data, figure, scene="", everything=False):
-    """The Plot of that name (see figures). scene: by name; may be empty if there is one.
-    everything: all strategies of a study, not the paper's or the leading ones. Throws
-    PlotError for what is not there, and KeyError and the like for damaged data."""
-    kind = _kind(data)
-    if kind == "study" and len(figure) == 1 and figure in "1234567":
-        raise PlotError(f"has no plot of figure {figure}, which is a picture: report.html beside "
-                        "it shows it, and the folder of the scene has its pixels as EXR")
-    _chosen("figure", figure, list(figures(data)))
-    plot = (_bench_plot(data) if kind == "bench" else _sweep_plot(data, figure, scene)
-            if kind == "sweep" else _study_plot(data, figure, scene, everything))
-    if not any(points for p in plot.panels for _, points in p.series.values()):
-        raise PlotError(f'has no numbers for figure "{figure}" of '
-                        f'"{plot.title.split(": ")[-1]}"')
-    return plot
-
-
-def csv_text(plot):
-    """A row for each point; a number that is not known is empty."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow("series quantity value low high at at_quantity".split())
-    for panel in plot.panels:
-        for name, (_, points) in panel.series.items():
-            for p in points:
-                numbers = [repr(v).removesuffix(".0") if math.isfinite(v) else ""
-                           for v in (p.value, p.low, p.high, float(p.x))]
-                writer.writerow([name, panel.y, *numbers[:3],
-                                 *([numbers[3], panel.x] if panel.x else ["", ""])])
-    return out.getvalue()
-
-
-def _write(path, content):
-    """Writes a file whole or not at all; devices as they are."""
-    path = os.path.realpath(path)
-    if os.path.exists(path) and not os.path.isfile(path):
-        with open(path, "wb") as file:
-            file.write(content)
-        return
-    temporary = f"{path}.{os.getpid()}.0.tmp"
-    try:
-        with open(temporary, "xb") as file:
-            file.write(content)
-        os.replace(temporary, path)
-    finally:
-        if os.path.exists(temporary):
-            os.remove(temporary)
-
-
-def _run(file, figure, out, scene, everything):
-    with open(file, encoding="utf-8") as stream:
-        data = json.load(stream)
-    if not figure:
-        known = figures(data)
-        widest = max(map(len, known))
-        return "".join(f"{name:{widest}}  {shows}\n" for name, shows in known.items())
-    plot = make(data, figure, scene, bool(everything))
-    ending = os.path.splitext(out)[1][1:]
-    _write(out, csv_text(plot).encode() if ending == "csv" else picture(plot, ending))
-    return ""
-
-
-def main(file, figure, out, scene, everything):
-    """What `lanelight plot` does: without a figure, prints which there are."""
-    try:
-        os.write(1, _run(file, figure, out, scene, everything).encode())
-    except BrokenPipeError:
-        pass
-    except ImportError as error:
-        # The python3 of PATH may be another one than the system's, which has its packages.
-        system = "/usr/bin/python3"
-        if (os.path.exists(system)
-                and os.path.realpath(system) != os.path.realpath(sys.executable)):
-            os.execv(system, [system, *sys.orig_argv[1:]])
-        return (f"error: {error}: drawing needs matplotlib; install python3-matplotlib "
-                "(Debian), or write .csv")
-    except PlotError as error:
-        return f"error: '{file}' {error}"
-    except OSError as error:
-        return f"error: cannot write '{out}': {error.strerror}"
-    except UnicodeDecodeError:
-        return f"error: '{file}' is not JSON: it is not a text file"
-    except json.JSONDecodeError as error:
-        return f"error: '{file}' is not JSON: {error}"
-    except KeyError as error:
-        return f"error: '{file}' is damaged: it has no member {error}"
-    except IndexError:
-        return f"error: '{file}' is damaged: a list in it is empty"
-    except (TypeError, ValueError, AttributeError) as error:
-        return f"error: '{file}' is damaged: {type(error).__name__}: {error}"
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))

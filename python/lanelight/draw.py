@@ -1,4 +1,4 @@
-"""Draws a Plot with matplotlib (Debian: python3-matplotlib). See lanelight_plot.py."""
+"""Draws a Plot with matplotlib (Debian: python3-matplotlib). See plot.py."""
 import io
 import math
 import typing
@@ -39,6 +39,10 @@ class Plot(typing.NamedTuple):
     title: str
     source: str  # where the numbers come from, one line
     panels: list  # one, or curves and rows beside them
+
+    def _repr_svg_(self):
+        """Shows the plot in a notebook."""
+        return picture(self, "svg").decode()
 
 
 def _tick_text(value, label):
@@ -146,7 +150,7 @@ def _short(text, most):
 
 
 def draw(plot):
-    """A matplotlib Figure of 10 inches width."""
+    """Returns a matplotlib Figure of 10 inches width."""
     import matplotlib
     from matplotlib.figure import Figure
     first = plot.panels[0]
@@ -174,7 +178,7 @@ def draw(plot):
 
 
 def picture(plot, ending):
-    """The bytes of a file of that type, "svg" or "png"."""
+    """Returns the bytes of a file of that type, "svg" or "png"."""
     import matplotlib
     out = io.BytesIO()
     with matplotlib.rc_context(STYLE):
