@@ -32,7 +32,9 @@ class Interval(typing.NamedTuple):
     high: float
 
     def __str__(self) -> str:
-        """The numbers in percent."""
+        """Returns the numbers in percent."""
+        if math.isnan(self.value):
+            return "unknown"
         return f"{100 * self.value:.3g} % [{100 * self.low:.3g}, {100 * self.high:.3g}]"
 
 

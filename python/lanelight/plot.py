@@ -53,9 +53,10 @@ def make(data: dict, figure: str, scene: str = "", everything: bool = False) -> 
 
 
 def renders(images: dict, title: str = "Error against time") -> Plot:
-    """Returns a Plot of {name: images of lanelight.render}: a curve for each name."""
+    """Returns a Plot of {name: images of lanelight.render}: a curve for each name. Images
+    whose error is unknown are left out."""
     series = {name: (look, [Point(image.report["cpu_seconds"], *image.error)
-                            for image in images[name]])
+                            for image in images[name] if image.error.value > 0])
               for look, name in enumerate(images)}
     return Plot(title, "95 % intervals that renders state of their errors",
                 [Panel("error (root of the relative MSE)", SECONDS, slope=-0.5, series=series)])

@@ -74,7 +74,11 @@ def flags_of(settings: dict) -> list:
 
 def shows(progress: bool | None) -> bool:
     """Returns whether progress is shown: None decides for terminals and notebooks."""
-    return (sys.stderr.isatty() or "ipykernel" in sys.modules) if progress is None else progress
+    return (sys.stderr.isatty() or _in_notebook()) if progress is None else progress
+
+
+def _in_notebook() -> bool:
+    return "ipykernel" in sys.modules
 
 
 class _Screen:
@@ -83,24 +87,35 @@ class _Screen:
     def __init__(self, is_shown: bool) -> None:
         self.messages: list = []
         self._is_shown, self._line, self._drawn = is_shown, "", 0
+        self._cell: typing.Any = None  # the notebook's output that is the bar
 
     def add(self, text: str) -> None:
         *lines, self._line = (self._line + text).split("\n")
         for line in lines:
             line = line.rsplit(ERASE)[-1].strip("\r")
-            is_bar = re.match(r"\[[#.]| *\d+ %", line) is not None
-            if line and not is_bar:
+            if re.match(r"\[[#.]| *\d+ %", line):
+                self._draw(line, "\n")
+                continue
+            self._draw("")
+            if line:
                 self.messages.append(line)
-            # Errors and warnings reach the caller as such.
-            self._draw(line + "\n" if is_bar or "note: " in line else "")
+            # Errors and warnings reach the caller as exceptions and warnings.
+            if self._is_shown and re.search("note: |^stopping: ", line):
+                print(line, file=sys.stderr)
         if ERASE in self._line:
             self._draw(self._line.rsplit(ERASE)[-1])
 
-    def _draw(self, text: str) -> None:
-        if self._is_shown:
-            sys.stderr.write("\r" + " " * self._drawn + "\r" + text)
-            sys.stderr.flush()
-            self._drawn = 0 if text.endswith("\n") else len(text)
+    def _draw(self, text: str, end: str = "") -> None:
+        if not self._is_shown:
+            return
+        if not _in_notebook():
+            print("\r" + " " * self._drawn + "\r" + text, end=end, file=sys.stderr, flush=True)
+            self._drawn = 0 if end else len(text)
+        elif self._cell:
+            self._cell.update({"text/plain": text}, raw=True)
+        elif text:
+            from IPython.display import display
+            self._cell = display({"text/plain": text}, raw=True, display_id=True)
 
     def follow(self, process: subprocess.Popen, errors: int) -> bool:
         """Reads until the program has ended, and passes each Ctrl-C on to it: the first one

@@ -40,7 +40,8 @@ def render(scene: str | os.PathLike, *, spp: int | str | None = None,
             (folder / "scene.pbrt").write_text(scene, encoding="utf-8")
             scene = folder / "scene.pbrt"
         settings = {"spp": spp, "strategy": strategy, "png": folder / "image.png",
-                    "quiet": not shows(progress), **flags, "output": output or folder / "image.exr", "json": "-"}
+                    "quiet": not shows(progress), **flags,
+                    "output": output or folder / "image.exr", "json": "-"}
         done = execute(["render", scene, *flags_of(settings)], program, progress)
         image = _image(done, profile)
         if done.interrupted:
