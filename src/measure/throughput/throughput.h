@@ -107,12 +107,10 @@ std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
     const std::function<void(const BenchProgress&)>& on_progress);
 
-/// Returns reasons why these rates depend on other programs: the load of the machine
-/// before the start exceeded its cores, or threads waited for a processor for more than
-/// kMaxWaiting of the time. Empty if the machine was quiet.
+/// Returns BusyReasons() of the machine (src/base/core/machine_info.h), for the row that
+/// waited longest.
 std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                                      const MachineInfo& machine);
-inline constexpr double kMaxWaiting = 0.1;
 
 /// Returns sentences on the uncertainty of these rows: whether the machine was busy, and
 /// whether medians are less certain than `within`.

@@ -103,20 +103,9 @@ const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
 
 std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                                      const MachineInfo& machine) {
-  std::vector<std::string> reasons;
-  if (IsOverloaded(machine)) {
-    reasons.push_back(
-        fmt::format("the load before the start, {:.2f}, exceeds the {:.3g} "
-                    "cores of the machine",
-                    *machine.load, *CoresAtATime(machine)));
-  }
   double worst = 0;
   for (const ThroughputRow& row : rows) worst = std::max(worst, row.WaitingFraction());
-  if (worst > kMaxWaiting) {
-    reasons.push_back(fmt::format(
-        "threads waited for a processor up to {:.0f} % of the time", 100 * worst));
-  }
-  return reasons;
+  return BusyReasons(machine, worst);
 }
 
 std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,
