@@ -51,10 +51,10 @@ struct ProfileComparison {
 /// A change of a stage below this fraction of all time is not reported as slower.
 inline constexpr double kMinChange = 0.01;
 
-/// Compares processor times per sample. A stage, or the total, is slower if Welch's
-/// t-test says so at 5 % for all of them together (Holm), and its median has grown by
-/// more than the fraction `tolerance`; a stage also by kMinChange of all time. Half
-/// widths of the medians' intervals add as squares.
+/// Compares processor times per sample. A stage, or the total, is slower if all of this
+/// holds: Welch's t-test says so at 5 % for all of them together (Holm). Its median has
+/// grown by more than the fraction `tolerance`; a stage's also by kMinChange of all time.
+/// Intervals of differences: half widths of the medians' intervals add as squares.
 ProfileComparison CompareProfiles(const KnownProfile& before, const KnownProfile& now,
                                   double tolerance);
 

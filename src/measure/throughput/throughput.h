@@ -75,7 +75,7 @@ struct ThroughputRow {
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }
 };
 
-/// Time that stages of one kind take for a sample, summed over threads.
+/// Time that stages of one ProfileGroup take for a sample, summed over threads.
 struct StageGroup {
   const char* name;
   double ns_per_sample = 0;
@@ -83,7 +83,7 @@ struct StageGroup {
 
   double Lanes() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
-/// Returns one group for each kind of stage, in a fixed order.
+/// Returns all groups, also those without stages, in the order of ProfileGroup.
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
 
 struct BenchProgress {
