@@ -29,7 +29,7 @@ double CpuSeconds(const Job& job, Mode mode) {
   FilmAccumulator film = MakeFilm(job);
   RunOptions options = RunOptionsOf(job);
   options.profile = mode != kOff;
-  options.profiling.counters = mode != kOff;
+  options.profiling.counters = options.profiling.bounces = mode != kOff;
   if (mode == kTrace) options.profiling.trace_events = 1 << 17;
   const double start = ProcessCpuSeconds();
   Run(job.scene, job.plan, options, film);

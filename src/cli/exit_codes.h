@@ -13,8 +13,8 @@ enum ExitCode : int {
   kExitInterrupted = 6,     // a signal came; what was done is kept, to go on from
   kExitStressFailed = 7,    // stress: a case failed
   kExitImageDiffers = 8,    // render: the image is not what the scene file asks for
-  kExitSlower = 9,          // bench: slower than what it was compared with
-  kExitNotComparable = 10,  // bench: busy machine, or rows of other renders
+  kExitSlower = 9,          // bench, profile: slower than what it was compared with
+  kExitNotComparable = 10,  // bench, profile: busy machine, or other renders
 };
 
 }  // namespace lanelight

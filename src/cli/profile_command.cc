@@ -1,8 +1,10 @@
 // `lanelight profile SCENE`: where the time of a render goes, stage by stage.
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/json_text.h"
+#include "src/base/core/stopwatch.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"
@@ -11,6 +13,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/render_outputs.h"
 #include "src/cli/texts.h"
+#include "src/measure/profile/profile_comparison.h"
 #include "src/render/job/profile_report.h"
 #include "src/render/job/saving.h"
 
@@ -19,30 +22,55 @@ namespace {
 
 struct ProfileCommandOptions {
   SceneOptions scene;
-  std::string json, trace;
+  std::string json, csv, trace, against;
+  double tolerance = 0.05;
   std::size_t trace_events = std::size_t{1} << 17;
-  bool quiet = false;
+  int repeats = 0;  // 0: one, or kProfileRepeats with `against`
+  bool quiet = false, verbose = false;
 };
 
 constexpr const char* kProfileInterruptText =
     "\nstopping: finishing the samples in flight, then printing what was measured (once "
     "more to abort)\n";
 
-RunResult Measure(const ProfileCommandOptions& options, const Job& job,
-                  const std::atomic<bool>& stop) {
+// Renders the job as often as asked, the first time with a trace. A repeat that `stop`
+// cuts short is left out, unless it is the first.
+std::vector<RunResult> Measure(const ProfileCommandOptions& options, const Job& job,
+                               const std::atomic<bool>& stop) {
   ProgressPrinter progress(ChooseProgressStyle(options.quiet));
-  RunOptions run = RunOptionsOf(job);
-  run.stop = &stop;
-  run.on_progress = [&](const Progress& p) { progress.Update({p, {}, {}}); };
-  run.profiling.counters = true;
-  if (!options.trace.empty()) run.profiling.trace_events = options.trace_events;
-  FilmAccumulator film = MakeFilm(job);
-  const RunResult result = Run(job.scene, job.plan, run, film);
+  const Stopwatch watch;
+  std::vector<RunResult> results;
+  for (int i = 0; i < options.repeats && !stop; ++i) {
+    RunOptions run = RunOptionsOf(job);
+    run.stop = &stop;
+    run.on_progress = [&](Progress p) {
+      p.fraction = (i + p.fraction) / options.repeats;
+      p.seconds = watch.Seconds();
+      progress.Update({p, {}, {}});
+    };
+    run.profiling.counters = run.profiling.bounces = true;
+    if (i == 0 && !options.trace.empty()) {
+      run.profiling.trace_events = options.trace_events;
+    }
+    FilmAccumulator film = MakeFilm(job);
+    RunResult result = Run(job.scene, job.plan, run, film);
+    if (i > 0 && result.stopped_early) break;
+    results.push_back(std::move(result));
+  }
   progress.Finish();
-  return result;
+  const auto differs = [&](const RunResult& result) {
+    return result.training.changes != results.front().training.changes;
+  };
+  if (std::ranges::any_of(results, differs)) {
+    PrintError(
+        "warning: trial runs of the repeats chose different strategies; choose one with "
+        "--strategy");
+  }
+  return results;
 }
 
-bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
+bool SaveTrace(const ProfileCommandOptions& options, const Job& job,
+               const RunResult& result) {
   if (options.trace.empty()) return true;
   const std::uint64_t dropped = DroppedEvents(result.trace);
   if (dropped > 0) {
@@ -52,30 +80,68 @@ bool SaveTrace(const ProfileCommandOptions& options, const RunResult& result) {
                     dropped, options.trace_events));
   }
   return SaveOrPrint(options.trace,
-                     TraceText(result, "lanelight profile " + options.scene.scene));
+                     TraceText(result, job.plan.options.target.lanes(),
+                               "lanelight profile " + options.scene.scene));
 }
 
-int Profile(const ProfileCommandOptions& options) {
-  const Job job =
-      OpenScene(options.scene, {{options.json, options.trace}}, options.quiet);
+// Prints the comparison and returns its exit code.
+int Compare(const ProfileCommandOptions& options, const KnownProfile& before,
+            nlohmann::json& json) {
+  constexpr std::size_t kMaxStages = 12;
+  const ProfileComparison comparison =
+      CompareProfiles(before, ProfileFromJson(json), options.tolerance);
+  json["against"] = ToJson(comparison);
+  if (options.json != "-") {
+    Print("\n" + ComparisonText(comparison, before, options.tolerance,
+                                options.verbose ? comparison.stages.size() : kMaxStages,
+                                TerminalColumns(Stream::kOutput)));
+  }
+  switch (comparison.Judge()) {
+    case ProfileComparison::Verdict::kNotSlower:
+      return kExitGood;
+    case ProfileComparison::Verdict::kSlower:
+      return kExitSlower;
+    case ProfileComparison::Verdict::kNotComparable:
+      break;
+  }
+  return kExitNotComparable;
+}
+
+int Profile(ProfileCommandOptions options) {
+  const OutputPaths outputs = {{options.json, options.csv, options.trace}};
+  CheckOutputPaths(outputs, {options.against});
+  std::optional<KnownProfile> before;
+  if (!options.against.empty()) before = ReadProfile(options.against);
+  if (options.repeats == 0) options.repeats = before ? kProfileRepeats : 1;
+  const Job job = OpenScene(options.scene, outputs, options.quiet);
   const Peaks peaks = MeasurePeaks(job.plan.options.target, true);
   const InterruptGuard interrupt(kProfileInterruptText, job.settings.threads);
-  const RunResult result = Measure(options, job, interrupt.stop());
-  const ProfileReport report = MakeProfileReport(result, peaks);
-  if (options.json != "-") Print(ProfileText(report, job, result, options.scene.scene));
-  bool good = SaveTrace(options, result);
-  if (!options.json.empty()) {
-    good &= SaveOrPrint(options.json, DumpJson(ToJson(report, job, result), 2) + "\n");
+  const std::vector<RunResult> results = Measure(options, job, interrupt.stop());
+  const RunResult& first = results.front();
+  const ProfileReport report = MakeProfileReport(results, peaks);
+  if (options.json != "-") {
+    Print(ProfileText(report, job, first, options.scene.scene, options.verbose));
   }
-  return good ? kExitGood : kExitBadInput;
+  bool good = SaveTrace(options, job, first);
+  nlohmann::json json = ToJson(report, job, first);
+  const int code = before ? Compare(options, *before, json) : kExitGood;
+  if (!options.json.empty()) good &= SaveOrPrint(options.json, DumpJson(json, 2) + "\n");
+  if (!options.csv.empty()) good &= SaveOrPrint(options.csv, ProfileCsv(json));
+  return good ? code : kExitBadInput;
 }
 
 void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
   AddSettings(command, kAmountFlag, options.scene.settings);
   // The same default as for `render`, so that the profile is of the same program.
   options.scene.settings.decision = DefaultDecision::kIfLong;
+  AddOption(command, "--repeat N", options.repeats,
+            WithDefault("Renders to measure; times are medians, with 95 % intervals from "
+                        "6 renders on",
+                        "1, with --against 6"))
+      ->transform(ValueFrom(1, 1000));
   AddOption(command, "--json FILE", options.json,
             "Write the profile as JSON ('-': print it)");
+  AddOption(command, "--csv FILE", options.csv, "Write one line per stage");
   AddOption(command, "--trace FILE", options.trace,
             "Write every stage call as a trace for ui.perfetto.dev")
       ->check([](const std::string& path) {
@@ -85,6 +151,15 @@ void AddProfileOptions(CLI::App& command, ProfileCommandOptions& options) {
             WithDefault("Maximum number of stage calls that a thread records",
                         options.trace_events))
       ->transform(ValueFrom(std::size_t{1}, std::size_t{1} << 26));
+  AddOption(
+      command, "--against FILE", options.against,
+      "Compare with this JSON of an earlier profile, stage by stage; exit with 9 if "
+      "one is significantly slower, with 10 if they cannot be compared");
+  AddOption(command, "--tolerance X", options.tolerance,
+            WithDefault("Fraction by which a stage may be slower", options.tolerance))
+      ->transform(ValueFrom(0.0, 1.0));
+  command.add_flag("-v,--verbose", options.verbose,
+                   "Print all stages and columns, bounces, materials and the machine");
   command.add_flag("--quiet", options.quiet, "No progress and no notes");
 }
 
@@ -102,7 +177,9 @@ void AddProfileCommand(CLI::App& root, Command& chosen) {
       "second one aborts. docs/profile.md says what the columns mean.\n"
       "\nExamples:\n"
       "  lanelight profile scene.pbrt --threads 1\n"
-      "  lanelight profile scene.pbrt --spp 4 --trace trace.json --json profile.json");
+      "  lanelight profile scene.pbrt --spp 4 --trace trace.json -v\n"
+      "  lanelight profile scene.pbrt --repeat 10 --json before.json\n"
+      "  lanelight profile scene.pbrt --repeat 10 --against before.json");
   command->callback([options, &chosen] {
     CheckAmountOptions(options->scene.settings);
     chosen = [options] { return Profile(*options); };

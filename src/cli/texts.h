@@ -61,10 +61,12 @@ nlohmann::json ImageInfoJson(const std::string& path);
 /// Returns the text of ImageInfoJson().
 std::string ImageInfoText(const nlohmann::json& info);
 
-/// Returns what was rendered, the measured peaks, one row per stage, and sums; lines of
-/// at most 100 columns, as far as paths and names allow.
+/// Returns what was rendered, the most expensive stage, and bars of groups and stages: at
+/// most kProfileLines lines that fit the terminal, as far as names allow. `verbose`: all
+/// stages and columns, peaks, bounces and materials instead.
+inline constexpr std::size_t kProfileLines = 40;
 std::string ProfileText(const ProfileReport& report, const Job& job,
-                        const RunResult& result, const std::string& scene);
+                        const RunResult& result, const std::string& scene, bool verbose);
 
 /// Returns a row per case, notes under failed ones, and the summary.
 std::string StressTable(const stress::SuiteResult& result);

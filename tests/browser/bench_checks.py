@@ -4,9 +4,6 @@ import math
 
 from checks import check, data, markers, plot, require
 
-# Labels of groups whose names in the JSON differ.
-LABELS = {"other": "other stages", "lights seen": "visible lights"}
-
 
 @check
 def every_row_has_its_rate(page):
@@ -47,7 +44,7 @@ def bars_are_the_groups(page):
                     "[p.ariaLabel, p.offsetWidth / p.parentNode.offsetWidth])")
     for label, share in parts:
         name = next(g["name"] for g in groups
-                    if label.startswith(LABELS.get(g["name"], g["name"]) + " "))
+                    if label.startswith(g["name"] + " "))
         own = next(g["ns_per_sample"] for g in groups if g["name"] == name)
         require(abs(share - own / total) < 0.02, label, share, own / total)
     require(len(parts) == sum(g["ns_per_sample"] > 0 for g in groups), "parts:", parts)

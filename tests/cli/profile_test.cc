@@ -12,6 +12,7 @@
 #include "src/cli/exit_codes.h"
 #include "tests/cli/process.h"
 #include "tests/support/json.h"
+#include "tests/support/json_schema.h"
 
 namespace lanelight {
 namespace {
@@ -37,6 +38,8 @@ ProcessResult Profile(const std::string& scene, std::vector<std::string> flags) 
   REQUIRE(r.exit_code == kExitGood);
   return r;
 }
+
+Json Schema() { return ReadJson(LANELIGHT_SOURCE_DIR "/docs/profile.schema.json"); }
 
 // Microseconds in a trace have three decimals: compare in nanoseconds.
 long long Nanoseconds(const Json& value) {
@@ -65,14 +68,54 @@ std::map<int, int> CheckTracks(const Json& trace, double run_seconds) {
 
 }  // namespace
 
-TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
+TEST_CASE("profile prints at most 40 lines that fit the terminal", "[cli]") {
   TempDirectory directory;
-  const ProcessResult r = Profile(WriteSphereScene(directory), {});
+  const ProcessResult r = Profile(WriteSphereScene(directory), {"--threads", "1"});
+  INFO(r.out);
   CHECK(r.err.empty());
-  for (const char* word :
-       {"stage", "share", "ns/item", "items", "calls", "lanes", "read", "write", "GB/s",
-        "bound", "peaks", "intersect_spheres", "outside stages", "film", "total",
-        "time of other stages / time of intersection: ", "16 samples"}) {
+  const std::vector<std::string> lines = Lines(r.out);
+  CHECK(lines.size() <= 40);
+  CHECK(lines[0].rfind("Strategy points=independent, 16 spp, 1 thread, ", 0) == 0);
+  for (const char* words :
+       {" takes ", " us per sample, ", " rays.", "\ngroup ", "\nstage ", "\nintersect ",
+        "intersect_spheres", "##", "other stages: ", "all with -v"}) {
+    CHECK_THAT(r.out, Contains(words));
+  }
+  for (const std::string& line : lines) CHECK(line.size() <= 100);
+  double sum = 0;
+  bool table = false;
+  for (const std::string& line : lines) {
+    if (table && line.empty()) break;
+    if (table) sum += std::stod(line.substr(line.find('%') - 6, 6));
+    table |= line.rfind("group ", 0) == 0;
+  }
+  CHECK(sum == Approx(100).margin(1));
+  CHECK_THAT(r.out, !Contains("bound") && !Contains("GB/s"));
+}
+
+TEST_CASE("profile -v prints all stages in tables that fit into 100 columns", "[cli]") {
+  TempDirectory directory;
+  const ProcessResult r = Profile(WriteSphereScene(directory), {"-v"});
+  for (const char* word : {"stage",
+                           "share",
+                           "ns/item",
+                           "items",
+                           "calls",
+                           "lanes",
+                           "read",
+                           "write",
+                           "GB/s",
+                           "peaks",
+                           "intersect_spheres",
+                           "outside stages",
+                           "film",
+                           "total",
+                           "time of other stages / time of intersection: ",
+                           "16 spp",
+                           "bounce",
+                           "closest rays",
+                           "Lambertian diffuse material",
+                           "machine"}) {
     CHECK_THAT(r.out, Contains(word));
   }
   double last = 100, sum = 0;
@@ -92,6 +135,96 @@ TEST_CASE("profile prints a table that fits into 100 columns", "[cli]") {
   }
   CHECK(rows > 10);
   CHECK(sum == Approx(100).margin(0.05 * rows));  // each rounded to a tenth
+}
+
+TEST_CASE("repeats add intervals, and a profile is compared with an earlier one",
+          "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const std::string path = directory / "p.json", csv = directory / "p.csv";
+  const std::vector<std::string> flags = {"--threads", "1", "--spp", "4"};
+  std::vector<std::string> first = flags;
+  first.insert(first.end(), {"--repeat", "6", "--json", path, "--csv", csv});
+  const ProcessResult r = Profile(scene, first);
+  CHECK_THAT(r.out, Contains("6 repeats") && Contains(" [") && Contains("]"));
+  Json profile = ReadJson(path);
+  CHECK(profile.at("repeats") == 6);
+  CHECK(profile.at("rows")[0].at("ns_per_sample_of_repeats").size() == 6);
+  std::ifstream in(csv);
+  std::size_t lines = 0;
+  for (std::string line; std::getline(in, line);) ++lines;
+  CHECK(lines == profile.at("rows").size() + 1);
+
+  const auto compare = [&](double factor, std::vector<std::string> more) {
+    Json old = profile;
+    old["busy"] = Json::array();
+    for (Json& row : old["rows"]) {
+      for (Json& ns : row["ns_per_sample_of_repeats"]) ns = factor * ns.get<double>();
+    }
+    for (Json& ns : old["ns_per_sample_of_repeats"]) ns = factor * ns.get<double>();
+    std::vector<std::string> all = {"profile", scene, "--quiet", "--against",
+                                    WriteText(directory / "old.json", old.dump())};
+    all.insert(all.end(), flags.begin(), flags.end());
+    all.insert(all.end(), more.begin(), more.end());
+    return RunLanelight(all);
+  };
+  // The machine that runs the tests may be busy itself.
+  const auto check = [](const ProcessResult& result, int code, const char* words) {
+    INFO(result.out);
+    const bool busy = result.out.find("machine was busy") != std::string::npos;
+    CHECK(result.exit_code == (busy ? kExitNotComparable : code));
+    CHECK_THAT(result.out, Contains(busy ? "not comparable" : words));
+  };
+  const std::string again = directory / "again.json";
+  check(compare(1e-3, {"--json", again}), kExitSlower, "slower: ");
+  CHECK(test::SchemaErrors(Schema(), ReadJson(again)).empty());
+  check(compare(1e3, {}), kExitGood, "no stage is significantly slower");
+  const ProcessResult other = compare(1, {"--strategy", "points=halton"});
+  CHECK(other.exit_code == kExitNotComparable);
+  CHECK_THAT(other.out, Contains("the strategy is points=halton, before points="));
+  const ProcessResult few = compare(1, {"--repeat", "2"});
+  CHECK(few.exit_code == kExitNotComparable);
+  CHECK_THAT(few.out, Contains("not comparable"));
+
+  const std::string broken = WriteText(directory / "broken.json", "{}");
+  const ProcessResult wrong = RunLanelight({"profile", scene, "--against", broken});
+  CHECK(wrong.exit_code == kExitBadInput);
+  CHECK_THAT(wrong.err, Contains("was not written by `lanelight profile --json`"));
+  CHECK(RunLanelight({"profile", scene, "--repeat", "0"}).exit_code == kExitUsage);
+}
+
+TEST_CASE("the schema of a profile finds errors", "[cli]") {
+  TempDirectory directory;
+  const std::string path = directory / "p.json";
+  Profile(WriteSphereScene(directory), {"--spp", "1", "--json", path});
+  Json profile = ReadJson(path);
+  const auto errors = test::SchemaErrors(Schema(), profile);
+  INFO(Json(errors).dump(1));
+  CHECK(errors.empty());
+  profile["new"] = 1;
+  profile.erase("kind");
+  profile["rows"][0]["share"] = "half";
+  profile["rows"][0]["bound"] = "unknown";
+  CHECK(test::SchemaErrors(Schema(), profile).size() == 4);
+}
+
+TEST_CASE("the bounces of a profile have all its rays", "[cli]") {
+  TempDirectory directory;
+  const std::string path = directory / "p.json";
+  Profile(WriteSphereScene(directory), {"--json", path, "--threads", "1"});
+  const Json profile = ReadJson(path);
+  double rays = 0, seconds = 0;
+  for (const Json& bounce : profile.at("bounces")) {
+    rays += bounce.at("rays_closest").get<double>();
+    rays += bounce.at("rays_shadow").get<double>();
+    seconds += bounce.at("seconds").get<double>();
+    CHECK(bounce.at("occupancy") <= 1);
+  }
+  const double samples = profile.at("samples");
+  CHECK(profile.at("bounces")[0].at("rays_closest").get<double>() >= samples);
+  CHECK(rays <= 1.001 * samples * profile.at("rays_per_sample").get<double>());
+  CHECK(seconds > 0);
+  CHECK(seconds < profile.at("seconds").at("cpu"));
 }
 
 TEST_CASE("the JSON of a profile has the same values with more digits", "[cli]") {
@@ -167,7 +300,7 @@ TEST_CASE("profile and render choose the same strategy for equal arguments", "[c
   std::sort(rows.begin(), rows.end());
   CHECK(names == rows);
   CHECK(has_pilot);
-  CHECK_THAT(Lines(r.out).at(0), Contains("strategy") && Contains("trial run"));
+  CHECK_THAT(r.out.substr(0, 200), Contains("trategy") && Contains("trial run"));
 
   const ProcessResult explicit_run = Profile(scene, {"--strategy", "points=halton"});
   CHECK_THAT(Lines(explicit_run.out).at(0),
@@ -203,13 +336,15 @@ TEST_CASE("a trace has one track per thread, without overlaps", "[cli]") {
   CHECK(tracks.size() <= 2);
   std::map<std::string, long> calls;
   long total = 0;
-  int named = 0;
+  int named = 0, counters = 0;
   for (const Json& e : events) {
     if (e.at("ph") == "X") ++calls[e.at("name")], ++total;
     named += e.at("name") == "thread_name";
+    counters += e.at("ph") == "C";
     CHECK(e.at("ph") != "i");  // nothing was dropped
   }
   CHECK(named == static_cast<int>(tracks.size()));
+  CHECK(counters > 0);
   CHECK(total == profile.at("trace").at("events"));
   CHECK(profile.at("trace").at("dropped") == 0);
   for (const Json& row : profile.at("rows")) {
@@ -246,7 +381,7 @@ TEST_CASE("a full disk loses the trace, not the table", "[cli]") {
                                        options);
   CHECK(r.exit_code == kExitBadInput);
   CHECK_THAT(r.err, Contains("t.json"));
-  CHECK_THAT(r.out, Contains("time of other stages / time of intersection"));
+  CHECK_THAT(r.out, Contains("intersect_spheres"));
   CHECK(directory.Files() == std::vector<std::string>{"sphere.pbrt"});
   CHECK(temporary.Files().empty());
 }
@@ -263,8 +398,7 @@ TEST_CASE("Ctrl-C keeps the profile measured so far", "[cli]") {
                    interrupt);
   INFO(r.err);
   CHECK(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("stopped early") &&
-                        Contains("time of other stages / time of intersection"));
+  CHECK_THAT(r.out, Contains("(stopped early)") && Contains("intersect_spheres"));
   const Json p = ReadJson(json);
   CHECK(p.at("stopped_early") == true);
   CHECK(p.at("samples") > 0);

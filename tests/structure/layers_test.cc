@@ -69,6 +69,7 @@ constexpr Folder kFolders[] = {
     {"src/measure/report",      "pages and plots"},
     {"src/measure/compare",     "differences of two images"},
     {"src/measure/throughput",  "how fast scenes render"},
+    {"src/measure/profile",     "comparing profiles"},
     {"src/measure/sweep",       "grids of renders"},
     {"src/measure/study",       "measuring strategies"},
     {"src/measure/advise",      "choosing a strategy"},

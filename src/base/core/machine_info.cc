@@ -127,6 +127,21 @@ bool IsOverloaded(const MachineInfo& machine) {
   return machine.load && cores && *machine.load > *cores;
 }
 
+std::vector<std::string> BusyReasons(const MachineInfo& machine, double waiting) {
+  std::vector<std::string> reasons;
+  if (IsOverloaded(machine)) {
+    reasons.push_back(
+        fmt::format("the load before the start, {:.2f}, exceeds the {:.3g} "
+                    "cores of the machine",
+                    *machine.load, *CoresAtATime(machine)));
+  }
+  if (waiting > kMaxWaiting) {
+    reasons.push_back(fmt::format(
+        "threads waited for a processor up to {:.0f} % of the time", 100 * waiting));
+  }
+  return reasons;
+}
+
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines) {
   const auto same = [text = TextWithoutLoad(machine)](const MachineInfo& other) {
     return TextWithoutLoad(other) == text;

@@ -36,6 +36,12 @@ std::optional<double> CoresAtATime(const MachineInfo& machine);
 /// programs take part of the time that it measures. False where either is unknown.
 bool IsOverloaded(const MachineInfo& machine);
 
+/// Returns reasons why times measured here depend on other programs: the machine is
+/// overloaded, or threads waited for a processor for this fraction of the time, more than
+/// kMaxWaiting. Empty if the machine was quiet.
+std::vector<std::string> BusyReasons(const MachineInfo& machine, double waiting);
+inline constexpr double kMaxWaiting = 0.1;
+
 /// Adds the machine, unless the list has one that differs in its load alone: that one
 /// then gets the higher load.
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines);

@@ -75,7 +75,7 @@ struct ThroughputRow {
   std::uint64_t rays() const { return counts.rays_closest + counts.rays_shadow; }
 };
 
-/// Time that stages of one kind take for a sample, summed over threads.
+/// Time that stages of one ProfileGroup take for a sample, summed over threads.
 struct StageGroup {
   const char* name;
   double ns_per_sample = 0;
@@ -83,7 +83,7 @@ struct StageGroup {
 
   double Lanes() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
-/// Returns one group for each kind of stage, in a fixed order.
+/// Returns all groups, also those without stages, in the order of ProfileGroup.
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
 
 struct BenchProgress {
@@ -107,12 +107,10 @@ std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
     const std::function<void(const BenchProgress&)>& on_progress);
 
-/// Returns reasons why these rates depend on other programs: the load of the machine
-/// before the start exceeded its cores, or threads waited for a processor for more than
-/// kMaxWaiting of the time. Empty if the machine was quiet.
+/// Returns BusyReasons() of the machine (src/base/core/machine_info.h), for the row that
+/// waited longest.
 std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                                      const MachineInfo& machine);
-inline constexpr double kMaxWaiting = 0.1;
 
 /// Returns sentences on the uncertainty of these rows: whether the machine was busy, and
 /// whether medians are less certain than `within`.

@@ -10,31 +10,6 @@
 namespace lanelight {
 namespace {
 
-struct GroupOfStages {
-  const char *begins, *group;
-};
-// Groups by the beginning of a stage's name; all other stages are in "other".
-constexpr GroupOfStages kGroups[] = {
-    {"generate", "generate"},    {"camera_", "generate"},
-    {"points_", "generate"},     {"antithetic_", "generate"},
-    {"intersect_", "closest"},   {"shadow_", "shadow"},
-    {"surface_", "surface"},     {"shade_", "shade"},
-    {"texture", "shade"},        {"mix", "shade"},
-    {"light_", "lights"},        {"emission_", "lights"},
-    {"escape", "lights"},        {"connect", "lights"},
-    {"accumulate", "film"},      {"film", "film"},
-    {"task set-up", "generate"}, {"seen", "lights seen"}};
-constexpr const char* kGroupNames[] = {"generate",    "closest", "shadow",
-                                       "surface",     "shade",   "lights",
-                                       "lights seen", "film",    "other"};
-
-std::string GroupOf(const std::string& stage) {
-  for (const GroupOfStages& g : kGroups) {
-    if (stage.starts_with(g.begins)) return g.group;
-  }
-  return "other";
-}
-
 // Returns samples per second of wall clock or of processor time.
 Interval RateIn(const ThroughputRow& row, const Interval& seconds) {
   const double samples = double(row.counts.samples);
@@ -67,22 +42,18 @@ double ThroughputRow::RelativeHalfWidth() const {
 
 std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   std::vector<StageGroup> groups;
-  for (const char* name : kGroupNames) groups.push_back({name});
-  const auto group_of = [&](const StageProfile& s) -> StageGroup& {
-    const std::string name = GroupOf(s.name);
-    return *std::ranges::find_if(groups,
-                                 [&](const StageGroup& g) { return name == g.name; });
-  };
-  const double ns = 1e9 / double(row.counts.samples);
-  for (const StageProfile& s : row.counts.stages) {
-    StageGroup& group = group_of(s);
-    group.ns_per_sample += ns * s.seconds;
-    group.items += s.items;
-    group.lane_slots += s.lane_slots;
+  for (int i = 0; i < int(kNumProfileGroups); ++i) {
+    groups.push_back({Name(ProfileGroup(i))});
   }
+  const double ns = 1e9 / double(row.counts.samples);
   // Parts of tasks outside of stages have no lanes.
-  for (const StageProfile& s : row.counts.parts) {
-    group_of(s).ns_per_sample += ns * s.seconds;
+  for (const auto* profiles : {&row.counts.stages, &row.counts.parts}) {
+    for (const StageProfile& s : *profiles) {
+      StageGroup& group = groups[std::size_t(s.group)];
+      group.ns_per_sample += ns * s.seconds;
+      if (s.lane_slots > 0) group.items += s.items;
+      group.lane_slots += s.lane_slots;
+    }
   }
   return groups;
 }
@@ -103,20 +74,9 @@ const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
 
 std::vector<std::string> BusyReasons(const std::vector<ThroughputRow>& rows,
                                      const MachineInfo& machine) {
-  std::vector<std::string> reasons;
-  if (IsOverloaded(machine)) {
-    reasons.push_back(
-        fmt::format("the load before the start, {:.2f}, exceeds the {:.3g} "
-                    "cores of the machine",
-                    *machine.load, *CoresAtATime(machine)));
-  }
   double worst = 0;
   for (const ThroughputRow& row : rows) worst = std::max(worst, row.WaitingFraction());
-  if (worst > kMaxWaiting) {
-    reasons.push_back(fmt::format(
-        "threads waited for a processor up to {:.0f} % of the time", 100 * worst));
-  }
-  return reasons;
+  return BusyReasons(machine, worst);
 }
 
 std::vector<std::string> ThroughputWarnings(const std::vector<ThroughputRow>& rows,

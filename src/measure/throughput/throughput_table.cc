@@ -76,17 +76,24 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
 
 // Lists each scene and target once: times per sample hardly depend on threads.
 std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
+  std::vector<bool> used(kNumProfileGroups);
+  for (const ThroughputRow& row : rows) {
+    const std::vector<StageGroup> groups = StageGroups(row);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      used[i] = used[i] || groups[i].ns_per_sample > 0;
+    }
+  }
   std::vector<Cells> lines = {{"ns per sample", "target"}};
-  for (const StageGroup& g : StageGroups(rows[0])) {
-    const std::string name = g.name;
-    lines[0].push_back(name == "lights seen" ? "visible lights" : name);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i]) lines[0].push_back(Name(ProfileGroup(i)));
   }
   std::set<std::string> seen;
   for (const ThroughputRow& row : rows) {
     if (!seen.insert(row.scene + " " + row.target).second) continue;
     Cells& line = lines.emplace_back(Cells{row.scene, row.target});
-    for (const StageGroup& g : StageGroups(row)) {
-      line.push_back(fmt::format("{:.0f}", g.ns_per_sample));
+    const std::vector<StageGroup> groups = StageGroups(row);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (used[i]) line.push_back(fmt::format("{:.0f}", groups[i].ns_per_sample));
     }
   }
   return Table(lines, style);

@@ -3,6 +3,8 @@
 
 #include "src/base/core/hardware_counters.h"
 #include "src/base/core/parallel.h"
+#include "src/base/core/version.h"
+#include "src/base/stat/values.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/profile_report.h"
@@ -23,10 +25,44 @@ Json CountersJson(const ProfileRow& row) {
           {"llc_misses_per_item", row.PerItem(Counter::kLlcMisses)}};
 }
 
+// The median, and its repeats.
+void AddTimes(const std::vector<double>& ns_per_sample, Json& out) {
+  out["ns_per_sample"] = IntervalJson(MedianOf(ns_per_sample));
+  out["ns_per_sample_of_repeats"] = ns_per_sample;
+}
+
+Json GroupsJson(const ProfileReport& report) {
+  Json groups = Json::array();
+  for (const ProfileGroupRow& row : report.groups) {
+    Json& group = groups.emplace_back(
+        Json{{"name", Name(row.group)},
+             {"meaning", Meaning(row.group)},
+             {"seconds", row.seconds},
+             {"share", row.fraction},
+             {"occupancy", row.lane_slots > 0 ? Json(row.Occupancy()) : Json()}});
+    AddTimes(row.ns_per_sample, group);
+  }
+  return groups;
+}
+
+Json BouncesJson(const ProfileReport& report) {
+  Json bounces = Json::array();
+  for (const BounceProfile& b : report.bounces) {
+    bounces.push_back({{"depth", bounces.size()},
+                       {"seconds", b.seconds},
+                       {"rays_closest", b.rays_closest},
+                       {"rays_shadow", b.rays_shadow},
+                       {"occupancy", b.lane_slots > 0 ? b.items / b.lane_slots : 0}});
+  }
+  return bounces;
+}
+
 Json RowJson(const ProfileRow& row, double flops) {
   const StageProfile& c = row.counts;
-  Json out = {{"name", c.name},        {"kind", Name(row.kind)}, {"seconds", c.seconds},
-              {"share", row.fraction}, {"calls", c.calls},       {"items", c.items}};
+  Json out = {{"name", c.name},       {"kind", Name(row.kind)}, {"group", Name(c.group)},
+              {"seconds", c.seconds}, {"share", row.fraction},  {"calls", c.calls},
+              {"items", c.items}};
+  AddTimes(row.ns_per_sample, out);
   out["ns_per_item"] = c.items > 0 ? Json(row.NsPerItem()) : Json();
   const bool stage = row.kind == RowKind::kStage;
   const auto of_stage = [&](double value) { return stage ? Json(value) : Json(); };
@@ -70,9 +106,17 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
   for (const ProfileRow& row : report.rows)
     rows.push_back(RowJson(row, report.peaks.flops));
   const bool intersects = report.intersect_seconds > 0;
-  return {
+  Json out = {
       {"schema", kProfileSchema},
       {"kind", "profile"},
+      {"program", FullVersion()},
+      {"repeats", report.ns_per_sample.size()},
+      {"confidence", kProfileConfidence},
+      {"busy", report.busy},
+      {"resolution", {job.window.width(), job.window.height()}},
+      {"rays_per_sample", report.rays_per_sample},
+      {"groups", GroupsJson(report)},
+      {"bounces", BouncesJson(report)},
       {"target", TargetJson(job.plan.options.target)},
       {"machine", ToJson(ThisMachine())},
       {"threads", ThreadCount(job.settings.threads)},
@@ -102,6 +146,37 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"trace",
        {{"events", TraceEvents(result.trace)},
         {"dropped", DroppedEvents(result.trace)}}}};
+  AddTimes(report.ns_per_sample, out);
+  return out;
+}
+
+std::string ProfileCsv(const Json& profile) {
+  static constexpr const char* kColumns[] = {"name",
+                                             "kind",
+                                             "group",
+                                             "seconds",
+                                             "share",
+                                             "calls",
+                                             "items",
+                                             "ns_per_item",
+                                             "occupancy",
+                                             "bytes_read_per_item",
+                                             "bytes_written_per_item"};
+  std::string text = fmt::format(
+      "{},ns_per_sample,ns_per_sample_low,ns_per_sample_high,repeats,target,threads,"
+      "strategy,{}\n",
+      fmt::join(kColumns, ","), MachineCsvHeader());
+  for (const Json& row : profile.at("rows")) {
+    for (const char* column : kColumns) text += CsvField(row.at(column)) + ",";
+    const Json& ns = row.at("ns_per_sample");
+    for (const char* end : {"value", "low", "high"}) text += CsvField(ns.at(end)) + ",";
+    text += fmt::format("{},{},{},{},{}\n", CsvField(profile.at("repeats")),
+                        CsvField(profile.at("target").at("name")),
+                        CsvField(profile.at("threads")),
+                        CsvField(profile.at("strategy_in_force")),
+                        MachineCsvRow(MachineFromJson(profile.at("machine"))));
+  }
+  return text;
 }
 
 }  // namespace lanelight

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/core/machine_info.h"
+
 namespace lanelight {
 namespace {
 
@@ -22,25 +24,89 @@ ProfileRow MakeRow(RowKind kind, const char* name, double seconds) {
 }
 
 // The rest is what the processor time of the process has beyond stages, parts and pilot.
-void AddRows(const RunResult& result, ProfileReport& report) {
+std::vector<ProfileRow> RowsOf(const RunResult& result) {
+  std::vector<ProfileRow> rows;
   double timed = result.training.cpu_seconds;
-  const auto add = [&](RowKind kind, const std::vector<StageProfile>& rows) {
-    for (const StageProfile& counts : rows) {
+  const auto add = [&](RowKind kind, const std::vector<StageProfile>& profiles) {
+    for (const StageProfile& counts : profiles) {
       timed += counts.seconds;
       if (kind == RowKind::kStage || counts.calls > 0) {
-        report.rows.push_back(MakeRow(kind, counts));
+        rows.push_back(MakeRow(kind, counts));
       }
     }
   };
   add(RowKind::kStage, result.stages);
   add(RowKind::kPart, result.parts);
   if (result.training.cpu_seconds > 0) {
-    report.rows.push_back(
-        MakeRow(RowKind::kPilot, kPilotRowName, result.training.cpu_seconds));
+    rows.push_back(MakeRow(RowKind::kPilot, kPilotRowName, result.training.cpu_seconds));
+    rows.back().counts.group = ProfileGroup::kTraining;
   }
   const double rest = std::max(0.0, result.cpu_seconds - timed);
-  report.rows.push_back(MakeRow(RowKind::kOutside, "outside stages", rest));
-  report.waiting_seconds = std::max(0.0, result.waiting_seconds);
+  rows.push_back(MakeRow(RowKind::kOutside, "outside stages", rest));
+  return rows;
+}
+
+// Rows are those of any repeat: trial runs of two repeats may choose differently.
+void AddRows(std::span<const RunResult> repeats, ProfileReport& report) {
+  for (std::size_t i = 0; i < repeats.size(); ++i) {
+    const double per_sample =
+        1e9 / double(std::max<std::uint64_t>(repeats[i].samples, 1));
+    report.ns_per_sample.push_back(0);
+    for (const ProfileRow& more : RowsOf(repeats[i])) {
+      auto row = std::ranges::find_if(report.rows, [&](const ProfileRow& r) {
+        return r.counts.name == more.counts.name;
+      });
+      if (row == report.rows.end()) {
+        row = report.rows.insert(row, more);
+      } else {
+        row->counts.counted_items += more.counts.counted_items;
+        for (std::size_t c = 0; c < row->counts.counted.size(); ++c) {
+          row->counts.counted[c] += more.counts.counted[c];
+        }
+      }
+      row->ns_per_sample.resize(i);
+      row->ns_per_sample.push_back(per_sample * more.counts.seconds);
+      report.ns_per_sample.back() += row->ns_per_sample.back();
+    }
+  }
+  for (ProfileRow& row : report.rows) {
+    row.ns_per_sample.resize(repeats.size());
+    row.counts.seconds = 1e-9 * stat::Median(row.ns_per_sample) *
+                         double(std::max<std::uint64_t>(report.samples, 1));
+  }
+}
+
+void AddGroups(ProfileReport& report) {
+  for (const ProfileRow& row : report.rows) {
+    const StageProfile& c = row.counts;
+    auto group = std::ranges::find(report.groups, c.group, &ProfileGroupRow::group);
+    if (group == report.groups.end()) {
+      group = report.groups.emplace(group);
+      group->group = c.group;
+      group->ns_per_sample.resize(row.ns_per_sample.size());
+    }
+    group->seconds += c.seconds;
+    group->fraction += row.fraction;
+    if (c.lane_slots > 0) group->items += c.items;
+    group->lane_slots += c.lane_slots;
+    for (std::size_t i = 0; i < row.ns_per_sample.size(); ++i) {
+      group->ns_per_sample[i] += row.ns_per_sample[i];
+    }
+  }
+  std::ranges::sort(
+      report.groups, [](const ProfileGroupRow& a, const ProfileGroupRow& b) {
+        return a.fraction != b.fraction ? a.fraction > b.fraction : a.group < b.group;
+      });
+}
+
+void AddLoad(std::span<const RunResult> repeats, ProfileReport& report) {
+  double cpu = 0;
+  for (const RunResult& result : repeats) {
+    report.waiting_seconds += std::max(0.0, result.waiting_seconds);
+    cpu += result.cpu_seconds;
+  }
+  const double all = report.waiting_seconds + cpu;
+  report.busy = BusyReasons(ThisMachine(), all > 0 ? report.waiting_seconds / all : 0);
 }
 
 void AddSums(ProfileReport& report) {
@@ -103,11 +169,23 @@ double ProfileReport::RatioWithAll() const {
   return intersect_seconds > 0 ? (seconds - intersect_seconds) / intersect_seconds : 0;
 }
 
-ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks) {
+Interval MedianOf(const std::vector<double>& ns_per_sample) {
+  return stat::MedianInterval(ns_per_sample, kProfileConfidence);
+}
+
+ProfileReport MakeProfileReport(std::span<const RunResult> repeats, const Peaks& peaks) {
+  const RunResult& first = repeats.front();
   ProfileReport report;
   report.peaks = peaks;
-  report.level = peaks.LevelOf(double(result.bytes_in_flight));
-  AddRows(result, report);
+  report.level = peaks.LevelOf(double(first.bytes_in_flight));
+  report.samples = first.samples;
+  report.rays_per_sample = double(first.rays_closest + first.rays_shadow) /
+                           double(std::max<std::uint64_t>(first.samples, 1));
+  report.bounces = first.bounces;
+  while (!report.bounces.empty() && report.bounces.back().items == 0) {
+    report.bounces.pop_back();
+  }
+  AddRows(repeats, report);
   AddSums(report);
   for (ProfileRow& row : report.rows) {
     row.fraction = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
@@ -117,6 +195,8 @@ ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks) {
     return a.fraction != b.fraction ? a.fraction > b.fraction
                                     : a.counts.name < b.counts.name;
   });
+  AddGroups(report);
+  AddLoad(repeats, report);
   return report;
 }
 

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "kernels/simd/target.h"
+#include "src/base/stat/interval.h"
 #include "src/render/job/job.h"
 #include "src/render/run/run.h"
 
@@ -59,6 +61,7 @@ struct ProfileRow {
   double bandwidth = 0;    // bytes of columns per second, read and written
   double of_peak = 0;      // of ProfileReport::level
   Bound bound = Bound::kUnknown;
+  std::vector<double> ns_per_sample;  // of the repeats; counts.seconds: by their median
 
   double NsPerItem() const;
   /// Returns a processor counter per item; 0 without counters.
@@ -66,12 +69,28 @@ struct ProfileRow {
   double InstructionsPerCycle() const;
 };
 
+/// Sums over the rows of one group.
+struct ProfileGroupRow {
+  ProfileGroup group = ProfileGroup::kOutside;
+  double seconds = 0, fraction = 0;  // as in ProfileRow
+  std::uint64_t items = 0, lane_slots = 0;
+  std::vector<double> ns_per_sample;
+
+  double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
+};
+
 struct ProfileReport {
-  std::vector<ProfileRow> rows;  // by falling share
-  double seconds = 0;            // processor time of all threads: the sum of the rows
+  std::vector<ProfileRow> rows;         // by falling share
+  std::vector<ProfileGroupRow> groups;  // of rows, by falling share
+  std::vector<BounceProfile> bounces;   // of the first repeat, up to the last with rays
+  std::uint64_t samples = 0;            // of the first repeat
+  double rays_per_sample = 0;
+  std::vector<double> ns_per_sample;  // sums over the rows, of the repeats
+  std::vector<std::string> busy;      // BusyReasons()
+  double seconds = 0;  // processor time of all threads: the sum of the rows
   double intersect_seconds = 0, other_stage_seconds = 0;
   /// Seconds by which the stages' clocks exceed the processor time: threads waited for a
-  /// processor.
+  /// processor. Sum over all repeats.
   double waiting_seconds = 0;
   Peaks peaks;
   MemoryLevel level;  // where the columns of a wavefront live
@@ -82,11 +101,21 @@ struct ProfileReport {
   double RatioWithAll() const;
 };
 
-ProfileReport MakeProfileReport(const RunResult& result, const Peaks& peaks);
+/// Confidence of intervals, and repeats that one of a median needs.
+inline constexpr double kProfileConfidence = 0.95;
+inline constexpr int kProfileRepeats = 6;
 
-/// See docs/profile.md.
+/// Returns the profile of renders of one job: counts are those of the first, times the
+/// medians of all. `repeats`: at least one.
+ProfileReport MakeProfileReport(std::span<const RunResult> repeats, const Peaks& peaks);
+/// Returns the median of a row's ns_per_sample with its interval.
+Interval MedianOf(const std::vector<double>& ns_per_sample);
+
+/// Returns the JSON of docs/profile.schema.json. `result`: of the first repeat.
 nlohmann::json ToJson(const ProfileReport& report, const Job& job,
                       const RunResult& result);
+/// Returns one line for each row of this JSON.
+std::string ProfileCsv(const nlohmann::json& profile);
 
 /// Measures for about half a second. Checks the result of every loop (CheckFailure), so
 /// that none is optimised away. `counters`: read the processor's, if available.
@@ -104,8 +133,9 @@ void PlaceOnRoofline(const Peaks& peaks, const MemoryLevel& level, ProfileRow& r
 /// Returns a trace for chrome://tracing and ui.perfetto.dev ("Trace Event Format", JSON
 /// array): one complete event ("X") per stage call and part of a task, in microseconds
 /// since the start of the run, about 120 bytes each; one named track per thread, with an
-/// instant event at its end if events were dropped. `process`: name in the viewer.
-std::string TraceText(const RunResult& result, const std::string& process);
+/// instant event at its end if events were dropped. Counter events ("C") at each wave
+/// have queue lengths, filled lanes and rays per second. `process`: name in the viewer.
+std::string TraceText(const RunResult& result, int lanes, const std::string& process);
 
 /// Returns the dropped events of all threads.
 std::uint64_t DroppedEvents(const RunTrace& trace);

@@ -36,8 +36,11 @@ bool RunPhase(Wave& wave, const Phase& phase, StageClock* clock,
   }
   while (wave.HasWork()) {
     wave.BeginWave();
+    const bool bounces = clock != nullptr && phase.id == PhaseId::kPaths;
     if (clock != nullptr) clock->StartWave();
+    if (bounces) clock->StartBounces(wave);
     RunOnce(wave, phase, clock);
+    if (bounces) clock->EndBounces(wave);
     if (watcher != nullptr && watcher->IsCancelled()) return false;
   }
   return true;

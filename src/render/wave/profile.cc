@@ -25,6 +25,46 @@ const char* Name(TaskPart part) {
   return kNames[int(part)];
 }
 
+ProfileGroup GroupOf(PhaseId phase, const Stage& stage) {
+  using enum ProfileGroup;
+  if (phase == PhaseId::kVisibleLights || phase == PhaseId::kFindEdges)
+    return kVisibleLights;
+  if (phase == PhaseId::kLightPaths) return kLightPaths;
+  switch (stage.role) {
+    case StageRole::kCamera:
+      return kCamera;
+    case StageRole::kSampling:
+      return kSampling;
+    case StageRole::kIntersect:
+      return kIntersect;
+    case StageRole::kMedia:
+      return kMedia;
+    case StageRole::kSort:
+    case StageRole::kRoulette:
+      return kQueues;
+    case StageRole::kEmission:
+    case StageRole::kLight:
+    case StageRole::kResample:
+      return kLights;
+    case StageRole::kSurface:
+      return kSurface;
+    case StageRole::kTexture:
+      return kTexture;
+    case StageRole::kShade:
+      return kShade;
+    case StageRole::kShadow:
+      return kShadow;
+    case StageRole::kAccumulate:
+      return kFilm;
+    case StageRole::kBlock:
+      return kReuse;
+    case StageRole::kRecord:
+      break;
+  }
+  if (stage.needs.HasAny({Feature::kReuse, Feature::kReuseGlossy})) return kReuse;
+  return stage.needs.Has(Feature::kLightPaths) ? kLightPaths : kTraining;
+}
+
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
   std::vector<StageProfile> profiles;
   for (const Phase& phase : plan.phases) {
@@ -32,6 +72,11 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
       StageProfile& profile = profiles.emplace_back();
       profile.name = std::string(InfoOf(phase.id).prefix) + planned.stage.name;
       profile.role = planned.stage.role;
+      profile.group = GroupOf(phase.id, planned.stage);
+      if (planned.stage.input >= QueueId::kShade) {
+        const int kind = int(planned.stage.input) - int(QueueId::kShade);
+        profile.material = FeatureMeaning(ShadeFeature(ShadeKind(kind)));
+      }
       for (Field f : plan.live_fields) {
         profile.bytes_read += 4.0 * planned.stage.reads.Has(f);
         profile.bytes_written += 4.0 * planned.stage.writes.Has(f);
@@ -45,6 +90,9 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
 std::vector<StageProfile> EmptyParts() {
   std::vector<StageProfile> parts(kNumTaskParts);
   for (int i = 0; i < kNumTaskParts; ++i) parts[i].name = Name(static_cast<TaskPart>(i));
+  parts[int(TaskPart::kCopies)].group = parts[int(TaskPart::kFilm)].group =
+      ProfileGroup::kFilm;
+  parts[int(TaskPart::kVisibleLights)].group = ProfileGroup::kVisibleLights;
   return parts;
 }
 
@@ -70,6 +118,16 @@ void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& re
   for (std::size_t i = 0; i < clock->rows().size(); ++i) {
     Add(clock->rows()[i], clock->totals()[i], lanes,
         i < stages ? result.stages[i] : result.parts[i - stages]);
+  }
+  result.bounces.resize(std::max(result.bounces.size(), clock->bounces().size()));
+  for (std::size_t i = 0; i < clock->bounces().size(); ++i) {
+    const BounceProfile& more = clock->bounces()[i];
+    BounceProfile& sum = result.bounces[i];
+    sum.seconds += more.seconds;
+    sum.rays_closest += more.rays_closest;
+    sum.rays_shadow += more.rays_shadow;
+    sum.items += more.items;
+    sum.lane_slots += more.lane_slots * lanes;
   }
   result.waiting_seconds +=
       double(clock->ticks()) * result.trace.seconds_per_tick - clock->cpu_seconds();

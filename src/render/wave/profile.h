@@ -10,6 +10,9 @@
 
 namespace lanelight {
 
+/// Returns the group of a stage of a phase.
+ProfileGroup GroupOf(PhaseId phase, const Stage& stage);
+
 /// One profile per stage of the plan, in its order, without counts.
 std::vector<StageProfile> EmptyProfiles(const Plan& plan);
 

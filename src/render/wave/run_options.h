@@ -28,6 +28,7 @@ inline constexpr std::uint64_t kSamplesPerSeed = std::uint64_t{1} << 31;
 /// Data that a profile gathers besides stage times.
 struct ProfileOptions {
   bool counters = false;         // of the processor (src/base/core/hardware_counters.h)
+  bool bounces = false;          // the cost of each bounce
   std::size_t trace_events = 0;  // most stage calls that a thread writes down; 0: none
 };
 

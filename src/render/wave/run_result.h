@@ -9,6 +9,7 @@
 #include "src/base/core/aligned.h"
 #include "src/base/core/hardware_counters.h"
 #include "src/render/films/accumulator.h"
+#include "src/render/wave/profile_group.h"
 #include "src/render/wave/run_state.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/strategy/choices.h"
@@ -18,6 +19,8 @@ namespace lanelight {
 struct StageProfile {
   std::string name;
   std::optional<StageRole> role;  // of a stage; none: a part of a task
+  ProfileGroup group = ProfileGroup::kOutside;
+  std::string material;  // kind of material, of stages that shade one kind; else empty
   std::uint64_t calls = 0, items = 0, lane_slots = 0;  // lane_slots = vectors * lanes
   double seconds = 0;                                  // processor time of all threads
   double bytes_per_item = 0;                           // columns read + written
@@ -29,6 +32,16 @@ struct StageProfile {
   /// items / lane_slots in [0, 1]
   double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
+
+/// Cost of the rays after `i` scattering events, for the i-th of RunResult::bounces; the
+/// last one also has all later bounces. A wave with paths of several depths counts for
+/// each of them by its number of paths.
+struct BounceProfile {
+  double seconds = 0;  // processor time of all threads
+  double rays_closest = 0, rays_shadow = 0;
+  double items = 0, lane_slots = 0;  // of all stages, as in StageProfile
+};
+inline constexpr std::size_t kMaxBounces = 16;
 
 /// The parts of a task besides its stages. Items are samples.
 enum class TaskPart : int {
@@ -46,7 +59,7 @@ const char* Name(TaskPart part);
 /// stages + TaskPart), in ticks of src/base/core/clock.h.
 struct TraceEvent {
   std::uint64_t begin = 0, end = 0;
-  std::uint32_t row = 0, items = 0;
+  std::uint32_t row = 0, items = 0, vectors = 0;
 };
 
 struct ThreadTrace {
@@ -72,6 +85,7 @@ struct RunResult : RunCounts {
   std::uint64_t bytes_between_ranks = 0;
   std::vector<StageProfile> stages;      // in execution order
   std::vector<StageProfile> parts;       // of tasks, by TaskPart
+  std::vector<BounceProfile> bounces;    // with ProfileOptions::bounces
   RunTrace trace;                        // with ProfileOptions::trace_events
   bool counters = false;                 // of the processor were read
   int counter_error = 0;                 // errno for which (some of) them are missing

@@ -10,7 +10,8 @@ StageClock::StageClock(std::size_t stages, const ProfileOptions& options)
       stages_(stages),
       totals_(stages + kNumTaskParts),
       events_(options.trace_events),
-      use_counters_(options.counters) {
+      use_counters_(options.counters),
+      bounces_(options.bounces ? kMaxBounces : 0) {
   next_event_ = events_.data();
   end_event_ = next_event_ + events_.size();
 }
@@ -42,8 +43,51 @@ void StageClock::EndTask() {
     totals_[i].seconds += cpu * double(rows_[i].ticks) / double(ticks);
     rows_[i].ticks = 0;
   }
+  for (std::size_t i = 0; i < bounces_.size(); ++i) {
+    bounces_[i].seconds += cpu * bounce_ticks_[i] / double(ticks);
+    bounce_ticks_[i] = 0;
+  }
   ticks_ += ticks;
   cpu_seconds_ += cpu;
+}
+
+StageClock::Lanes StageClock::SumLanes() const {
+  Lanes sum;
+  for (const StageCounters& row : rows_) {
+    sum.items += row.items;
+    sum.vectors += row.lane_slots;
+  }
+  return sum;
+}
+
+void StageClock::CountDepths(Wave& wave) {
+  paths_ = {};
+  const Queue& active = wave.queue(QueueId::kActive);
+  for (std::uint32_t i = 0; i < active.size; ++i) {
+    ++paths_[std::min<std::size_t>(wave.path.depth[active.items[i]], kMaxBounces - 1)];
+  }
+  wave_lanes_ = SumLanes();
+  wave_closest_ = wave.rays_closest;
+  wave_shadow_ = wave.rays_shadow;
+  wave_start_ = last_ = Ticks();  // no stage is charged with the counting
+}
+
+void StageClock::AddBounces(Wave& wave) {
+  paths_[0] += wave.queue(QueueId::kCamera).size;
+  std::uint64_t all = 0;
+  for (const std::uint32_t paths : paths_) all += paths;
+  const Lanes lanes = SumLanes();
+  for (std::size_t i = 0; i < kMaxBounces; ++i) {
+    if (paths_[i] == 0) continue;
+    const double part = double(paths_[i]) / double(all);
+    BounceProfile& bounce = bounces_[i];
+    bounce_ticks_[i] += part * double(last_ - wave_start_);
+    bounce.rays_closest += part * double(wave.rays_closest - wave_closest_);
+    bounce.rays_shadow += part * double(wave.rays_shadow - wave_shadow_);
+    bounce.items += part * double(lanes.items - wave_lanes_.items);
+    bounce.lane_slots += part * double(lanes.vectors - wave_lanes_.vectors);
+  }
+  last_ = Ticks();
 }
 
 void StageClock::StartWave() {

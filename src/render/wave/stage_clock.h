@@ -2,6 +2,7 @@
 // All memory is reserved beforehand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <thread>
@@ -45,6 +46,14 @@ class StageClock {
   /// Begins a wave. One of 32, chosen without a pattern, reads the processor's counters;
   /// they take about 0.5 us per stage call, which no stage is charged with.
   void StartWave();
+  /// Begin and end a wave of camera paths, whose cost is split by bounce. Do nothing
+  /// without ProfileOptions::bounces.
+  void StartBounces(Wave& wave) {
+    if (!bounces_.empty()) CountDepths(wave);
+  }
+  void EndBounces(Wave& wave) {
+    if (!bounces_.empty()) AddBounces(wave);
+  }
   /// The piece that ends now was `row` (a stage, or stages + TaskPart).
   void Finish(std::size_t row, std::uint64_t items, std::uint64_t vectors) {
     const std::uint64_t now = Ticks();
@@ -54,7 +63,8 @@ class StageClock {
     c.items += items;
     c.lane_slots += vectors;
     if (next_event_ != end_event_) {
-      *next_event_++ = {last_, now, std::uint32_t(row), std::uint32_t(items)};
+      *next_event_++ = {last_, now, std::uint32_t(row), std::uint32_t(items),
+                        std::uint32_t(vectors)};
     } else {
       ++without_event_;
     }
@@ -68,6 +78,9 @@ class StageClock {
   /// By stage, then by TaskPart; both of the same size.
   const std::vector<StageCounters>& rows() const { return rows_; }
   const std::vector<StageTotals>& totals() const { return totals_; }
+  /// Returns the cost of each bounce, in which lane_slots counts vectors. Empty without
+  /// ProfileOptions::bounces.
+  const std::vector<BounceProfile>& bounces() const { return bounces_; }
   /// Processor time of the tasks, and their ticks.
   double cpu_seconds() const { return cpu_seconds_; }
   std::uint64_t ticks() const { return ticks_; }
@@ -79,6 +92,13 @@ class StageClock {
   int counter_error() const { return counter_error_; }
 
  private:
+  // Sums over all rows.
+  struct Lanes {
+    std::uint64_t items = 0, vectors = 0;
+  };
+  Lanes SumLanes() const;
+  void CountDepths(Wave& wave);
+  void AddBounces(Wave& wave);
   void Count(std::size_t row, std::uint64_t items);
   bool ReadCounters(CounterValues* values);
 
@@ -100,6 +120,12 @@ class StageClock {
   CounterValues at_{};
   int counter_error_ = 0;
   std::uint64_t random_ = 1;
+
+  std::vector<BounceProfile> bounces_;
+  std::array<double, kMaxBounces> bounce_ticks_{};  // of the current task
+  std::array<std::uint32_t, kMaxBounces> paths_{};  // of the current wave, by depth
+  std::uint64_t wave_start_ = 0, wave_closest_ = 0, wave_shadow_ = 0;
+  Lanes wave_lanes_;
 };
 
 }  // namespace lanelight

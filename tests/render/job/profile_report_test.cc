@@ -1,6 +1,7 @@
 // The rows of a profile from counts that are known, and the rule of the roofline.
 #include "src/render/job/profile_report.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -21,8 +22,8 @@ Peaks SomePeaks() {
   return peaks;
 }
 
-StageProfile Stage(const std::string& name, double seconds, std::uint64_t items,
-                   StageRole role = StageRole::kAccumulate) {
+StageProfile StageOf(const std::string& name, double seconds, std::uint64_t items,
+                     StageRole role = StageRole::kAccumulate) {
   StageProfile s;
   s.name = name;
   s.seconds = seconds;
@@ -36,10 +37,11 @@ StageProfile Stage(const std::string& name, double seconds, std::uint64_t items,
 
 RunResult SomeResult() {
   RunResult r;
-  r.stages = {Stage("camera", 0.1, 1000000),
-              Stage("visible: intersect_triangles", 0.4, 4000000, StageRole::kIntersect),
-              Stage("shadow_spheres", 0.2, 2000000, StageRole::kShadow),
-              Stage("connect", 0.2, 2000000)};
+  r.stages = {
+      StageOf("camera", 0.1, 1000000),
+      StageOf("visible: intersect_triangles", 0.4, 4000000, StageRole::kIntersect),
+      StageOf("shadow_spheres", 0.2, 2000000, StageRole::kShadow),
+      StageOf("connect", 0.2, 2000000)};
   r.parts = EmptyParts();
   r.parts[static_cast<std::size_t>(TaskPart::kFilm)].seconds = 0.05;
   r.parts[static_cast<std::size_t>(TaskPart::kFilm)].calls = 4;
@@ -51,13 +53,17 @@ RunResult SomeResult() {
 // A row of one second, with the processor's counters per item.
 ProfileRow CountedRow(double cycles, double instructions, double l1, double llc) {
   ProfileRow row;
-  row.counts = Stage("connect", 1, 10000000);
+  row.counts = StageOf("connect", 1, 10000000);
   row.counts.counted_items = 1000;
   row.counts.counted = {static_cast<std::uint64_t>(cycles * 1000),
                         static_cast<std::uint64_t>(instructions * 1000),
                         static_cast<std::uint64_t>(l1 * 1000),
                         static_cast<std::uint64_t>(llc * 1000)};
   return row;
+}
+
+ProfileReport ReportOf(const RunResult& result) {
+  return MakeProfileReport({&result, 1}, SomePeaks());
 }
 
 Bound BoundOf(ProfileRow row) {
@@ -69,7 +75,7 @@ Bound BoundOf(ProfileRow row) {
 }  // namespace
 
 TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
-  const ProfileReport report = MakeProfileReport(SomeResult(), SomePeaks());
+  const ProfileReport report = ReportOf(SomeResult());
   CHECK(report.seconds == Approx(1));
   REQUIRE(report.rows.size() == 6);  // parts that never ran are left out
   double fractions = 0;
@@ -90,9 +96,81 @@ TEST_CASE("a profile's rows add up to the processor time", "[profile]") {
 }
 
 TEST_CASE("a profile without time or intersection has no ratio", "[profile]") {
-  const ProfileReport empty = MakeProfileReport({}, SomePeaks());
+  const ProfileReport empty = ReportOf({});
   CHECK(empty.Ratio() == 0);
   for (const ProfileRow& row : empty.rows) CHECK(row.fraction == 0);
+}
+
+TEST_CASE("repeats of a profile give medians with intervals", "[profile]") {
+  std::vector<RunResult> repeats;
+  for (const double factor : {1.0, 1.3, 1.1, 1.2, 1.05, 9.0}) {
+    repeats.push_back(SomeResult());
+    repeats.back().samples = 1000000;
+    for (StageProfile& s : repeats.back().stages) s.seconds *= factor;
+    repeats.back().cpu_seconds *= factor;
+  }
+  const ProfileReport report = MakeProfileReport(repeats, SomePeaks());
+  const ProfileRow& row = report.rows[0];
+  CHECK(row.counts.name == "visible: intersect_triangles");
+  REQUIRE(row.ns_per_sample.size() == 6);
+  CHECK(row.ns_per_sample[1] == Approx(520));
+  const Interval median = MedianOf(row.ns_per_sample);
+  CHECK(median.value == Approx(460));
+  CHECK(median.low == Approx(400));
+  CHECK(median.high == Approx(3600));
+  CHECK(row.counts.seconds == Approx(0.46));
+  CHECK(row.counts.items == 4000000);  // counts are of one render
+  CHECK(report.ns_per_sample[5] == Approx(9000));
+  // A stage that the first repeat does not have.
+  repeats[1].stages.push_back(StageOf("late", 6, 1));
+  const ProfileReport more = MakeProfileReport(repeats, SomePeaks());
+  const auto late = std::find_if(more.rows.begin(), more.rows.end(),
+                                 [](const auto& r) { return r.counts.name == "late"; });
+  REQUIRE(late != more.rows.end());
+  CHECK(late->ns_per_sample == std::vector<double>{0, 6000, 0, 0, 0, 0});
+}
+
+TEST_CASE("the groups of a profile add up its rows", "[profile]") {
+  RunResult result = SomeResult();
+  result.stages[0].group = result.stages[3].group = ProfileGroup::kCamera;
+  result.stages[1].group = ProfileGroup::kVisibleLights;
+  result.stages[2].group = ProfileGroup::kShadow;
+  result.training.cpu_seconds = 0.01;
+  const ProfileReport report = ReportOf(result);
+  const auto fraction = [&](ProfileGroup group) {
+    for (const ProfileGroupRow& g : report.groups) {
+      if (g.group == group) return g.fraction;
+    }
+    return 0.0;
+  };
+  CHECK(report.groups[0].group == ProfileGroup::kVisibleLights);
+  CHECK(fraction(ProfileGroup::kCamera) == Approx(0.3));
+  CHECK(fraction(ProfileGroup::kShadow) == Approx(0.2));
+  CHECK(fraction(ProfileGroup::kFilm) == Approx(0.05));
+  CHECK(fraction(ProfileGroup::kTraining) == Approx(0.01));
+  CHECK(fraction(ProfileGroup::kOutside) == Approx(0.04));
+  CHECK(report.groups[0].Occupancy() == Approx(0.5));
+}
+
+TEST_CASE("phases and features decide the group of a stage", "[profile]") {
+  const auto group = [](PhaseId phase, StageRole role, FeatureSet needs = {}) {
+    Stage stage{};
+    stage.role = role;
+    stage.needs = needs;
+    return GroupOf(phase, stage);
+  };
+  using enum PhaseId;
+  CHECK(group(kPaths, StageRole::kIntersect) == ProfileGroup::kIntersect);
+  CHECK(group(kPaths, StageRole::kShadow) == ProfileGroup::kShadow);
+  CHECK(group(kPaths, StageRole::kEmission) == ProfileGroup::kLights);
+  CHECK(group(kVisibleLights, StageRole::kIntersect) == ProfileGroup::kVisibleLights);
+  CHECK(group(kFindEdges, StageRole::kCamera) == ProfileGroup::kVisibleLights);
+  CHECK(group(kLightPaths, StageRole::kShade) == ProfileGroup::kLightPaths);
+  CHECK(group(kPaths, StageRole::kRecord, {Feature::kLightPaths}) ==
+        ProfileGroup::kLightPaths);
+  CHECK(group(kPaths, StageRole::kRecord, {Feature::kReuseGlossy}) ==
+        ProfileGroup::kReuse);
+  CHECK(group(kBlock, StageRole::kBlock) == ProfileGroup::kReuse);
 }
 
 TEST_CASE("the bound of a stage is computed from measured values only", "[profile]") {

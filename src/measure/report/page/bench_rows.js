@@ -71,8 +71,6 @@ function efficiencyFigure(view, lines) {
   return figure;
 }
 
-const REST = "other stages";
-
 // One bar for each line, of its fewest threads: where the time of a sample goes is the same
 // on several, but for the machine.
 function groupBars(view) {
@@ -82,13 +80,12 @@ function groupBars(view) {
     return {
       line, name: line.name, total, text: `${fmt(total)} ns per sample`,
       stages: stages.map(({ name, ns_per_sample: ns, lanes }) => ({
-        name: name === "other" ? REST : name,
+        name,
         share: ns / total,
         seconds: ns * 1e-9,
         occupancy: lanes,
       })),
     };
   });
-  const found = stageNames({ ranked: bars });
-  return costRows(view, bars, [...found.filter((name) => name !== REST), REST]);
+  return costRows(view, bars, stageNames({ ranked: bars }));
 }
