@@ -24,11 +24,11 @@ struct Racer {
 /// function of the costs alone, so that all processes decide alike.
 ///
 /// Looks after each seed from the second to the last but one. At each, a strategy stops
-/// if its mean is above that of the best by so many standard errors that any strategy
-/// stops by chance with a probability of at most 5 % over all looks (Bonferroni,
-/// Student's t). Costs of one seed have much in common, so differences between strategies
-/// count. Their variance is moderated: the strategy's own, pooled with that of all (Smyth
-/// 2004, "Linear models and empirical Bayes methods").
+/// if its mean is above that of the best by enough standard errors. These are chosen so
+/// that any strategy stops by chance in at most 5 % of races (Bonferroni over looks and
+/// strategies, Student's t). Costs of one seed have much in common, so differences
+/// between strategies count. Their variance is moderated: the strategy's own, pooled with
+/// that of all (Smyth 2004, "Linear models and empirical Bayes methods").
 std::vector<std::size_t> StopsOf(const std::vector<Racer>& racers, std::size_t seeds);
 
 /// The races of a sweep: one for each combination of the axes but strategy and seed.

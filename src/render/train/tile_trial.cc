@@ -10,8 +10,9 @@
 // second moment with subpaths, and c^2 / (1 - w) to that of camera paths alone. The mean
 // of this estimate and that of the pass without subpaths counts: the former leaves out
 // what subpaths take off camera paths' own contributions, the latter varies from seed to
-// seed. The worst tile is omitted: a rare bright camera path is in one pass or the other
-// by chance, and never brighter with subpaths, whose weights only take from it.
+// seed. The worst tiles are omitted: bright camera paths that subpaths cannot find (a
+// caustic in a mirror) are in both passes, and no brighter with subpaths.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -32,6 +33,7 @@ namespace {
 
 constexpr std::uint32_t kTileSpp = 8;
 constexpr int kSquare = SubpathVariance::kSide;  // pixels
+constexpr std::size_t kOmittedTiles = 8;         // of so many one, with light subpaths
 constexpr double kGainStandardErrors = 1;        // standard errors
 // Least gain after a filter, if there is one by pixels.
 constexpr double kMinFilteredGain = 0.95;
@@ -141,7 +143,11 @@ class TileTrial {
                       {plain_.Cost(), BySquares(plain_)}};
     const bool subpaths = samples.planes == kSubpathPlanes;
     if (subpaths) CountSubpaths(samples, with, plain);
-    const auto gain_of = subpaths ? GainWithoutWorst : GainOf;
+    const auto gain_of = [&](const TrialMeasure& other, const TrialMeasure& baseline) {
+      if (!subpaths) return GainOf(other, baseline);
+      return GainWithoutWorst(other, baseline,
+                              std::max<std::size_t>(1, tiles_.size() / kOmittedTiles));
+    };
     out.per_pixel = gain_of(with.by_tiles, plain.by_tiles);
     out.filtered = gain_of(with.by_squares, plain.by_squares);
   }

@@ -20,8 +20,9 @@ struct PixelScores {
   }
 };
 
-// Returns the scores of the pixels that count.
-std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& baseline) {
+// Returns the scores of the pixels that count: the best `kept`.
+std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& baseline,
+                                std::size_t kept) {
   LL_CHECK_EQ(other.variances.size(), baseline.variances.size());
   std::vector<PixelScores> pixels;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
@@ -29,7 +30,7 @@ std::vector<PixelScores> Pixels(const TrialMeasure& other, const TrialMeasure& b
         {other.cost * other.variances[i], baseline.cost * baseline.variances[i]});
   }
   std::sort(pixels.begin(), pixels.end());
-  pixels.resize(KeptOf(pixels.size()));
+  pixels.resize(kept);
   return pixels;
 }
 
@@ -76,13 +77,16 @@ TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline) {
   return gain;
 }
 
-TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline) {
-  TrialMeasure kept = {other.cost, {}}, kept_baseline = {baseline.cost, {}};
-  for (const PixelScores& pixel : Pixels(other, baseline)) {
-    kept.variances.push_back(pixel.other / other.cost);
-    kept_baseline.variances.push_back(pixel.baseline / baseline.cost);
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline,
+                           std::optional<std::size_t> omitted) {
+  const std::size_t n = other.variances.size();
+  const std::size_t kept = omitted ? n - std::min(n, *omitted) : KeptOf(n);
+  TrialMeasure best = {other.cost, {}}, best_baseline = {baseline.cost, {}};
+  for (const PixelScores& pixel : Pixels(other, baseline, kept)) {
+    best.variances.push_back(pixel.other / other.cost);
+    best_baseline.variances.push_back(pixel.baseline / baseline.cost);
   }
-  return GainOf(kept, kept_baseline);
+  return GainOf(best, best_baseline);
 }
 
 double EffectivePixels(const std::vector<double>& variances) {
@@ -93,7 +97,8 @@ double EffectivePixels(const std::vector<double>& variances) {
 
 bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& baseline,
                      double margin, double standard_errors) {
-  const std::vector<PixelScores> pixels = Pixels(other, baseline);
+  const std::vector<PixelScores> pixels =
+      Pixels(other, baseline, KeptOf(other.variances.size()));
   double sum = 0, squares = 0;
   for (const PixelScores& pixel : pixels) {
     const double loss = pixel.other - margin * pixel.baseline;

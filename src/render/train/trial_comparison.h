@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace lanelight {
@@ -37,8 +38,10 @@ struct TrialGain {
 /// none of the baseline error was seen (variances may be negative), the largest if none
 /// of the other's was.
 TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline);
-/// Returns the gain without the worst thousandth of the pixels, by either.
-TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline);
+/// Returns the gain without the worst pixels, by either: the worst thousandth, or so
+/// many.
+TrialGain GainWithoutWorst(const TrialMeasure& other, const TrialMeasure& baseline,
+                           std::optional<std::size_t> omitted = std::nullopt);
 
 /// Returns the effective number of pixels: 1 if a single one carries all variance, 0
 /// without variance. Its inverse is the squared relative error of the variances' sum.
