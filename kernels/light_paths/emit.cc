@@ -210,19 +210,19 @@ HWY_INLINE Start StartAtPosition(const Wave& wave, const Lights& light, VF inver
 }
 
 // Of light that comes from the direction `toward` it, with that density over its inverse.
-HWY_INLINE Start StartOnDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
-                             const StartNumbers& u) {
+HWY_INLINE Start FromDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
+                          const StartNumbers& u) {
   const LightTable& table = *wave.lights;
   const VF radius = Splat(table.radius), disk = DiskDensity(wave);
   const V2 at = SampleDisk(u.place.x, u.place.y);
   const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
   const V3 local = {hn::Mul(at.x, radius), hn::Mul(at.y, radius), radius};
-  return {center + FrameFromNormal(toward).FromLocal(local),
-          -toward,
-          light,
-          hn::Div(inverse, disk),
-          hn::Zero(DF()),
-          hn::Neg(disk)};
+  const V3 o = center + FrameFromNormal(toward).FromLocal(local);
+  VF scale = hn::Div(inverse, disk);
+  if (HasPlanes(wave)) {
+    scale = hn::IfThenZeroElse(IsBehindPlane(wave, o, toward), scale);
+  }
+  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(disk)};
 }
 
 // Takes the starts of infinite lights, one image after the other.
@@ -231,7 +231,7 @@ HWY_INLINE void TakeSky(const Wave& wave, const Lights& light, VF inverse_pmf,
   const LightTable& table = *wave.lights;
   const auto take = [&](MF mine, V3 toward, V3 radiance, VF pdf_sa) HWY_ATTR {
     const VF inverse = hn::Div(inverse_pmf, pdf_sa);
-    Start from = StartOnDisk(wave, toward, radiance, inverse, u);
+    Start from = FromDisk(wave, toward, radiance, inverse, u);
     // At the edges of texels the two may differ.
     const VF density = SkyDensity(wave, toward);
     from.chain = hn::Min(inverse, hn::Div(Splat(1.0f), density));
@@ -274,7 +274,7 @@ HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
     const MF mine = HasShape(light, LightShape::kDistant);
     const V3 toward =
         IfThenElse(mine, light.F3(offsetof(LightRecord, direction)), Splat3(0, 0, 1));
-    start.Take(mine, StartOnDisk(wave, toward, light.Radiance(), inverse_pmf, u));
+    start.Take(mine, FromDisk(wave, toward, light.Radiance(), inverse_pmf, u));
   }
   if (StartAtSky(emission)) TakeSky(wave, light, inverse_pmf, u, start);
   return start;

@@ -6,8 +6,8 @@
 namespace lanelight {
 
 /// Returns the table of lights that start light subpaths; an empty one if there are none.
-/// Excluded: infinite lights and lights at infinity in scenes with infinite planes, which
-/// no disk of origins covers; infinite lights of scenes with a portal.
+/// Excluded: portals, and infinite lights beside one; distant and infinite lights in
+/// scenes with alpha on an infinite plane.
 LightEmission MakeLightEmission(const CompiledScene& scene);
 
 }  // namespace lanelight

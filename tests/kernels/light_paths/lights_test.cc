@@ -141,6 +141,25 @@ TEST_CASE("splats: infinite lights with an image", "[light_paths]") {
   CheckSame(scene, "points=sobol,environment=compensated", "light-paths=splats:2");
 }
 
+// The disk does not cover all of the planes that the camera sees, and lies below the
+// ground in part.
+TEST_CASE("splats: lights at infinity over infinite planes", "[light_paths]") {
+  SceneBuilder b(8, 8);
+  b.Depth(3).Perspective({0, -6, 1.6}, {0, 0, 0.5}, {0, 0, 1}, 60);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse({0.6, 0.5, 0.4}));
+  b.AddPlane({0, 3, 0}, {0, -1, 0}, b.AddDiffuse({0.3, 0.5, 0.7}));
+  b.AddSphere({0.4, 0.2, 0.5}, 0.5,
+              b.AddConductor({0.2, 0.9, 1.1}, {3.9, 2.5, 2.2}, 0.3));
+  b.AddSphere({-0.9, 0.1, 0.4}, 0.4, 0);
+  b.AddDistant({0.9, -0.3, 0.3}, {2, 1.5, 1});
+  ReuseScene sun = Lit(b);
+  CheckSame(sun, "points=sobol", "light-paths=splats:1");
+  b.scene().lights.clear();
+  b.scene().lights.push_back(Sky("plane.exr", 10));
+  ReuseScene sky = Lit(b);
+  CheckSame(sky, "points=sobol", "light-paths=splats:1");
+}
+
 TEST_CASE("splats: several infinite lights are weighed together", "[light_paths]") {
   SceneBuilder b = Corner();
   b.AddEnvironment(Grey(0.4));
@@ -184,7 +203,7 @@ TEST_CASE("splats: lights that start subpaths, and those that do not", "[light_p
   b.scene().lights.back().portal = {{-2, -3, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -3, 2}};
   starts({true, false, true, false});
   b.scene().lights.pop_back();
-  b.AddPlane({0, 0, -1}, {0, 0, 1}, 0);
+  b.AddPlane({0, 0, -1}, {0, 0, 1}, 0).alpha.constant = 0.5;
   starts({false, false, true});
   b.scene().lights.pop_back();
   starts({});
