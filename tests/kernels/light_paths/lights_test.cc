@@ -267,6 +267,30 @@ TEST_CASE("splats: shapes with an image", "[light_paths]") {
   CheckSame(scene);
 }
 
+// Both kinds of paths see textures through the footprint of a pixel.
+TEST_CASE("splats: bump maps and filtered textures", "[light_paths]") {
+  SceneBuilder b = Corner();
+  Texture heights;
+  heights.kind = TextureKind::kImage;
+  heights.is_float = true;
+  heights.path = Picture("heights.exr", 8, 8,
+                         [](int x, int y) { return Grey(0.1 * ((x + y) % 4)); });
+  heights.scale = 0.4;
+  Texture checks;
+  checks.kind = TextureKind::kCheckerboard;
+  checks.filter = ImageFilter::kEwa;
+  checks.mapping.su = checks.mapping.sv = 9;
+  checks.tex1.constant = Grey(0.9);
+  checks.tex2.constant = Grey(0.1);
+  b.scene().textures = {heights, checks};
+  b.scene().materials[0].displacement.texture = 0;
+  b.scene().materials[1].reflectance.texture = 1;
+  b.AddPoint({-0.6, 0.3, 1.2}, {1, 1.5, 2});
+  b.AddQuad({0.4, 0, 1.6}, {0, 0.4, 0}, {0.4, 0, 0}, 0, b.AddEmission({5, 5, 5}));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene, "points=sobol", "light-paths=splats:1");
+}
+
 // Lights over a floor beside a mirror that the camera does not see; or, instead of the
 // mirror, the images of the lights in it.
 SceneBuilder FloorWith(bool mirror) {
