@@ -101,9 +101,9 @@ HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
 // The start of a light subpath.
 struct Start {
   V3 o, d;
-  V3 light;    // that leaves, ...
-  VF scale;    // ... times this it is divided by its density; 0: there is none
-  VF chain;    // density of E and N over that of T, up to the next vertex
+  V3 light;    // radiance, intensity or irradiance of the light
+  VF scale;    // factor that makes it the estimate; 0: no subpath starts
+  VF chain;    // column lp_chain
   VF density;  // column lp_pdf
 
   HWY_INLINE void Take(MF mask, const Start& s) {
@@ -116,7 +116,7 @@ struct Start {
   }
 };
 
-// The numbers of a light subpath.
+// Random numbers for the start of a light subpath.
 struct StartNumbers {
   VF select, alias, side;
   V2 place, direction;
@@ -209,7 +209,8 @@ HWY_INLINE Start StartAtPosition(const Wave& wave, const Lights& light, VF inver
   return start;
 }
 
-// Of light that comes from the direction `toward` it, with that density over its inverse.
+// Returns the start for light from the direction `toward` it, whose density is 1 /
+// `inverse`. E never finds it, unless the caller sets `chain`.
 HWY_INLINE Start FromDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
                           const StartNumbers& u) {
   const LightTable& table = *wave.lights;

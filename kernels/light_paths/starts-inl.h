@@ -1,14 +1,10 @@
 // How light subpaths start at lights, and the densities of that for MIS weights
 // (chain-inl.h). The light is chosen by the table of LightEmission.
-//
-//   light                       start                                    density
-//   shapes                      point uniform over the area, direction   cos / (pi area),
-//                               by the cosine, on either side of two     half with two
-//                               sides
-//   with a position, no extent  direction uniform in a cone              1 / (2 pi
-//   versine) at infinity                 its direction; origin uniform on a disk  1 / (pi
-//   radius^2)
-//                               as large as the scene
+//   shapes      point uniform over the area, direction by the cosine, to either side of
+//               two: pmf cos / (pi area), half of that with two sides
+//   positions   direction uniform in a cone: pmf / (2 pi versine)
+//   infinity    direction that of the light or by its table; origin uniform on a disk
+//               as large as the scene: pmf pdf_sa / (pi radius^2)
 #ifndef LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
 #define LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
 
@@ -84,7 +80,7 @@ HWY_INLINE bool StartAtPositions(const LightEmission& emission) {
 
 /// Returns whether rays from lights at infinity to these points start on the disk before
 /// them. Points of infinite planes lie beside it and beyond.
-HWY_INLINE MF StartOnDisk(const Wave& wave, V3 at, V3 toward) {
+HWY_INLINE MF PassDisk(const Wave& wave, V3 at, V3 toward) {
   const LightTable& table = *wave.lights;
   const VF radius = Splat(table.radius);
   const V3 from_center = at - Splat3(table.center[0], table.center[1], table.center[2]);
@@ -163,7 +159,7 @@ HWY_INLINE LastStep StepToShape(const Wave& wave, const Lights& light, VI index,
 HWY_INLINE VF DensityFromDisk(const Wave& wave, V3 at, V3 toward) {
   const VF density = DiskDensity(wave);
   if (!HasPlanes(wave)) return density;
-  return hn::IfThenElseZero(StartOnDisk(wave, at, toward), density);
+  return hn::IfThenElseZero(PassDisk(wave, at, toward), density);
 }
 
 /// Returns the step from points to infinite lights.
