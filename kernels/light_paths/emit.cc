@@ -101,9 +101,9 @@ HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
 // The start of a light subpath.
 struct Start {
   V3 o, d;
-  V3 light;    // that leaves, ...
-  VF scale;    // ... times this it is divided by its density; 0: there is none
-  VF chain;    // density of E and N over that of T, up to the next vertex
+  V3 light;    // radiance, intensity or irradiance of the light
+  VF scale;    // factor that makes it the estimate; 0: no subpath starts
+  VF chain;    // column lp_chain
   VF density;  // column lp_pdf
 
   HWY_INLINE void Take(MF mask, const Start& s) {
@@ -116,7 +116,7 @@ struct Start {
   }
 };
 
-// The numbers of a light subpath.
+// Random numbers for the start of a light subpath.
 struct StartNumbers {
   VF select, alias, side;
   V2 place, direction;
@@ -209,20 +209,21 @@ HWY_INLINE Start StartAtPosition(const Wave& wave, const Lights& light, VF inver
   return start;
 }
 
-// Of light that comes from the direction `toward` it, with that density over its inverse.
-HWY_INLINE Start StartOnDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
-                             const StartNumbers& u) {
+// Returns the start for light from the direction `toward` it, whose density is 1 /
+// `inverse`. E never finds it, unless the caller sets `chain`.
+HWY_INLINE Start FromDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
+                          const StartNumbers& u) {
   const LightTable& table = *wave.lights;
   const VF radius = Splat(table.radius), disk = DiskDensity(wave);
   const V2 at = SampleDisk(u.place.x, u.place.y);
   const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
   const V3 local = {hn::Mul(at.x, radius), hn::Mul(at.y, radius), radius};
-  return {center + FrameFromNormal(toward).FromLocal(local),
-          -toward,
-          light,
-          hn::Div(inverse, disk),
-          hn::Zero(DF()),
-          hn::Neg(disk)};
+  const V3 o = center + FrameFromNormal(toward).FromLocal(local);
+  VF scale = hn::Div(inverse, disk);
+  if (HasPlanes(wave)) {
+    scale = hn::IfThenZeroElse(IsBehindPlane(wave, o, toward), scale);
+  }
+  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(disk)};
 }
 
 // Takes the starts of infinite lights, one image after the other.
@@ -231,7 +232,7 @@ HWY_INLINE void TakeSky(const Wave& wave, const Lights& light, VF inverse_pmf,
   const LightTable& table = *wave.lights;
   const auto take = [&](MF mine, V3 toward, V3 radiance, VF pdf_sa) HWY_ATTR {
     const VF inverse = hn::Div(inverse_pmf, pdf_sa);
-    Start from = StartOnDisk(wave, toward, radiance, inverse, u);
+    Start from = FromDisk(wave, toward, radiance, inverse, u);
     // At the edges of texels the two may differ.
     const VF density = SkyDensity(wave, toward);
     from.chain = hn::Min(inverse, hn::Div(Splat(1.0f), density));
@@ -274,7 +275,7 @@ HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
     const MF mine = HasShape(light, LightShape::kDistant);
     const V3 toward =
         IfThenElse(mine, light.F3(offsetof(LightRecord, direction)), Splat3(0, 0, 1));
-    start.Take(mine, StartOnDisk(wave, toward, light.Radiance(), inverse_pmf, u));
+    start.Take(mine, FromDisk(wave, toward, light.Radiance(), inverse_pmf, u));
   }
   if (StartAtSky(emission)) TakeSky(wave, light, inverse_pmf, u, start);
   return start;

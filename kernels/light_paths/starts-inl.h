@@ -1,14 +1,10 @@
 // How light subpaths start at lights, and the densities of that for MIS weights
 // (chain-inl.h). The light is chosen by the table of LightEmission.
-//
-//   light                       start                                    density
-//   shapes                      point uniform over the area, direction   cos / (pi area),
-//                               by the cosine, on either side of two     half with two
-//                               sides
-//   with a position, no extent  direction uniform in a cone              1 / (2 pi
-//   versine) at infinity                 its direction; origin uniform on a disk  1 / (pi
-//   radius^2)
-//                               as large as the scene
+//   shapes      point uniform over the area, direction by the cosine, to either side of
+//               two: pmf cos / (pi area), half of that with two sides
+//   positions   direction uniform in a cone: pmf / (2 pi versine)
+//   infinity    direction that of the light or by its table; origin uniform on a disk
+//               as large as the scene: pmf pdf_sa / (pi radius^2)
 #ifndef LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
 #define LANELIGHT_LIGHT_PATHS_STARTS_INL_H_
 
@@ -17,6 +13,8 @@
 #include "kernels/light_paths/chain-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
+
+HWY_INLINE bool HasPlanes(const Wave& wave) { return !wave.geometry->planes.empty(); }
 
 /// Returns the probability of each light to start subpaths; 0: none start there.
 HWY_INLINE VF StartPmf(const Wave& wave, VI index) {
@@ -46,7 +44,7 @@ struct StartCone {
     const LightEmission& emission = wave.chances->emission;
     axis = Splat3(0, 0, 1);
     versine = Splat(2.0f);
-    if (table.radius > 0) {
+    if (table.radius > 0 && !HasPlanes(wave)) {
       const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
       const V3 to_center = center - light.F3(offsetof(LightRecord, position));
       const VF d2 = Dot(to_center, to_center), radius = Splat(table.radius);
@@ -78,6 +76,30 @@ HWY_INLINE MF HasPosition(const Lights& light) {
 HWY_INLINE bool StartAtPositions(const LightEmission& emission) {
   return emission.Has(LightShape::kPoint) || emission.Has(LightShape::kSpot) ||
          emission.Has(LightShape::kGoniometric) || emission.Has(LightShape::kProjection);
+}
+
+/// Returns whether rays from lights at infinity to these points start on the disk before
+/// them. Points of infinite planes lie beside it and beyond.
+HWY_INLINE MF PassDisk(const Wave& wave, V3 at, V3 toward) {
+  const LightTable& table = *wave.lights;
+  const VF radius = Splat(table.radius);
+  const V3 from_center = at - Splat3(table.center[0], table.center[1], table.center[2]);
+  const VF along = Dot(from_center, toward);
+  const V3 aside = MulAdd(toward, hn::Neg(along), from_center);
+  const MF within = hn::Lt(Dot(aside, aside), hn::Mul(radius, radius));
+  return hn::And(within, hn::Lt(along, radius));
+}
+/// Returns whether a plane lies between these points and infinity.
+HWY_INLINE MF IsBehindPlane(const Wave& wave, V3 at, V3 toward) {
+  const VF zero = hn::Zero(DF());
+  MF behind = hn::Lt(zero, zero);
+  for (const PlaneRecord& plane : wave.geometry->planes) {
+    const V3 n = Splat3(plane.normal[0], plane.normal[1], plane.normal[2]);
+    const V3 point = Splat3(plane.point[0], plane.point[1], plane.point[2]);
+    const VF sides = hn::Mul(Dot(at - point, n), Dot(toward, n));
+    behind = hn::Or(behind, hn::Lt(sides, zero));
+  }
+  return behind;
 }
 
 /// Returns the density of origins on the disk before lights at infinity.
@@ -132,10 +154,19 @@ HWY_INLINE LastStep StepToShape(const Wave& wave, const Lights& light, VI index,
           hn::Gt(density, hn::Zero(DF()))};
 }
 
-/// Returns the step to infinite lights.
-HWY_INLINE LastStep StepToSky(const Wave& wave, V3 toward) {
+/// Returns the density of subpaths from a light at infinity to points, over the cosine
+/// there and the density of their direction.
+HWY_INLINE VF DensityFromDisk(const Wave& wave, V3 at, V3 toward) {
+  const VF density = DiskDensity(wave);
+  if (!HasPlanes(wave)) return density;
+  return hn::IfThenElseZero(PassDisk(wave, at, toward), density);
+}
+
+/// Returns the step from points to infinite lights.
+HWY_INLINE LastStep StepToSky(const Wave& wave, V3 at, V3 toward) {
   const VF density = SkyDensity(wave, toward);
-  return {hn::Mul(density, DiskDensity(wave)), density, hn::Gt(density, hn::Zero(DF()))};
+  return {hn::Mul(density, DensityFromDisk(wave, at, toward)), density,
+          hn::Gt(density, hn::Zero(DF()))};
 }
 
 LANELIGHT_END_KERNELS

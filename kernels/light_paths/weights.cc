@@ -47,8 +47,9 @@ HWY_NOINLINE LastStep StepToSample(const Wave& wave, const Slots& slots) {
   const VF zero = hn::Zero(DF()), one = Splat(1.0f);
   const VF distance = Gather(p.ls_distance, slots);
   LastStep step = {zero, one, hn::Lt(one, zero)};
+  const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
   if (emission.HasAny(kEmittingShape)) {
-    const V3 at = MulAdd(to_light, distance, Gather3(p.p_x, p.p_y, p.p_z, slots));
+    const V3 at = MulAdd(to_light, distance, from);
     step = StepToShape(wave, light, index, distance, NormalOfLight(wave, light, at),
                        to_light);
   }
@@ -59,12 +60,12 @@ HWY_NOINLINE LastStep StepToSample(const Wave& wave, const Slots& slots) {
   }
   if (emission.Has(LightShape::kDistant)) {
     step.Take(hn::And(starts, HasShape(light, LightShape::kDistant)),
-              {DiskDensity(wave), one, hn::Lt(one, zero)});
+              {DensityFromDisk(wave, from, to_light), one, hn::Lt(one, zero)});
   }
   if (StartAtSky(emission)) {
     const MF sky = hn::Or(HasShape(light, LightShape::kInfiniteConstant),
                           HasShape(light, LightShape::kInfiniteImage));
-    if (!hn::AllFalse(DF(), sky)) step.Take(sky, StepToSky(wave, to_light));
+    if (!hn::AllFalse(DF(), sky)) step.Take(sky, StepToSky(wave, from, to_light));
   }
   return step;
 }
@@ -189,7 +190,8 @@ void WeighEscaped(Wave& wave) {
   ForEachBatch(wave, wave.queue(QueueId::kMiss),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
                  const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
-                 WeighFound(wave, slots, StepToSky(wave, d));
+                 const V3 from = Gather3(p.o_x, p.o_y, p.o_z, slots);
+                 WeighFound(wave, slots, StepToSky(wave, from, d));
                });
 }
 

@@ -137,7 +137,7 @@ FeatureSet LightPathFeatures(FeatureSet f) {
   }
   f.Remove({Feature::kPerspective, Feature::kLens, Feature::kFiltered,
             Feature::kSignedFilter, Feature::kAov, Feature::kGbuffer,
-            Feature::kTextureFootprints, Feature::kRegressionControl});
+            Feature::kRegressionControl});
   for (std::size_t i = 0; i < std::size(kSampleSequenceNames); ++i) {
     f.Remove(TurnsOn(static_cast<SampleSequence>(i)));
   }

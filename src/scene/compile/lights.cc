@@ -177,9 +177,8 @@ void ApplyFloor(std::vector<double>& weights) {
   for (double& w : weights) w = sum > 0 ? std::max(w, 1.02 * minimum * sum) : 1;
 }
 
-// Stores the sphere around all shapes, with room for the rounding of their coordinates.
+// Stores the sphere around all finite shapes, with room for rounded coordinates.
 void StoreSphere(const Placement& placement, LightTable& table) {
-  if (!placement.planes.empty()) return;
   const WorldFrame& frame = placement.frame;
   Store(frame.Point(placement.bounds.Center()), table.center);
   const double radius = placement.bounds.HalfDiagonal() * frame.scale;

@@ -110,7 +110,7 @@ struct LightTable {
   bool has_goniometric = false, has_projection = false;
   bool stretched_spots = false;         // all spots then have axes in `images`
   std::vector<std::uint32_t> infinite;  // indices of lights that escaped rays see
-  /// Sphere around all shapes; radius 0 if there is none, as with infinite planes.
+  /// Sphere around all shapes but infinite planes.
   float center[3] = {}, radius = 0;
 };
 

@@ -10,8 +10,20 @@
 namespace lanelight {
 namespace {
 
-bool StartsSubpaths(const LightTable& table, const LightRecord& light) {
-  const bool has_disk = table.radius > 0;
+// Returns whether no infinite plane has alpha. Kernels find planes between the disk where
+// subpaths start and a light at infinity, but do not look up their alpha.
+bool PlanesAreWhole(const CompiledScene& scene) {
+  const AlphaTable& alpha = scene.alpha;
+  const PrimitiveRanges& ranges = scene.geometry.ranges;
+  if (alpha.constant.empty()) return true;
+  for (std::size_t i = ranges.planes; i < ranges.large_spheres; ++i) {
+    if (alpha.texture[i] >= 0 || alpha.constant[i] < 1) return false;
+  }
+  return true;
+}
+
+// `has_disk`: on which subpaths from infinity can start.
+bool StartsSubpaths(const LightTable& table, bool has_disk, const LightRecord& light) {
   switch (static_cast<LightShape>(light.shape)) {
     case LightShape::kTriangle:
     case LightShape::kRectangle:
@@ -41,8 +53,10 @@ bool HasPosition(LightShape shape) {
 
 // Returns the share of a light's power that subpaths carry: those of lights outside the
 // scene start in the cone around it (StartCone, kernels/light_paths/starts-inl.h).
-double ShareOfPower(const LightTable& table, const LightRecord& light) {
+double ShareOfPower(const CompiledScene& scene, const LightRecord& light) {
+  const LightTable& table = scene.lights;
   if (!HasPosition(static_cast<LightShape>(light.shape))) return 1;
+  if (!scene.geometry.planes.empty()) return 1;
   const double own = light.size[0] > 0 ? double(light.size[0]) : 2;
   const double radius = double(table.radius);
   double d2 = 0;
@@ -59,15 +73,16 @@ double ShareOfPower(const LightTable& table, const LightRecord& light) {
 
 LightEmission MakeLightEmission(const CompiledScene& scene, bool shapes_alone) {
   const LightTable& table = scene.lights;
+  const bool has_disk = table.radius > 0 && PlanesAreWhole(scene);
   LightEmission emission;
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const LightRecord& light = table.lights[i];
-    if (!StartsSubpaths(table, light)) continue;
+    if (!StartsSubpaths(table, has_disk, light)) continue;
     if (shapes_alone && !HasTrait(static_cast<LightShape>(light.shape), kEmittingShape)) {
       continue;
     }
-    weights[i] = table.power[i] * ShareOfPower(table, light);
+    weights[i] = table.power[i] * ShareOfPower(scene, light);
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;
   }

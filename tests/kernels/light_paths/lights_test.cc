@@ -141,6 +141,25 @@ TEST_CASE("splats: infinite lights with an image", "[light_paths]") {
   CheckSame(scene, "points=sobol,environment=compensated", "light-paths=splats:2");
 }
 
+// The disk does not cover all of the planes that the camera sees, and lies below the
+// ground in part.
+TEST_CASE("splats: lights at infinity over infinite planes", "[light_paths]") {
+  SceneBuilder b(8, 8);
+  b.Depth(3).Perspective({0, -6, 1.6}, {0, 0, 0.5}, {0, 0, 1}, 60);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse({0.6, 0.5, 0.4}));
+  b.AddPlane({0, 3, 0}, {0, -1, 0}, b.AddDiffuse({0.3, 0.5, 0.7}));
+  b.AddSphere({0.4, 0.2, 0.5}, 0.5,
+              b.AddConductor({0.2, 0.9, 1.1}, {3.9, 2.5, 2.2}, 0.3));
+  b.AddSphere({-0.9, 0.1, 0.4}, 0.4, 0);
+  b.AddDistant({0.9, -0.3, 0.3}, {2, 1.5, 1});
+  ReuseScene sun = Lit(b);
+  CheckSame(sun, "points=sobol", "light-paths=splats:1");
+  b.scene().lights.clear();
+  b.scene().lights.push_back(Sky("plane.exr", 10));
+  ReuseScene sky = Lit(b);
+  CheckSame(sky, "points=sobol", "light-paths=splats:1");
+}
+
 TEST_CASE("splats: several infinite lights are weighed together", "[light_paths]") {
   SceneBuilder b = Corner();
   b.AddEnvironment(Grey(0.4));
@@ -184,7 +203,7 @@ TEST_CASE("splats: lights that start subpaths, and those that do not", "[light_p
   b.scene().lights.back().portal = {{-2, -3, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -3, 2}};
   starts({true, false, true, false});
   b.scene().lights.pop_back();
-  b.AddPlane({0, 0, -1}, {0, 0, 1}, 0);
+  b.AddPlane({0, 0, -1}, {0, 0, 1}, 0).alpha.constant = 0.5;
   starts({false, false, true});
   b.scene().lights.pop_back();
   starts({});
@@ -246,6 +265,30 @@ TEST_CASE("splats: shapes with an image", "[light_paths]") {
   b.AddQuad({0, 0.5, 1.6}, {0.3, 0, 0}, {0, 0.3, 0}, black, b.AddEmission({5, 5, 3}));
   ReuseScene scene = Lit(b);
   CheckSame(scene);
+}
+
+// Both kinds of paths see textures through the footprint of a pixel.
+TEST_CASE("splats: bump maps and filtered textures", "[light_paths]") {
+  SceneBuilder b = Corner();
+  Texture heights;
+  heights.kind = TextureKind::kImage;
+  heights.is_float = true;
+  heights.path = Picture("heights.exr", 8, 8,
+                         [](int x, int y) { return Grey(0.1 * ((x + y) % 4)); });
+  heights.scale = 0.4;
+  Texture checks;
+  checks.kind = TextureKind::kCheckerboard;
+  checks.filter = ImageFilter::kEwa;
+  checks.mapping.su = checks.mapping.sv = 9;
+  checks.tex1.constant = Grey(0.9);
+  checks.tex2.constant = Grey(0.1);
+  b.scene().textures = {heights, checks};
+  b.scene().materials[0].displacement.texture = 0;
+  b.scene().materials[1].reflectance.texture = 1;
+  b.AddPoint({-0.6, 0.3, 1.2}, {1, 1.5, 2});
+  b.AddQuad({0.4, 0, 1.6}, {0, 0.4, 0}, {0.4, 0, 0}, 0, b.AddEmission({5, 5, 5}));
+  ReuseScene scene = Lit(b);
+  CheckSame(scene, "points=sobol", "light-paths=splats:1");
 }
 
 // Lights over a floor beside a mirror that the camera does not see; or, instead of the
