@@ -40,7 +40,7 @@ std::vector<RunResult> Measure(const ProfileCommandOptions& options, const Job& 
   ProgressPrinter progress(ChooseProgressStyle(options.quiet));
   const Stopwatch watch;
   std::vector<RunResult> results;
-  for (int i = 0; i < options.repeats && !stop; ++i) {
+  for (int i = 0; i < options.repeats && (i == 0 || !stop); ++i) {
     RunOptions run = RunOptionsOf(job);
     run.stop = &stop;
     run.on_progress = [&](Progress p) {

@@ -155,7 +155,7 @@ std::string BarTable(const std::string& label, const std::vector<ProfileRow>& ro
 
 // Returns the most expensive stages and parts of tasks; fewer below many groups.
 std::string StageTable(const ProfileReport& report) {
-  const std::size_t room = std::min<std::size_t>(12, 26 - report.groups.size());
+  const std::size_t room = std::min<std::size_t>(12, 24 - report.groups.size());
   std::vector<ProfileRow> rows;
   double rest = 1;
   for (const ProfileRow& row : report.rows) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -25,11 +26,6 @@ constexpr double kFalseAlarms = 0.05;  // of all stages together
 constexpr double kMinChange = 0.01;    // of all time
 constexpr const char* kRepeats = "ns_per_sample_of_repeats";
 
-// Nanoseconds per sample of the repeats.
-struct Times {
-  std::vector<double> before, now;
-};
-
 stat::MeanEstimate MeanOf(const std::vector<double>& values) {
   const auto n = double(values.size());
   stat::MeanEstimate out{stat::Mean(values), 0, n - 1};
@@ -39,32 +35,16 @@ stat::MeanEstimate MeanOf(const std::vector<double>& values) {
   return out;
 }
 
-StageChange ChangeOf(const std::string& name, const Times& times) {
-  const Interval a = MedianOf(times.before), b = MedianOf(times.now);
+// Returns the change between two medians; half widths add as squares.
+StageChange ChangeOf(const std::string& name, const std::vector<double>& before,
+                     const std::vector<double>& now) {
+  const Interval a = MedianOf(before), b = MedianOf(now);
   const double value = b.value - a.value;
   return {name,
           a.value,
           b.value,
           {value, value - std::hypot(b.value - b.low, a.high - a.value),
            value + std::hypot(b.high - b.value, a.value - a.low)}};
-}
-
-// Returns times of stages and parts of tasks; zeros where one profile lacks them.
-std::map<std::string, Times> TimesOfStages(const Json& before, const Json& now) {
-  std::map<std::string, Times> stages;
-  const auto add = [&](const Json& profile, std::vector<double> Times::* values) {
-    for (const Json& row : profile.at("rows")) {
-      if (row.at("kind") != "stage" && row.at("kind") != "task") continue;
-      stages[row.at("name")].*values = row.at(kRepeats).get<std::vector<double>>();
-    }
-  };
-  add(before, &Times::before);
-  add(now, &Times::now);
-  for (auto& [name, times] : stages) {
-    times.before.resize(before.at(kRepeats).size());
-    times.now.resize(now.at(kRepeats).size());
-  }
-  return stages;
 }
 
 // Returns whether both are of the same render.
@@ -122,14 +102,25 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
 ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {
   ProfileComparison comparison;
   if (!FindProblems(before, now, comparison.problems)) return comparison;
+  // Of stages and parts of tasks; without time in a profile that lacks them.
+  std::map<std::string, std::array<std::vector<double>, 2>> stages;
+  const std::array profiles = {&before, &now};
+  for (const std::size_t i : {0, 1}) {
+    for (const Json& row : profiles[i]->at("rows")) {
+      if (row.at("kind") != "stage" && row.at("kind") != "task") continue;
+      stages[row.at("name")][i] = row.at(kRepeats).get<std::vector<double>>();
+    }
+  }
   std::vector<StageChange>& changes = comparison.changes;
   std::vector<double> p;
-  const auto add = [&](const std::string& name, const Times& times) {
-    changes.push_back(ChangeOf(name, times));
-    p.push_back(stat::WelchPValue(MeanOf(times.before), MeanOf(times.now)));
+  const auto add = [&](const std::string& name, std::array<std::vector<double>, 2> ns) {
+    for (const std::size_t i : {0, 1}) ns[i].resize(profiles[i]->at(kRepeats).size());
+    changes.push_back(ChangeOf(name, ns[0], ns[1]));
+    p.push_back(stat::WelchPValue(MeanOf(ns[0]), MeanOf(ns[1])));
   };
-  add("total", {before.at(kRepeats), now.at(kRepeats)});
-  for (const auto& [name, times] : TimesOfStages(before, now)) add(name, times);
+  add("total", {before.at(kRepeats).get<std::vector<double>>(),
+                now.at(kRepeats).get<std::vector<double>>()});
+  for (const auto& [name, ns] : stages) add(name, ns);
   if (!comparison.problems.empty()) p.clear();  // nothing is judged
   for (const std::size_t i : stat::HolmRejections(p, kFalseAlarms)) {
     StageChange& c = changes[i];
