@@ -102,7 +102,7 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
 ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {
   ProfileComparison comparison;
   if (!FindProblems(before, now, comparison.problems)) return comparison;
-  // Of stages and parts of tasks; without time in a profile that lacks them.
+  // A stage has no time in a profile that lacks it.
   std::map<std::string, std::array<std::vector<double>, 2>> stages;
   const std::array profiles = {&before, &now};
   for (const std::size_t i : {0, 1}) {
