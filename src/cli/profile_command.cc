@@ -40,7 +40,7 @@ std::vector<RunResult> Measure(const ProfileCommandOptions& options, const Job& 
   ProgressPrinter progress(ChooseProgressStyle(options.quiet));
   const Stopwatch watch;
   std::vector<RunResult> results;
-  for (int i = 0; i < options.repeats && !stop; ++i) {
+  for (int i = 0; i < options.repeats && (i == 0 || !stop); ++i) {
     RunOptions run = RunOptionsOf(job);
     run.stop = &stop;
     run.on_progress = [&](Progress p) {
@@ -58,14 +58,6 @@ std::vector<RunResult> Measure(const ProfileCommandOptions& options, const Job& 
     results.push_back(std::move(result));
   }
   progress.Finish();
-  const auto differs = [&](const RunResult& result) {
-    return result.training.changes != results.front().training.changes;
-  };
-  if (std::ranges::any_of(results, differs)) {
-    PrintError(
-        "warning: trial runs of the repeats chose different strategies; choose one with "
-        "--strategy");
-  }
   return results;
 }
 
@@ -85,34 +77,26 @@ bool SaveTrace(const ProfileCommandOptions& options, const Job& job,
 }
 
 // Prints the comparison and returns its exit code.
-int Compare(const ProfileCommandOptions& options, const KnownProfile& before,
-            nlohmann::json& json) {
-  constexpr std::size_t kMaxStages = 12;
-  const ProfileComparison comparison =
-      CompareProfiles(before, ProfileFromJson(json), options.tolerance);
-  json["against"] = ToJson(comparison);
+int Compare(const ProfileCommandOptions& options, const nlohmann::json& before,
+            const nlohmann::json& now) {
+  constexpr std::size_t kMaxChanges = 12;
+  const ProfileComparison comparison = FromJsonOf(
+      options.against, [&] { return CompareProfiles(before, now, options.tolerance); });
   if (options.json != "-") {
-    Print("\n" + ComparisonText(comparison, before, options.tolerance,
-                                options.verbose ? comparison.stages.size() : kMaxStages,
+    Print("\n" + ComparisonText(comparison, options.tolerance,
+                                options.verbose ? comparison.changes.size() : kMaxChanges,
                                 TerminalColumns(Stream::kOutput)));
   }
-  switch (comparison.Judge()) {
-    case ProfileComparison::Verdict::kNotSlower:
-      return kExitGood;
-    case ProfileComparison::Verdict::kSlower:
-      return kExitSlower;
-    case ProfileComparison::Verdict::kNotComparable:
-      break;
-  }
-  return kExitNotComparable;
+  if (!comparison.problems.empty()) return kExitNotComparable;
+  return comparison.IsSlower() ? kExitSlower : kExitGood;
 }
 
 int Profile(ProfileCommandOptions options) {
   const OutputPaths outputs = {{options.json, options.csv, options.trace}};
   CheckOutputPaths(outputs, {options.against});
-  std::optional<KnownProfile> before;
+  nlohmann::json before;
   if (!options.against.empty()) before = ReadProfile(options.against);
-  if (options.repeats == 0) options.repeats = before ? kProfileRepeats : 1;
+  if (options.repeats == 0) options.repeats = before.is_null() ? 1 : kProfileRepeats;
   const Job job = OpenScene(options.scene, outputs, options.quiet);
   const Peaks peaks = MeasurePeaks(job.plan.options.target, true);
   const InterruptGuard interrupt(kProfileInterruptText, job.settings.threads);
@@ -123,8 +107,8 @@ int Profile(ProfileCommandOptions options) {
     Print(ProfileText(report, job, first, options.scene.scene, options.verbose));
   }
   bool good = SaveTrace(options, job, first);
-  nlohmann::json json = ToJson(report, job, first);
-  const int code = before ? Compare(options, *before, json) : kExitGood;
+  const nlohmann::json json = ToJson(report, job, first);
+  const int code = before.is_null() ? kExitGood : Compare(options, before, json);
   if (!options.json.empty()) good &= SaveOrPrint(options.json, DumpJson(json, 2) + "\n");
   if (!options.csv.empty()) good &= SaveOrPrint(options.csv, ProfileCsv(json));
   return good ? code : kExitBadInput;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "kernels/simd/target.h"
@@ -48,10 +47,6 @@ std::string Ns(double ns) {
 }
 
 std::string Share(double fraction) { return fmt::format("{:.1f}%", 100 * fraction); }
-
-std::string MedianText(const std::vector<double>& ns_per_sample) {
-  return EstimateText(MedianOf(ns_per_sample));
-}
 
 const char* ItemOf(const ProfileRow& row) {
   if (row.kind != RowKind::kStage) return "sample";
@@ -101,104 +96,91 @@ CellLines WithoutEmptyColumns(CellLines lines) {
 }
 
 std::string Table(const CellLines& lines, std::size_t words = 0) {
-  return TextTable(WithoutEmptyColumns(lines),
-                   {TerminalColumns(Stream::kOutput), 1, words});
+  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, words});
 }
 
-// Returns the table with a bar behind each line but the header, where there is room;
-// `values`: their lengths.
-std::string BarTable(const CellLines& lines, const std::vector<double>& values) {
+std::vector<std::string> CostCells(const ProfileRow& row) {
+  const StageProfile& c = row.counts;
+  std::vector<std::string> cells = {c.name, Share(row.fraction),
+                                    EstimateText(MedianOf(row.ns_per_sample)),
+                                    c.lane_slots > 0 ? Share(c.Occupancy()) : ""};
+  if (c.calls > 0) {
+    cells.insert(cells.end(), {Ns(row.NsPerItem()), TotalText(double(c.items)),
+                               TotalText(double(c.calls))});
+  }
+  if (c.calls > 0 && row.kind == RowKind::kStage) {
+    cells.insert(
+        cells.end(),
+        {fmt::format("{:.0f}", c.bytes_read), fmt::format("{:.0f}", c.bytes_written),
+         fmt::format("{:.1f}", 1e-9 * row.bandwidth),
+         fmt::format("{:.0f}%", 100 * row.of_peak), Name(row.bound)});
+  }
+  cells.resize(12);
+  if (c.counted_items > 0) {  // per item, user mode
+    cells.insert(cells.end(), {fmt::format("{:.1f}", row.PerItem(Counter::kCycles)),
+                               fmt::format("{:.2f}", row.InstructionsPerCycle()),
+                               fmt::format("{:.3f}", row.PerItem(Counter::kL1Misses)),
+                               fmt::format("{:.4f}", row.PerItem(Counter::kLlcMisses))});
+  }
+  return cells;
+}
+
+// The header, and the first `columns` cells of all rows.
+CellLines CostLines(const std::string& label, const std::vector<ProfileRow>& rows,
+                    std::size_t columns, const std::string& level = "") {
+  CellLines lines = {{label, "share", "ns/sample", "lanes", "ns/item", "items", "calls",
+                      "read", "write", "GB/s", "of " + level, "bound", "cycles", "IPC",
+                      "L1 misses", "LLC misses"}};
+  for (const ProfileRow& row : rows) lines.push_back(CostCells(row));
+  for (std::vector<std::string>& line : lines) line.resize(columns);
+  return WithoutEmptyColumns(lines);
+}
+
+// Returns the table with a bar for the share of each row, where there is room.
+std::string BarTable(const std::string& label, const std::vector<ProfileRow>& rows) {
   constexpr std::size_t kMinBar = 6, kMaxBar = 40, kGap = 2;
+  const std::size_t columns = rows[0].ns_per_sample.size() > 1 ? 4 : 5;
+  CellLines lines = CostLines(label, rows, columns);
   const std::string table = Table(lines);
-  std::vector<std::string> rows;
-  std::istringstream in(table);
-  for (std::string row; std::getline(in, row);) rows.push_back(row);
-  std::size_t used = kGap;
-  for (const std::string& row : rows) used = std::max(used, row.size() + kGap);
-  const std::size_t width = TerminalColumns(Stream::kOutput);
-  const double longest = *std::ranges::max_element(values);
-  if (rows.size() != lines.size() || used + kMinBar > width || !(longest > 0)) {
-    return table;
+  const std::size_t used = table.find('\n') + kGap,
+                    width = TerminalColumns(Stream::kOutput);
+  if (used + kMinBar > width || !(rows[0].fraction > 0)) return table;
+  const double room = double(std::min(kMaxBar, width - used)) / rows[0].fraction;
+  lines[0].push_back("");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    lines[i + 1].emplace_back(std::size_t(std::lround(room * rows[i].fraction)), '#');
   }
-  const double room = double(std::min(kMaxBar, width - used));
-  std::string text = rows[0] + "\n";
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto cells = std::size_t(std::lround(room * values[i - 1] / longest));
-    if (cells > 0) rows[i].append(used - rows[i].size(), ' ').append(cells, '#');
-    text += rows[i] + "\n";
-  }
-  return text;
+  return Table(lines, 1);
 }
 
-std::string GroupTable(const ProfileReport& report) {
-  CellLines lines = {{"group", "share", "ns/sample", "lanes"}};
-  std::vector<double> values;
-  for (const ProfileGroupRow& group : report.groups) {
-    lines.push_back({Name(group.group), Share(group.fraction),
-                     MedianText(group.ns_per_sample),
-                     group.lane_slots > 0 ? Share(group.Occupancy()) : ""});
-    values.push_back(group.fraction);
-  }
-  return BarTable(lines, values);
-}
-
-// Returns at most `room` lines of the most expensive stages and parts of tasks.
-std::string StageTable(const ProfileReport& report, std::size_t room) {
-  constexpr std::size_t kMaxStages = 12;
-  constexpr double kMinShare = 0.005;
-  CellLines lines = {{"stage", "share", "ns/item", "items", "lanes"}};
-  std::vector<double> values;
-  std::size_t more = 0;
-  double share = 0;
+// Returns the most expensive stages and parts of tasks; fewer below many groups.
+std::string StageTable(const ProfileReport& report) {
+  const std::size_t room = std::min<std::size_t>(12, 24 - report.groups.size());
+  std::vector<ProfileRow> rows;
+  double rest = 1;
   for (const ProfileRow& row : report.rows) {
-    const StageProfile& c = row.counts;
-    if (row.kind != RowKind::kStage && row.kind != RowKind::kPart) continue;
-    if (values.size() >= kMaxStages || values.size() + 2 >= room ||
-        (row.fraction < kMinShare && !values.empty())) {
-      ++more;
-      share += row.fraction;
-      continue;
-    }
-    lines.push_back({c.name, Share(row.fraction), Ns(row.NsPerItem()),
-                     TotalText(double(c.items)),
-                     c.lane_slots > 0 ? Share(c.Occupancy()) : ""});
-    values.push_back(row.fraction);
+    if (row.counts.calls == 0 || rows.size() == room) continue;
+    rows.push_back(row);
+    rest -= row.fraction;
   }
-  if (values.empty()) return "";
-  return BarTable(lines, values) +
-         (more == 0
-              ? ""
-              : fmt::format("{} other stages: {}; all with -v\n", more, Share(share)));
+  if (rows.empty()) return "";
+  return BarTable("stage", rows) +
+         fmt::format("{:.1f}% elsewhere; all stages with -v\n", 100 * rest);
 }
 
 // Explains groups of a strategy's own, and warns of other programs.
 std::string GroupNotes(const ProfileReport& report) {
-  const std::size_t width = TerminalColumns(Stream::kOutput);
+  const auto line = [](const std::string& words) {
+    return Wrapped(words, TerminalColumns(Stream::kOutput)) + "\n";
+  };
   std::string text;
-  for (const ProfileGroupRow& group : report.groups) {
-    if (group.group < ProfileGroup::kVisibleLights) continue;
-    text +=
-        Wrapped(fmt::format("{}: {}", Name(group.group), Meaning(group.group)), width) +
-        "\n";
-  }
-  const auto repeats = int(report.ns_per_sample.size());
-  if (repeats > 1 && repeats < kProfileRepeats) {
-    text += Wrapped(fmt::format("Intervals are ranges of {} repeats; 95 % intervals need "
-                                "{}.",
-                                repeats, kProfileRepeats),
-                    width) +
-            "\n";
+  for (const ProfileRow& row : report.groups) {
+    const std::string meaning = InfoOf(row.counts.group).meaning;
+    if (!meaning.empty()) text += line(row.counts.name + ": " + meaning);
   }
   if (report.busy.empty()) return text;
-  return text +
-         Wrapped(fmt::format("warning: the machine was busy: {}",
-                             fmt::join(report.busy, "; ")),
-                 width) +
-         "\n";
-}
-
-std::size_t LinesOf(const std::string& text) {
-  return std::size_t(std::ranges::count(text, '\n'));
+  return text + line(fmt::format("warning: the machine was busy: {}",
+                                 fmt::join(report.busy, "; ")));
 }
 
 std::string DetailRows(const ProfileReport& report, const Job& job,
@@ -222,109 +204,54 @@ std::string DetailRows(const ProfileReport& report, const Job& job,
   return text + "\n";
 }
 
-std::vector<std::string> CostCells(const ProfileRow& row) {
-  const StageProfile& c = row.counts;
-  std::vector<std::string> cells(12);
-  cells[0] = c.name;
-  cells[1] = Share(row.fraction);
-  if (row.ns_per_sample.size() > 1) cells[2] = MedianText(row.ns_per_sample);
-  if (c.calls == 0) return cells;
-  cells[3] = Ns(row.NsPerItem());
-  cells[4] = TotalText(double(c.items));
-  cells[5] = TotalText(double(c.calls));
-  if (row.kind != RowKind::kStage) return cells;
-  cells[6] = Share(c.Occupancy());
-  cells[7] = fmt::format("{:.0f}", c.bytes_read);
-  cells[8] = fmt::format("{:.0f}", c.bytes_written);
-  cells[9] = fmt::format("{:.1f}", 1e-9 * row.bandwidth);
-  cells[10] = fmt::format("{:.0f}%", 100 * row.of_peak);
-  cells[11] = Name(row.bound);
-  return cells;
-}
-
-std::string CostTable(const ProfileReport& report) {
-  CellLines lines = {{"stage", "share", "ns/sample", "ns/item", "items", "calls", "lanes",
-                      "read", "write", "GB/s", "of " + report.level.name.substr(0, 3),
-                      "bound"}};
-  for (const ProfileRow& row : report.rows) lines.push_back(CostCells(row));
-  const std::string text =
-      Table(lines, lines[0].size() == WithoutEmptyColumns(lines)[0].size()) +
-      fmt::format("total      {} of processor time, all threads together\n",
-                  DurationText(report.seconds));
-  if (!(report.intersect_seconds > 0)) return text;
-  return text + fmt::format(
-                    "\ntime of other stages / time of intersection: {:.2f} (with film "
-                    "and set-up: "
-                    "{:.2f})\n",
-                    report.Ratio(), report.RatioWithAll());
-}
-
-std::string BounceCosts(const ProfileReport& report) {
+std::string BounceTable(const ProfileReport& report) {
   CellLines lines = {{"bounce", "share", "closest rays", "shadow rays", "lanes"}};
   for (std::size_t i = 0; i < report.bounces.size(); ++i) {
     const BounceProfile& b = report.bounces[i];
     lines.push_back({fmt::format("{}{}", i, i + 1 == kMaxBounces ? " and more" : ""),
-                     Share(report.seconds > 0 ? b.seconds / report.seconds : 0),
-                     TotalText(b.rays_closest), TotalText(b.rays_shadow),
-                     b.lane_slots > 0 ? Share(b.items / b.lane_slots) : ""});
-  }
-  return lines.size() > 1 ? "\n" + Table(lines) : "";
-}
-
-std::string MaterialCosts(const ProfileReport& report) {
-  CellLines lines = {{"material", "share", "ns/path", "paths", "lanes"}};
-  for (const ProfileRow& row : report.rows) {
-    const StageProfile& c = row.counts;
-    if (c.material.empty()) continue;
-    lines.push_back({c.material, Share(row.fraction), Ns(row.NsPerItem()),
-                     TotalText(double(c.items)), Share(c.Occupancy())});
-  }
-  return lines.size() > 1 ? "\n" + Table(lines) : "";
-}
-
-// Per item, user mode; of the calls in which the counters were read.
-std::string CounterTable(const ProfileReport& report) {
-  CellLines lines = {
-      {"per item", "cycles", "instructions", "IPC", "L1 misses", "LLC misses"}};
-  for (const ProfileRow& row : report.rows) {
-    if (row.counts.counted_items == 0) continue;
-    lines.push_back({row.counts.name,
-                     fmt::format("{:.1f}", row.PerItem(Counter::kCycles)),
-                     fmt::format("{:.1f}", row.PerItem(Counter::kInstructions)),
-                     fmt::format("{:.2f}", row.InstructionsPerCycle()),
-                     fmt::format("{:.3f}", row.PerItem(Counter::kL1Misses)),
-                     fmt::format("{:.4f}", row.PerItem(Counter::kLlcMisses))});
+                     Share(b[kBounceSeconds] / report.seconds),
+                     TotalText(b[kBounceClosest]), TotalText(b[kBounceShadow]),
+                     Share(b[kBounceItems] / b[kBounceSlots])});
   }
   return "\n" + Table(lines);
 }
 
+std::string MaterialCosts(const ProfileReport& report) {
+  std::vector<ProfileRow> rows;
+  for (const ProfileRow& row : report.rows) {
+    if (row.counts.material.empty()) continue;
+    rows.push_back(row);
+    rows.back().counts.name = row.counts.material;
+  }
+  if (rows.empty()) return "";
+  return "\n" + Table(CostLines("material", rows, 6));
+}
+
 // Explains columns that could be misread.
 std::string Notes(const ProfileReport& report) {
-  std::string text = SummaryRow(
-      "read,write", fmt::format(" bytes of path columns per item; read, write, GB/s and "
+  return SummaryRow("read,write",
+                    fmt::format(" bytes of path columns per item; read, write, GB/s and "
                                 "\"of {}\" exclude BVH, triangles, textures and tables",
                                 report.level.name));
-  const auto is_known = [](const ProfileRow& r) { return r.bound != Bound::kUnknown; };
-  if (std::ranges::none_of(report.rows, is_known)) return text;
-  return text +
-         SummaryRow("bound", "what limits the speed of the stage (docs/profile.md)");
 }
 
 }  // namespace
 
+std::string StageCostText(const RunResult& result) {
+  Peaks unknown;
+  unknown.levels.emplace_back();
+  return Table(CostLines("stage", MakeProfileReport({&result, 1}, unknown).rows, 7));
+}
+
 std::string ProfileText(const ProfileReport& report, const Job& job,
                         const RunResult& result, const std::string& scene, bool verbose) {
   const std::string begin =
-      AnswerText(report, job, result) + "\n" + GroupTable(report) + "\n";
-  const std::string notes = GroupNotes(report);
-  if (!verbose) {
-    const std::size_t used = LinesOf(begin) + LinesOf(notes) + 1;
-    const std::size_t room = kProfileLines - std::min(kProfileLines, used);
-    return begin + StageTable(report, room) + (notes.empty() ? "" : "\n" + notes);
-  }
-  return begin + DetailRows(report, job, result, scene) + CostTable(report) +
-         (result.counters ? CounterTable(report) : "") + BounceCosts(report) +
-         MaterialCosts(report) + "\n" + Notes(report) + notes;
+      AnswerText(report, job, result) + "\n" + BarTable("group", report.groups) + "\n";
+  const std::string notes = "\n" + GroupNotes(report);
+  if (!verbose) return begin + StageTable(report) + notes;
+  return begin + DetailRows(report, job, result, scene) +
+         Table(CostLines("stage", report.rows, 16, report.level.name.substr(0, 3))) +
+         BounceTable(report) + MaterialCosts(report) + "\n" + Notes(report) + notes;
 }
 
 }  // namespace lanelight

@@ -135,23 +135,6 @@ std::string RaysRow(const RunResult& r) {
                                         TotalText(shadow), TotalText(double(r.samples))));
 }
 
-// One row per stage: calls, items, lane occupancy, thread seconds, share, ns per item.
-std::string StageTable(const RunResult& result) {
-  double total = 0;
-  for (const StageProfile& s : result.stages) total += s.seconds;
-  std::vector<std::vector<std::string>> lines = {
-      {"stage", "calls", "items", "lanes", "seconds", "share", "ns/item"}};
-  for (const StageProfile& s : result.stages) {
-    lines.push_back(
-        {s.name, TotalText(double(s.calls)), TotalText(double(s.items)),
-         fmt::format("{:.1f} %", 100 * s.Occupancy()), fmt::format("{:.3f}", s.seconds),
-         fmt::format("{:.1f} %", total > 0 ? 100 * s.seconds / total : 0),
-         fmt::format("{:.2f}", s.items ? 1e9 * s.seconds / double(s.items) : 0)});
-  }
-  return TextTable(lines, {TerminalColumns(Stream::kOutput), 1, 0}) +
-         fmt::format("total: {:.3f} s of processor time (all threads)\n", total);
-}
-
 std::string DetailRows(const RenderReport& report, const Job& job) {
   const RunResult& r = report.result;
   const SimdTarget target = job.plan.options.target;
@@ -175,7 +158,7 @@ std::string DetailRows(const RenderReport& report, const Job& job) {
                          "bytes",
                          target.name(), target.lanes(), ThreadCount(job.settings.threads),
                          job.plan.wavefront, job.plan.bytes_per_path)) +
-         "\n" + StageTable(r);
+         "\n" + StageCostText(r);
 }
 
 }  // namespace

@@ -61,6 +61,9 @@ nlohmann::json ImageInfoJson(const std::string& path);
 /// Returns the text of ImageInfoJson().
 std::string ImageInfoText(const nlohmann::json& info);
 
+/// Returns the cost of each stage of a render.
+std::string StageCostText(const RunResult& result);
+
 /// Returns what was rendered, the most expensive stage, and bars of groups and stages: at
 /// most kProfileLines lines that fit the terminal, as far as names allow. `verbose`: all
 /// stages and columns, peaks, bounces and materials instead.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
@@ -20,7 +22,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kFalseAlarms = 0.05;  // of all rows together
+constexpr double kFalseAlarms = 0.05;  // of all stages together
+constexpr double kMinChange = 0.01;    // of all time
+constexpr const char* kRepeats = "ns_per_sample_of_repeats";
 
 stat::MeanEstimate MeanOf(const std::vector<double>& values) {
   const auto n = double(values.size());
@@ -31,234 +35,125 @@ stat::MeanEstimate MeanOf(const std::vector<double>& values) {
   return out;
 }
 
-struct TestedChange {
-  StageChange change;
-  bool judged = false;
-  double p = 1;
-};
-
-TestedChange ChangeOf(const std::string& name, bool judged,
-                      const std::vector<double>& before, const std::vector<double>& now) {
+// Returns the change between two medians; half widths add as squares.
+StageChange ChangeOf(const std::string& name, const std::vector<double>& before,
+                     const std::vector<double>& now) {
   const Interval a = MedianOf(before), b = MedianOf(now);
   const double value = b.value - a.value;
-  TestedChange tested{{name,
-                       a.value,
-                       b.value,
-                       {value, value - std::hypot(b.value - b.low, a.high - a.value),
-                        value + std::hypot(b.high - b.value, a.value - a.low)}},
-                      judged};
-  if (judged && before.size() > 1 && now.size() > 1) {
-    tested.p = stat::WelchPValue(MeanOf(before), MeanOf(now));
-  }
-  return tested;
+  return {name,
+          a.value,
+          b.value,
+          {value, value - std::hypot(b.value - b.low, a.high - a.value),
+           value + std::hypot(b.high - b.value, a.value - a.low)}};
 }
 
-// Values of a row; zeros where the profile lacks it.
-std::vector<double> ValuesOf(const KnownProfile& profile, const std::string& name) {
-  const auto row = std::ranges::find(profile.rows, name, &KnownProfile::Row::name);
-  if (row != profile.rows.end()) return row->ns_per_sample;
-  return std::vector<double>(profile.ns_per_sample.size());
-}
-
-std::vector<TestedChange> Changes(const KnownProfile& before, const KnownProfile& now) {
-  std::vector<TestedChange> changes = {
-      ChangeOf("total", true, before.ns_per_sample, now.ns_per_sample)};
-  for (const KnownProfile::Row& row : now.rows) {
-    changes.push_back(
-        ChangeOf(row.name, row.judged, ValuesOf(before, row.name), row.ns_per_sample));
+// Returns whether both are of the same render.
+bool FindProblems(const Json& before, const Json& now, std::vector<std::string>& out) {
+  const std::string strategy = now.at("strategy_in_force");
+  const std::string old_strategy = before.at("strategy_in_force");
+  const auto check = [&](const char* what, const Json& a, const Json& b) {
+    if (a != b)
+      out.push_back(fmt::format("{}: {}, before {}", what, DumpJson(b), DumpJson(a)));
+  };
+  check("other scene files", before.at("scene_hash"), now.at("scene_hash"));
+  check("SIMD target", before.at("target").at("name"), now.at("target").at("name"));
+  check("strategy", ChoicesNotIn(strategy, old_strategy),
+        ChoicesNotIn(old_strategy, strategy));
+  for (const char* member : {"threads", "resolution", "samples"}) {
+    check(member, before.at(member), now.at(member));
   }
-  for (const KnownProfile::Row& row : before.rows) {
-    if (std::ranges::find(now.rows, row.name, &KnownProfile::Row::name) ==
-        now.rows.end()) {
-      changes.push_back(
-          ChangeOf(row.name, false, row.ns_per_sample, ValuesOf(now, row.name)));
+  const bool same = out.empty();
+  for (const Json* profile : {&before, &now}) {
+    const char* when = profile == &now ? "this run" : "earlier run";
+    for (const std::string reason : profile->at("busy")) {
+      out.push_back(fmt::format("{}: {}", when, reason));
+    }
+    if (const auto repeats = int(profile->at(kRepeats).size());
+        repeats < kProfileRepeats) {
+      out.push_back(fmt::format("{}: {} repeats, intervals need {} (--repeat {})", when,
+                                repeats, kProfileRepeats, kProfileRepeats));
     }
   }
-  return changes;
-}
-
-void FindRenderProblems(const KnownProfile& before, const KnownProfile& now,
-                        ProfileComparison& comparison) {
-  const auto check = [&](const char* what, const auto& a, const auto& b) {
-    if (a == b) return;
-    comparison.problems.push_back(fmt::format("{} is {}, before {}", what, b, a));
-  };
-  if (before.scene_hash != now.scene_hash) {
-    comparison.problems.push_back("the scene files differ");
-  }
-  check("the SIMD target", before.target, now.target);
-  if (before.strategy != now.strategy) {
-    check("the strategy", ChoicesNotIn(now.strategy, before.strategy),
-          ChoicesNotIn(before.strategy, now.strategy));
-  }
-  check("the number of threads", before.threads, now.threads);
-  check("the resolution", fmt::format("{}x{}", before.width, before.height),
-        fmt::format("{}x{}", now.width, now.height));
-  check("the number of samples", before.samples, now.samples);
-  comparison.same_render = comparison.problems.empty();
-}
-
-void FindRunProblems(const KnownProfile& profile, const char* when,
-                     ProfileComparison& comparison) {
-  for (const std::string& reason : profile.busy) {
-    comparison.problems.push_back(fmt::format("{}: {}", when, reason));
-  }
-  const std::size_t repeats = profile.ns_per_sample.size();
-  if (repeats < std::size_t(kProfileRepeats)) {
-    comparison.problems.push_back(
-        fmt::format("{}: intervals need {} repeats, not {} (--repeat {})", when,
-                    kProfileRepeats, repeats, kProfileRepeats));
-  }
-}
-
-std::string Signed(const Interval& v) {
-  if (!v.HasBounds()) return fmt::format("{:+.3g}", v.value);
-  return fmt::format("{:+.3g} [{:+.3g}, {:+.3g}]", v.value, v.low, v.high);
+  return same;
 }
 
 std::string GrowthText(const StageChange& change) {
-  return change.before > 0
-             ? fmt::format("{:+.1f}%", 100 * (change.now / change.before - 1))
-             : "new";
+  if (!(change.before > 0)) return "new";
+  return fmt::format("{:+.1f}%", 100 * (change.now / change.before - 1));
 }
 
 std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
-  std::vector<std::string> slower;
-  for (const StageChange& stage : comparison.stages) {
-    if (stage.slower) slower.push_back(stage.name + " " + GrowthText(stage));
+  if (!comparison.problems.empty()) {
+    return fmt::format("not comparable; {}.", fmt::join(comparison.problems, "; "));
   }
-  if (comparison.total.slower) {
-    slower.push_back("total " + GrowthText(comparison.total));
+  std::string slower;
+  for (const StageChange& change : comparison.changes) {
+    if (!change.slower) continue;
+    slower +=
+        (slower.empty() ? "slower: " : ", ") + change.name + " " + GrowthText(change);
   }
-  switch (comparison.Judge()) {
-    case ProfileComparison::Verdict::kNotComparable:
-      return fmt::format("not comparable; {}.", fmt::join(comparison.problems, "; "));
-    case ProfileComparison::Verdict::kSlower:
-      return fmt::format("slower: {}.", fmt::join(slower, ", "));
-    case ProfileComparison::Verdict::kNotSlower:
-      break;
-  }
+  if (!slower.empty()) return slower + ".";
   return fmt::format("no stage is significantly slower by more than {:.3g} %.",
                      100 * tolerance);
 }
 
-Json ChangeJson(const StageChange& change) {
-  return {{"name", change.name},
-          {"before", change.before},
-          {"now", change.now},
-          {"difference", IntervalJson(change.difference)},
-          {"slower", change.slower}};
-}
-
 }  // namespace
 
-ProfileComparison::Verdict ProfileComparison::Judge() const {
-  if (!problems.empty()) return Verdict::kNotComparable;
-  const bool slower = total.slower || std::ranges::any_of(stages, &StageChange::slower);
-  return slower ? Verdict::kSlower : Verdict::kNotSlower;
-}
-
-ProfileComparison CompareProfiles(const KnownProfile& before, const KnownProfile& now,
-                                  double tolerance) {
+ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {
   ProfileComparison comparison;
-  FindRenderProblems(before, now, comparison);
-  FindRunProblems(before, "earlier run", comparison);
-  FindRunProblems(now, "this run", comparison);
-  if (!comparison.same_render) return comparison;
-  std::vector<TestedChange> changes = Changes(before, now);
+  if (!FindProblems(before, now, comparison.problems)) return comparison;
+  // A stage has no time in a profile that lacks it.
+  std::map<std::string, std::array<std::vector<double>, 2>> stages;
+  const std::array profiles = {&before, &now};
+  for (const std::size_t i : {0, 1}) {
+    for (const Json& row : profiles[i]->at("rows")) {
+      if (row.at("kind") != "stage" && row.at("kind") != "task") continue;
+      stages[row.at("name")][i] = row.at(kRepeats).get<std::vector<double>>();
+    }
+  }
+  std::vector<StageChange>& changes = comparison.changes;
   std::vector<double> p;
-  for (const TestedChange& tested : changes) {
-    if (tested.judged) p.push_back(tested.p);
+  const auto add = [&](const std::string& name, std::array<std::vector<double>, 2> ns) {
+    for (const std::size_t i : {0, 1}) ns[i].resize(profiles[i]->at(kRepeats).size());
+    changes.push_back(ChangeOf(name, ns[0], ns[1]));
+    p.push_back(stat::WelchPValue(MeanOf(ns[0]), MeanOf(ns[1])));
+  };
+  add("total", {before.at(kRepeats).get<std::vector<double>>(),
+                now.at(kRepeats).get<std::vector<double>>()});
+  for (const auto& [name, ns] : stages) add(name, ns);
+  if (!comparison.problems.empty()) p.clear();  // nothing is judged
+  for (const std::size_t i : stat::HolmRejections(p, kFalseAlarms)) {
+    StageChange& c = changes[i];
+    c.slower = c.difference.value >
+               std::max(kMinChange * changes[0].before, tolerance * c.before);
   }
-  const auto rejected = stat::HolmRejections(p, kFalseAlarms);
-  const double least = kMinChange * changes[0].change.before;
-  std::size_t test = 0;
-  for (TestedChange& tested : changes) {
-    if (!tested.judged) continue;
-    const bool significant = std::ranges::binary_search(rejected, test++);
-    StageChange& change = tested.change;
-    change.slower = significant && change.difference.value > least &&
-                    change.difference.value > tolerance * change.before;
-  }
-  comparison.total = changes[0].change;
-  for (std::size_t i = 1; i < changes.size(); ++i) {
-    comparison.stages.push_back(changes[i].change);
-  }
-  std::ranges::sort(comparison.stages, [](const StageChange& a, const StageChange& b) {
-    const double x = std::abs(a.difference.value), y = std::abs(b.difference.value);
-    return x != y ? x > y : a.name < b.name;
+  std::sort(changes.begin() + 1, changes.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.difference.value) > std::abs(b.difference.value);
   });
   return comparison;
 }
 
-KnownProfile ProfileFromJson(const Json& json) {
-  KnownProfile known{json.at("machine").at("text"),
-                     json.at("program"),
-                     json.at("scene_hash"),
-                     json.at("target").at("name"),
-                     json.at("strategy_in_force"),
-                     json.at("threads"),
-                     json.at("resolution").at(0),
-                     json.at("resolution").at(1),
-                     json.at("samples"),
-                     json.at("busy"),
-                     json.at("ns_per_sample_of_repeats"),
-                     {}};
-  for (const Json& row : json.at("rows")) {
-    const std::string kind = row.at("kind");
-    known.rows.push_back({row.at("name"), kind == "stage" || kind == "task",
-                          row.at("ns_per_sample_of_repeats")});
-  }
-  return known;
-}
-
-KnownProfile ReadProfile(const std::string& path) {
+Json ReadProfile(const std::string& path) {
   return FromJsonOf(path, [&] {
-    const Json json = ParseJson(ReadWholeFile(path));
-    if (!json.contains("kind") || json.at("kind") != "profile") {
-      throw InputError("'{}' was not written by `lanelight profile --json`", path);
-    }
-    if (!json.contains("repeats")) {
-      throw InputError(
-          "'{}' was written by an older version, without repeats; measure again with "
-          "`lanelight profile --repeat {} --json`",
-          path, kProfileRepeats);
-    }
-    return ProfileFromJson(json);
+    Json json = ParseJson(ReadWholeFile(path));
+    if (json.contains("bounces") && json.contains(kRepeats)) return json;
+    throw InputError("'{}' was not written by `lanelight profile --json` of this version",
+                     path);
   });
 }
 
-std::string ComparisonText(const ProfileComparison& comparison,
-                           const KnownProfile& before, double tolerance,
-                           std::size_t max_stages, std::size_t width) {
-  std::string text = LabelledRow("against", before.machine, width) +
-                     LabelledRow("", before.program, width) + "\n";
-  if (comparison.same_render) {
-    std::vector<std::vector<std::string>> lines = {
-        {"ns per sample", "before", "now", "difference", "change", ""}};
-    const auto add = [&](const StageChange& c) {
-      lines.push_back({c.name, fmt::format("{:.3g}", c.before),
-                       fmt::format("{:.3g}", c.now), Signed(c.difference), GrowthText(c),
-                       c.slower ? "SLOWER" : ""});
-    };
-    add(comparison.total);
-    for (const StageChange& stage : comparison.stages) {
-      if (lines.size() < max_stages + 2 || stage.slower) add(stage);
-    }
-    text += TextTable(lines, {width, 1, 1}) + "\n";
+std::string ComparisonText(const ProfileComparison& comparison, double tolerance,
+                           std::size_t max_changes, std::size_t width) {
+  std::vector<std::vector<std::string>> lines = {
+      {"ns per sample", "before", "now", "difference", "change", ""}};
+  for (const StageChange& c : comparison.changes) {
+    if (lines.size() > max_changes && !c.slower) continue;
+    lines.push_back({c.name, fmt::format("{:.3g}", c.before),
+                     fmt::format("{:.3g}", c.now), EstimateText(c.difference),
+                     GrowthText(c), c.slower ? "SLOWER" : ""});
   }
-  return text + Wrapped(VerdictText(comparison, tolerance), width) + "\n";
-}
-
-Json ToJson(const ProfileComparison& comparison) {
-  static constexpr const char* kVerdicts[] = {"not slower", "slower", "not comparable"};
-  Json stages = Json::array();
-  for (const StageChange& stage : comparison.stages) stages.push_back(ChangeJson(stage));
-  return {
-      {"verdict", kVerdicts[int(comparison.Judge())]},
-      {"problems", comparison.problems},
-      {"total", comparison.same_render ? ChangeJson(comparison.total) : Json(nullptr)},
-      {"stages", stages}};
+  return (lines.size() > 1 ? TextTable(lines, {width, 1, 1}) + "\n" : "") +
+         Wrapped(VerdictText(comparison, tolerance), width) + "\n";
 }
 
 }  // namespace lanelight

@@ -42,9 +42,7 @@ double ThroughputRow::RelativeHalfWidth() const {
 
 std::vector<StageGroup> StageGroups(const ThroughputRow& row) {
   std::vector<StageGroup> groups;
-  for (int i = 0; i < int(kNumProfileGroups); ++i) {
-    groups.push_back({Name(ProfileGroup(i))});
-  }
+  for (const ProfileGroupInfo& info : kProfileGroups) groups.push_back({info.name});
   const double ns = 1e9 / double(row.counts.samples);
   // Parts of tasks outside of stages have no lanes.
   for (const auto* profiles : {&row.counts.stages, &row.counts.parts}) {

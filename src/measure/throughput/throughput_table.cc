@@ -76,7 +76,7 @@ Cells RateCells(const std::vector<ThroughputRow>& rows, const ThroughputRow& row
 
 // Lists each scene and target once: times per sample hardly depend on threads.
 std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
-  std::vector<bool> used(kNumProfileGroups);
+  std::vector<bool> used(std::size(kProfileGroups));
   for (const ThroughputRow& row : rows) {
     const std::vector<StageGroup> groups = StageGroups(row);
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -85,7 +85,7 @@ std::string GroupTable(const std::vector<ThroughputRow>& rows, const TableStyle&
   }
   std::vector<Cells> lines = {{"ns per sample", "target"}};
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i]) lines[0].push_back(Name(ProfileGroup(i)));
+    if (used[i]) lines[0].push_back(kProfileGroups[i].name);
   }
   std::set<std::string> seen;
   for (const ThroughputRow& row : rows) {

@@ -31,43 +31,30 @@ void AddTimes(const std::vector<double>& ns_per_sample, Json& out) {
   out["ns_per_sample_of_repeats"] = ns_per_sample;
 }
 
-Json GroupsJson(const ProfileReport& report) {
-  Json groups = Json::array();
-  for (const ProfileGroupRow& row : report.groups) {
-    Json& group = groups.emplace_back(
-        Json{{"name", Name(row.group)},
-             {"meaning", Meaning(row.group)},
-             {"seconds", row.seconds},
-             {"share", row.fraction},
-             {"occupancy", row.lane_slots > 0 ? Json(row.Occupancy()) : Json()}});
-    AddTimes(row.ns_per_sample, group);
-  }
-  return groups;
-}
-
 Json BouncesJson(const ProfileReport& report) {
   Json bounces = Json::array();
   for (const BounceProfile& b : report.bounces) {
     bounces.push_back({{"depth", bounces.size()},
-                       {"seconds", b.seconds},
-                       {"rays_closest", b.rays_closest},
-                       {"rays_shadow", b.rays_shadow},
-                       {"occupancy", b.lane_slots > 0 ? b.items / b.lane_slots : 0}});
+                       {"seconds", b[kBounceSeconds]},
+                       {"rays_closest", b[kBounceClosest]},
+                       {"rays_shadow", b[kBounceShadow]},
+                       {"occupancy", NumberJson(b[kBounceItems] / b[kBounceSlots])}});
   }
   return bounces;
 }
 
 Json RowJson(const ProfileRow& row, double flops) {
   const StageProfile& c = row.counts;
-  Json out = {{"name", c.name},       {"kind", Name(row.kind)}, {"group", Name(c.group)},
-              {"seconds", c.seconds}, {"share", row.fraction},  {"calls", c.calls},
-              {"items", c.items}};
+  Json out = {
+      {"name", c.name},       {"kind", Name(row.kind)}, {"group", InfoOf(c.group).name},
+      {"seconds", c.seconds}, {"share", row.fraction},  {"calls", c.calls},
+      {"items", c.items}};
   AddTimes(row.ns_per_sample, out);
   out["ns_per_item"] = c.items > 0 ? Json(row.NsPerItem()) : Json();
   const bool stage = row.kind == RowKind::kStage;
   const auto of_stage = [&](double value) { return stage ? Json(value) : Json(); };
   out["intersect"] = row.intersect;
-  out["occupancy"] = of_stage(c.Occupancy());
+  out["occupancy"] = c.lane_slots > 0 ? Json(c.Occupancy()) : Json();
   out["bytes_read_per_item"] = of_stage(c.bytes_read);
   out["bytes_written_per_item"] = of_stage(c.bytes_written);
   out["bytes_per_second"] = of_stage(row.bandwidth);
@@ -105,6 +92,11 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
   Json rows = Json::array();
   for (const ProfileRow& row : report.rows)
     rows.push_back(RowJson(row, report.peaks.flops));
+  Json groups = Json::array();
+  for (const ProfileRow& group : report.groups) {
+    groups.push_back(RowJson(group, report.peaks.flops));
+    groups.back()["meaning"] = InfoOf(group.counts.group).meaning;
+  }
   const bool intersects = report.intersect_seconds > 0;
   Json out = {
       {"schema", kProfileSchema},
@@ -115,7 +107,7 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
       {"busy", report.busy},
       {"resolution", {job.window.width(), job.window.height()}},
       {"rays_per_sample", report.rays_per_sample},
-      {"groups", GroupsJson(report)},
+      {"groups", groups},
       {"bounces", BouncesJson(report)},
       {"target", TargetJson(job.plan.options.target)},
       {"machine", ToJson(ThisMachine())},
@@ -151,30 +143,16 @@ Json ToJson(const ProfileReport& report, const Job& job, const RunResult& result
 }
 
 std::string ProfileCsv(const Json& profile) {
-  static constexpr const char* kColumns[] = {"name",
-                                             "kind",
-                                             "group",
-                                             "seconds",
-                                             "share",
-                                             "calls",
-                                             "items",
-                                             "ns_per_item",
-                                             "occupancy",
-                                             "bytes_read_per_item",
-                                             "bytes_written_per_item"};
-  std::string text = fmt::format(
-      "{},ns_per_sample,ns_per_sample_low,ns_per_sample_high,repeats,target,threads,"
-      "strategy,{}\n",
-      fmt::join(kColumns, ","), MachineCsvHeader());
+  const Json columns = profile.at("rows").at(0).flatten();  // by JSON pointer
+  std::string text;
+  for (const auto& [column, value] : columns.items()) text += column.substr(1) + ",";
+  text.back() = '\n';
   for (const Json& row : profile.at("rows")) {
-    for (const char* column : kColumns) text += CsvField(row.at(column)) + ",";
-    const Json& ns = row.at("ns_per_sample");
-    for (const char* end : {"value", "low", "high"}) text += CsvField(ns.at(end)) + ",";
-    text += fmt::format("{},{},{},{},{}\n", CsvField(profile.at("repeats")),
-                        CsvField(profile.at("target").at("name")),
-                        CsvField(profile.at("threads")),
-                        CsvField(profile.at("strategy_in_force")),
-                        MachineCsvRow(MachineFromJson(profile.at("machine"))));
+    const Json cells = row.flatten();
+    for (const auto& [column, value] : columns.items()) {
+      text += CsvField(cells.contains(column) ? cells.at(column) : Json()) + ",";
+    }
+    text.back() = '\n';
   }
   return text;
 }

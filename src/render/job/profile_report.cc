@@ -56,14 +56,7 @@ void AddRows(std::span<const RunResult> repeats, ProfileReport& report) {
       auto row = std::ranges::find_if(report.rows, [&](const ProfileRow& r) {
         return r.counts.name == more.counts.name;
       });
-      if (row == report.rows.end()) {
-        row = report.rows.insert(row, more);
-      } else {
-        row->counts.counted_items += more.counts.counted_items;
-        for (std::size_t c = 0; c < row->counts.counted.size(); ++c) {
-          row->counts.counted[c] += more.counts.counted[c];
-        }
-      }
+      if (row == report.rows.end()) row = report.rows.insert(row, more);
       row->ns_per_sample.resize(i);
       row->ns_per_sample.push_back(per_sample * more.counts.seconds);
       report.ns_per_sample.back() += row->ns_per_sample.back();
@@ -76,37 +69,33 @@ void AddRows(std::span<const RunResult> repeats, ProfileReport& report) {
   }
 }
 
-void AddGroups(ProfileReport& report) {
-  for (const ProfileRow& row : report.rows) {
-    const StageProfile& c = row.counts;
-    auto group = std::ranges::find(report.groups, c.group, &ProfileGroupRow::group);
-    if (group == report.groups.end()) {
-      group = report.groups.emplace(group);
-      group->group = c.group;
-      group->ns_per_sample.resize(row.ns_per_sample.size());
-    }
-    group->seconds += c.seconds;
-    group->fraction += row.fraction;
-    if (c.lane_slots > 0) group->items += c.items;
-    group->lane_slots += c.lane_slots;
-    for (std::size_t i = 0; i < row.ns_per_sample.size(); ++i) {
-      group->ns_per_sample[i] += row.ns_per_sample[i];
-    }
-  }
-  std::ranges::sort(
-      report.groups, [](const ProfileGroupRow& a, const ProfileGroupRow& b) {
-        return a.fraction != b.fraction ? a.fraction > b.fraction : a.group < b.group;
-      });
+void Sort(std::vector<ProfileRow>& rows) {
+  std::ranges::sort(rows, [](const ProfileRow& a, const ProfileRow& b) {
+    return a.fraction != b.fraction ? a.fraction > b.fraction
+                                    : a.counts.name < b.counts.name;
+  });
 }
 
-void AddLoad(std::span<const RunResult> repeats, ProfileReport& report) {
-  double cpu = 0;
-  for (const RunResult& result : repeats) {
-    report.waiting_seconds += std::max(0.0, result.waiting_seconds);
-    cpu += result.cpu_seconds;
+void AddGroups(ProfileReport& report) {
+  std::vector<ProfileRow>& groups = report.groups;
+  for (const ProfileRow& row : report.rows) {
+    const StageProfile& c = row.counts;
+    auto sum = std::ranges::find_if(
+        groups, [&](const ProfileRow& g) { return g.counts.group == c.group; });
+    if (sum == groups.end()) {
+      sum = groups.insert(sum, MakeRow(RowKind::kGroup, InfoOf(c.group).name, 0));
+      sum->counts.group = c.group;
+      sum->ns_per_sample.resize(row.ns_per_sample.size());
+    }
+    sum->counts.seconds += c.seconds;
+    sum->fraction += row.fraction;
+    if (c.lane_slots > 0) sum->counts.items += c.items;
+    sum->counts.lane_slots += c.lane_slots;
+    for (std::size_t i = 0; i < row.ns_per_sample.size(); ++i) {
+      sum->ns_per_sample[i] += row.ns_per_sample[i];
+    }
   }
-  const double all = report.waiting_seconds + cpu;
-  report.busy = BusyReasons(ThisMachine(), all > 0 ? report.waiting_seconds / all : 0);
+  Sort(groups);
 }
 
 void AddSums(ProfileReport& report) {
@@ -142,8 +131,8 @@ Bound BoundOf(const Peaks& peaks, const ProfileRow& row) {
 }  // namespace
 
 const char* Name(RowKind kind) {
-  static constexpr const char* kNames[] = {"stage", "task", "pilot", "outside"};
-  static_assert(std::size(kNames) == std::size_t(RowKind::kOutside) + 1);
+  static constexpr const char* kNames[] = {"stage", "task", "pilot", "outside", "group"};
+  static_assert(std::size(kNames) == std::size_t(RowKind::kGroup) + 1);
   return kNames[int(kind)];
 }
 
@@ -182,7 +171,7 @@ ProfileReport MakeProfileReport(std::span<const RunResult> repeats, const Peaks&
   report.rays_per_sample = double(first.rays_closest + first.rays_shadow) /
                            double(std::max<std::uint64_t>(first.samples, 1));
   report.bounces = first.bounces;
-  while (!report.bounces.empty() && report.bounces.back().items == 0) {
+  while (!report.bounces.empty() && report.bounces.back()[kBounceItems] == 0) {
     report.bounces.pop_back();
   }
   AddRows(repeats, report);
@@ -191,12 +180,15 @@ ProfileReport MakeProfileReport(std::span<const RunResult> repeats, const Peaks&
     row.fraction = report.seconds > 0 ? row.counts.seconds / report.seconds : 0;
     if (row.kind == RowKind::kStage) PlaceOnRoofline(peaks, report.level, row);
   }
-  std::ranges::sort(report.rows, [](const ProfileRow& a, const ProfileRow& b) {
-    return a.fraction != b.fraction ? a.fraction > b.fraction
-                                    : a.counts.name < b.counts.name;
-  });
+  Sort(report.rows);
   AddGroups(report);
-  AddLoad(repeats, report);
+  double cpu = 1e-9;
+  for (const RunResult& result : repeats) {
+    report.waiting_seconds += std::max(0.0, result.waiting_seconds);
+    cpu += result.cpu_seconds;
+  }
+  report.busy =
+      BusyReasons(ThisMachine(), report.waiting_seconds / (report.waiting_seconds + cpu));
   return report;
 }
 

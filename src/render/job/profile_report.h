@@ -47,10 +47,10 @@ enum class Bound {
 /// "-", "memory", "compute", "neither".
 const char* Name(Bound bound);
 
-enum class RowKind { kStage, kPart, kPilot, kOutside };
+enum class RowKind { kStage, kPart, kPilot, kOutside, kGroup };
 /// Name of the row of kPilot.
 inline constexpr const char* kPilotRowName = "training passes";
-/// "stage", "task", "pilot", "outside".
+/// "stage", "task", "pilot", "outside", "group".
 const char* Name(RowKind kind);
 
 struct ProfileRow {
@@ -69,21 +69,11 @@ struct ProfileRow {
   double InstructionsPerCycle() const;
 };
 
-/// Sums over the rows of one group.
-struct ProfileGroupRow {
-  ProfileGroup group = ProfileGroup::kOutside;
-  double seconds = 0, fraction = 0;  // as in ProfileRow
-  std::uint64_t items = 0, lane_slots = 0;
-  std::vector<double> ns_per_sample;
-
-  double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
-};
-
 struct ProfileReport {
-  std::vector<ProfileRow> rows;         // by falling share
-  std::vector<ProfileGroupRow> groups;  // of rows, by falling share
-  std::vector<BounceProfile> bounces;   // of the first repeat, up to the last with rays
-  std::uint64_t samples = 0;            // of the first repeat
+  std::vector<ProfileRow> rows;        // by falling share
+  std::vector<ProfileRow> groups;      // sums over rows, by falling share
+  std::vector<BounceProfile> bounces;  // of the first repeat, up to the last with rays
+  std::uint64_t samples = 0;           // of the first repeat
   double rays_per_sample = 0;
   std::vector<double> ns_per_sample;  // sums over the rows, of the repeats
   std::vector<std::string> busy;      // BusyReasons()
@@ -133,8 +123,9 @@ void PlaceOnRoofline(const Peaks& peaks, const MemoryLevel& level, ProfileRow& r
 /// Returns a trace for chrome://tracing and ui.perfetto.dev ("Trace Event Format", JSON
 /// array): one complete event ("X") per stage call and part of a task, in microseconds
 /// since the start of the run, about 120 bytes each; one named track per thread, with an
-/// instant event at its end if events were dropped. Counter events ("C") at each wave
-/// have queue lengths, filled lanes and rays per second. `process`: name in the viewer.
+/// instant event at its end if events were dropped. Counter events ("C") of stages that
+/// intersect or shade have queue lengths, filled lanes and rays per second. `process`:
+/// name in the viewer.
 std::string TraceText(const RunResult& result, int lanes, const std::string& process);
 
 /// Returns the dropped events of all threads.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,40 +14,12 @@ namespace lanelight {
 namespace {
 
 // What TraceEvent::row stands for.
-struct Rows {
-  std::vector<const StageProfile*> all;
-  std::vector<bool> starts_wave;  // the first stage that intersects, of each phase
-
-  explicit Rows(const RunResult& result) {
-    bool started = false;
-    for (const StageProfile& s : result.stages) {
-      all.push_back(&s);
-      if (s.role == StageRole::kCamera) started = false;
-      const bool starts = !started && s.role == StageRole::kIntersect;
-      starts_wave.push_back(starts);
-      started |= starts;
-    }
-    for (const StageProfile& p : result.parts) all.push_back(&p);
-  }
-  bool IsStage(std::size_t row) const { return row < starts_wave.size(); }
-};
-
-// What counter tracks show of one wave: from its first intersect stage to the next one.
-struct WaveCounts {
-  std::uint64_t intersect = 0, shade = 0, shadow = 0;  // paths in queues
-  std::uint64_t items = 0, vectors = 0;
-
-  // Several stages may intersect the same rays, each with shapes of another kind.
-  void Add(const StageProfile& stage, const TraceEvent& e) {
-    if (stage.role == StageRole::kIntersect)
-      intersect = std::max<std::uint64_t>(intersect, e.items);
-    if (stage.role == StageRole::kShadow)
-      shadow = std::max<std::uint64_t>(shadow, e.items);
-    if (!stage.material.empty()) shade += e.items;
-    items += e.items;
-    vectors += e.vectors;
-  }
-};
+std::vector<const StageProfile*> TraceRows(const RunResult& result) {
+  std::vector<const StageProfile*> rows;
+  for (const StageProfile& s : result.stages) rows.push_back(&s);
+  for (const StageProfile& p : result.parts) rows.push_back(&p);
+  return rows;
+}
 
 std::string Metadata(const char* what, std::size_t thread, const std::string& name) {
   return fmt::format(R"({{"name":"{}","ph":"M","pid":1,"tid":{},"args":{{"name":{}}}}})",
@@ -57,8 +28,8 @@ std::string Metadata(const char* what, std::size_t thread, const std::string& na
 
 class Writer {
  public:
-  Writer(const RunTrace& trace, const Rows& rows, int lanes)
-      : trace_(trace), rows_(rows), lanes_(lanes) {}
+  Writer(const RunResult& result, int lanes)
+      : trace_(result.trace), rows_(TraceRows(result)), lanes_(lanes) {}
 
   void Line(const std::string& line) {
     text_ += first_ ? "[\n" : ",\n";
@@ -68,23 +39,15 @@ class Writer {
 
   void Thread(std::size_t thread) {
     const ThreadTrace& t = trace_.threads[thread];
-    std::optional<WaveCounts> wave;
-    double start = 0;
     for (const TraceEvent& e : t.events) {
       const double begin = Microseconds(e.begin);
-      const bool stage = rows_.IsStage(e.row);
-      if (!stage || rows_.starts_wave[e.row]) {
-        if (wave) Counters(thread, start, begin, *wave);
-        wave.reset();
-        if (stage) wave.emplace();
-        start = begin;
-      }
-      if (wave) wave->Add(*rows_.all[e.row], e);
+      const StageProfile& row = *rows_[e.row];
       Line(
           fmt::format(R"({{"name":"{}","cat":"{}","ph":"X","pid":1,"tid":{},"ts":{:.3f},)"
                       R"("dur":{:.3f},"args":{{"items":{}}}}})",
-                      rows_.all[e.row]->name, stage ? "stage" : "task", thread, begin,
+                      row.name, row.role ? "stage" : "task", thread, begin,
                       Microseconds(e.end) - begin, e.items));
+      Counters(e, thread);
     }
     if (t.dropped == 0) return;
     const double end = t.events.empty() ? 0 : Microseconds(t.events.back().end);
@@ -101,23 +64,22 @@ class Writer {
   }
 
  private:
-  void Counters(std::size_t thread, double begin, double end, const WaveCounts& wave) {
-    const auto line = [&](const char* what, const std::string& values) {
+  // Values of counter tracks. Viewers show one track per name and argument.
+  void Counters(const TraceEvent& e, std::size_t thread) {
+    const StageProfile& stage = *rows_[e.row];
+    const bool ray =
+        stage.role == StageRole::kIntersect || stage.role == StageRole::kShadow;
+    if (!(ray || stage.role == StageRole::kShade) || e.vectors == 0) return;
+    const auto line = [&](const char* what, double value) {
       Line(fmt::format(R"({{"name":"{}, thread {}","ph":"C","pid":1,"ts":{:.3f},)"
-                       R"("args":{{{}}}}})",
-                       what, thread, begin, values));
+                       R"("args":{{"{}":{:.6g}}}}})",
+                       what, thread, Microseconds(e.begin), stage.name, value));
     };
-    line("queues", fmt::format(R"("intersect":{},"shade":{},"shadow":{})", wave.intersect,
-                               wave.shade, wave.shadow));
-    if (wave.vectors > 0) {
-      line("lanes filled",
-           fmt::format(R"("percent":{:.1f})",
-                       100.0 * double(wave.items) / (double(wave.vectors) * lanes_)));
-    }
-    if (end <= begin) return;
-    line("rays per second",
-         fmt::format(R"("millions":{:.2f})",
-                     double(wave.intersect + wave.shadow) / (end - begin)));
+    line("queue length", e.items);
+    line("lanes filled, percent", 100.0 * e.items / (double(e.vectors) * lanes_));
+    if (ray)
+      line("million rays per second",
+           e.items / std::max(1e-3, Microseconds(e.end) - Microseconds(e.begin)));
   }
 
   // Rounded to what is printed, so that an event ends where the next one begins.
@@ -127,7 +89,7 @@ class Writer {
   }
 
   const RunTrace& trace_;
-  const Rows& rows_;
+  const std::vector<const StageProfile*> rows_;
   int lanes_;
   std::string text_;
   bool first_ = true;
@@ -136,8 +98,7 @@ class Writer {
 }  // namespace
 
 std::string TraceText(const RunResult& result, int lanes, const std::string& process) {
-  const Rows rows(result);
-  Writer writer(result.trace, rows, lanes);
+  Writer writer(result, lanes);
   writer.Line(Metadata("process_name", 0, process));
   for (std::size_t i = 0; i < result.trace.threads.size(); ++i) {
     writer.Line(Metadata("thread_name", i, fmt::format("thread {}", i)));

@@ -27,42 +27,19 @@ const char* Name(TaskPart part) {
 
 ProfileGroup GroupOf(PhaseId phase, const Stage& stage) {
   using enum ProfileGroup;
-  if (phase == PhaseId::kVisibleLights || phase == PhaseId::kFindEdges)
-    return kVisibleLights;
+  static constexpr ProfileGroup kOfRoles[] = {
+      // in the order of StageRole
+      kCamera, kSampling, kIntersect, kMedia,  kQueues, kLights,   kSurface, kTexture,
+      kLights, kLights,   kShade,     kShadow, kQueues, kTraining, kFilm,    kReuse};
+  static_assert(std::size(kOfRoles) == std::size_t(StageRole::kBlock) + 1);
+  const bool edges = phase == PhaseId::kFindEdges || phase == PhaseId::kVisibleLights;
+  if (edges) return kVisibleLights;
   if (phase == PhaseId::kLightPaths) return kLightPaths;
-  switch (stage.role) {
-    case StageRole::kCamera:
-      return kCamera;
-    case StageRole::kSampling:
-      return kSampling;
-    case StageRole::kIntersect:
-      return kIntersect;
-    case StageRole::kMedia:
-      return kMedia;
-    case StageRole::kSort:
-    case StageRole::kRoulette:
-      return kQueues;
-    case StageRole::kEmission:
-    case StageRole::kLight:
-    case StageRole::kResample:
-      return kLights;
-    case StageRole::kSurface:
-      return kSurface;
-    case StageRole::kTexture:
-      return kTexture;
-    case StageRole::kShade:
-      return kShade;
-    case StageRole::kShadow:
-      return kShadow;
-    case StageRole::kAccumulate:
-      return kFilm;
-    case StageRole::kBlock:
-      return kReuse;
-    case StageRole::kRecord:
-      break;
+  if (stage.role == StageRole::kRecord) {
+    if (stage.needs.Has(Feature::kLightPaths)) return kLightPaths;
+    if (stage.needs.HasAny({Feature::kReuse, Feature::kReuseGlossy})) return kReuse;
   }
-  if (stage.needs.HasAny({Feature::kReuse, Feature::kReuseGlossy})) return kReuse;
-  return stage.needs.Has(Feature::kLightPaths) ? kLightPaths : kTraining;
+  return kOfRoles[std::size_t(stage.role)];
 }
 
 std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
@@ -119,15 +96,12 @@ void AddCounts(Wavefront& wavefront, StageClock* clock, int lanes, RunResult& re
     Add(clock->rows()[i], clock->totals()[i], lanes,
         i < stages ? result.stages[i] : result.parts[i - stages]);
   }
-  result.bounces.resize(std::max(result.bounces.size(), clock->bounces().size()));
-  for (std::size_t i = 0; i < clock->bounces().size(); ++i) {
-    const BounceProfile& more = clock->bounces()[i];
-    BounceProfile& sum = result.bounces[i];
-    sum.seconds += more.seconds;
-    sum.rays_closest += more.rays_closest;
-    sum.rays_shadow += more.rays_shadow;
-    sum.items += more.items;
-    sum.lane_slots += more.lane_slots * lanes;
+  const BounceProfile scale = {1, 1, 1, 1, double(lanes)};
+  result.bounces.resize(clock->bounces().size());
+  for (std::size_t i = 0; i < result.bounces.size(); ++i) {
+    for (std::size_t k = 0; k < scale.size(); ++k) {
+      result.bounces[i][k] += scale[k] * clock->bounces()[i][k];
+    }
   }
   result.waiting_seconds +=
       double(clock->ticks()) * result.trace.seconds_per_tick - clock->cpu_seconds();

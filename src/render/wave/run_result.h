@@ -1,6 +1,7 @@
 // The result of a run, and the profile of its stages.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,12 +10,36 @@
 #include "src/base/core/aligned.h"
 #include "src/base/core/hardware_counters.h"
 #include "src/render/films/accumulator.h"
-#include "src/render/wave/profile_group.h"
 #include "src/render/wave/run_state.h"
 #include "src/vocabulary/path/stage.h"
 #include "src/vocabulary/strategy/choices.h"
 
 namespace lanelight {
+
+/// Groups of stages and task parts, in which a profile adds up their times (GroupOf,
+/// src/render/wave/profile.h).
+// clang-format off
+enum class ProfileGroup : int {
+  kCamera, kSampling, kIntersect, kMedia, kSurface, kTexture, kLights, kShade, kShadow,
+  kQueues, kFilm, kVisibleLights, kReuse, kLightPaths, kTraining, kOutside, kCount
+};
+struct ProfileGroupInfo {
+  const char *name, *meaning = "";  // the meaning, where the name does not say it
+};
+/// The groups, by ProfileGroup.
+inline constexpr ProfileGroupInfo kProfileGroups[] = {
+    {"camera"}, {"sampling"}, {"intersect"}, {"media"}, {"surface"}, {"texture"},
+    {"lights"}, {"shade"}, {"shadow"}, {"queues"}, {"film"},
+    {"visible lights", "more rays at edges of visible lights (seen-lights=apart)"},
+    {"path reuse", "connects paths of a block of pixels (reuse=block)"},
+    {"light subpaths", "paths that start at lights (light-paths=splats)"},
+    {"training", "trial runs and training passes before the image"},
+    {"outside", "task set-up, scheduler, progress and idle threads"}};
+// clang-format on
+static_assert(std::size(kProfileGroups) == std::size_t(ProfileGroup::kCount));
+inline const ProfileGroupInfo& InfoOf(ProfileGroup group) {
+  return kProfileGroups[int(group)];
+}
 
 struct StageProfile {
   std::string name;
@@ -33,14 +58,18 @@ struct StageProfile {
   double Occupancy() const { return lane_slots ? double(items) / double(lane_slots) : 0; }
 };
 
-/// Cost of the rays after `i` scattering events, for the i-th of RunResult::bounces; the
-/// last one also has all later bounces. A wave with paths of several depths counts for
-/// each of them by its number of paths.
-struct BounceProfile {
-  double seconds = 0;  // processor time of all threads
-  double rays_closest = 0, rays_shadow = 0;
-  double items = 0, lane_slots = 0;  // of all stages, as in StageProfile
+/// Costs of rays after `i` scattering events and of all stages of their waves, as
+/// doubles, for the i-th of RunResult::bounces; the last one also has all later bounces.
+/// A wave with paths of several depths counts for each of them by its number of paths.
+enum BounceCost {
+  kBounceSeconds,
+  kBounceClosest,
+  kBounceShadow,
+  kBounceItems,
+  kBounceSlots,
+  kNumBounceCosts
 };
+using BounceProfile = std::array<double, kNumBounceCosts>;
 inline constexpr std::size_t kMaxBounces = 16;
 
 /// The parts of a task besides its stages. Items are samples.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <numeric>
 
 namespace lanelight {
 
@@ -44,48 +45,45 @@ void StageClock::EndTask() {
     rows_[i].ticks = 0;
   }
   for (std::size_t i = 0; i < bounces_.size(); ++i) {
-    bounces_[i].seconds += cpu * bounce_ticks_[i] / double(ticks);
+    bounces_[i][kBounceSeconds] += cpu * bounce_ticks_[i] / double(ticks);
     bounce_ticks_[i] = 0;
   }
   ticks_ += ticks;
   cpu_seconds_ += cpu;
 }
 
-StageClock::Lanes StageClock::SumLanes() const {
-  Lanes sum;
+BounceProfile StageClock::CostsSoFar(const Wave& wave) const {
+  BounceProfile sum = {double(last_ - task_start_), double(wave.rays_closest),
+                       double(wave.rays_shadow)};
   for (const StageCounters& row : rows_) {
-    sum.items += row.items;
-    sum.vectors += row.lane_slots;
+    sum[kBounceItems] += double(row.items);
+    sum[kBounceSlots] += double(row.lane_slots);
   }
   return sum;
 }
 
-void StageClock::CountDepths(Wave& wave) {
+void StageClock::StartBounces(Wave& wave) {
+  if (bounces_.empty()) return;
   paths_ = {};
   const Queue& active = wave.queue(QueueId::kActive);
   for (std::uint32_t i = 0; i < active.size; ++i) {
     ++paths_[std::min<std::size_t>(wave.path.depth[active.items[i]], kMaxBounces - 1)];
   }
-  wave_lanes_ = SumLanes();
-  wave_closest_ = wave.rays_closest;
-  wave_shadow_ = wave.rays_shadow;
-  wave_start_ = last_ = Ticks();  // no stage is charged with the counting
+  last_ = Ticks();  // no stage is charged with the counting
+  wave_start_ = CostsSoFar(wave);
 }
 
-void StageClock::AddBounces(Wave& wave) {
+void StageClock::EndBounces(Wave& wave) {
+  if (bounces_.empty()) return;
   paths_[0] += wave.queue(QueueId::kCamera).size;
-  std::uint64_t all = 0;
-  for (const std::uint32_t paths : paths_) all += paths;
-  const Lanes lanes = SumLanes();
+  const double all = std::max(1.0, std::accumulate(paths_.begin(), paths_.end(), 0.0));
+  const BounceProfile end = CostsSoFar(wave);
   for (std::size_t i = 0; i < kMaxBounces; ++i) {
-    if (paths_[i] == 0) continue;
-    const double part = double(paths_[i]) / double(all);
-    BounceProfile& bounce = bounces_[i];
-    bounce_ticks_[i] += part * double(last_ - wave_start_);
-    bounce.rays_closest += part * double(wave.rays_closest - wave_closest_);
-    bounce.rays_shadow += part * double(wave.rays_shadow - wave_shadow_);
-    bounce.items += part * double(lanes.items - wave_lanes_.items);
-    bounce.lane_slots += part * double(lanes.vectors - wave_lanes_.vectors);
+    const double part = paths_[i] / all;
+    bounce_ticks_[i] += part * (end[kBounceSeconds] - wave_start_[kBounceSeconds]);
+    for (std::size_t k = kBounceSeconds + 1; k < end.size(); ++k) {
+      bounces_[i][k] += part * (end[k] - wave_start_[k]);
+    }
   }
   last_ = Ticks();
 }

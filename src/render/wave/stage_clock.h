@@ -48,12 +48,8 @@ class StageClock {
   void StartWave();
   /// Begin and end a wave of camera paths, whose cost is split by bounce. Do nothing
   /// without ProfileOptions::bounces.
-  void StartBounces(Wave& wave) {
-    if (!bounces_.empty()) CountDepths(wave);
-  }
-  void EndBounces(Wave& wave) {
-    if (!bounces_.empty()) AddBounces(wave);
-  }
+  void StartBounces(Wave& wave);
+  void EndBounces(Wave& wave);
   /// The piece that ends now was `row` (a stage, or stages + TaskPart).
   void Finish(std::size_t row, std::uint64_t items, std::uint64_t vectors) {
     const std::uint64_t now = Ticks();
@@ -78,8 +74,7 @@ class StageClock {
   /// By stage, then by TaskPart; both of the same size.
   const std::vector<StageCounters>& rows() const { return rows_; }
   const std::vector<StageTotals>& totals() const { return totals_; }
-  /// Returns the cost of each bounce, in which lane_slots counts vectors. Empty without
-  /// ProfileOptions::bounces.
+  /// Returns costs with vectors for kBounceSlots. Empty without ProfileOptions::bounces.
   const std::vector<BounceProfile>& bounces() const { return bounces_; }
   /// Processor time of the tasks, and their ticks.
   double cpu_seconds() const { return cpu_seconds_; }
@@ -92,13 +87,7 @@ class StageClock {
   int counter_error() const { return counter_error_; }
 
  private:
-  // Sums over all rows.
-  struct Lanes {
-    std::uint64_t items = 0, vectors = 0;
-  };
-  Lanes SumLanes() const;
-  void CountDepths(Wave& wave);
-  void AddBounces(Wave& wave);
+  BounceProfile CostsSoFar(const Wave& wave) const;
   void Count(std::size_t row, std::uint64_t items);
   bool ReadCounters(CounterValues* values);
 
@@ -122,10 +111,9 @@ class StageClock {
   std::uint64_t random_ = 1;
 
   std::vector<BounceProfile> bounces_;
-  std::array<double, kMaxBounces> bounce_ticks_{};  // of the current task
   std::array<std::uint32_t, kMaxBounces> paths_{};  // of the current wave, by depth
-  std::uint64_t wave_start_ = 0, wave_closest_ = 0, wave_shadow_ = 0;
-  Lanes wave_lanes_;
+  std::array<double, kMaxBounces> bounce_ticks_{};  // of the current task
+  BounceProfile wave_start_{};                      // with ticks
 };
 
 }  // namespace lanelight

@@ -138,18 +138,18 @@ TEST_CASE("the groups of a profile add up its rows", "[profile]") {
   result.training.cpu_seconds = 0.01;
   const ProfileReport report = ReportOf(result);
   const auto fraction = [&](ProfileGroup group) {
-    for (const ProfileGroupRow& g : report.groups) {
-      if (g.group == group) return g.fraction;
+    for (const ProfileRow& g : report.groups) {
+      if (g.counts.group == group) return g.fraction;
     }
     return 0.0;
   };
-  CHECK(report.groups[0].group == ProfileGroup::kVisibleLights);
+  CHECK(report.groups[0].counts.group == ProfileGroup::kVisibleLights);
   CHECK(fraction(ProfileGroup::kCamera) == Approx(0.3));
   CHECK(fraction(ProfileGroup::kShadow) == Approx(0.2));
   CHECK(fraction(ProfileGroup::kFilm) == Approx(0.05));
   CHECK(fraction(ProfileGroup::kTraining) == Approx(0.01));
   CHECK(fraction(ProfileGroup::kOutside) == Approx(0.04));
-  CHECK(report.groups[0].Occupancy() == Approx(0.5));
+  CHECK(report.groups[0].counts.Occupancy() == Approx(0.5));
 }
 
 TEST_CASE("phases and features decide the group of a stage", "[profile]") {
