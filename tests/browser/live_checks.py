@@ -223,10 +223,15 @@ def overlay_colours_span_percentiles(page):
 
 @check
 def the_error_plot_has_a_title_and_named_axes(page):
-    names = page.js("return [...document.querySelectorAll('#error-plot .axis-name')]"
-                    ".map((e) => e.textContent)")
-    require(len(names) == 2 and "(s)" in names[0] and "(%)" in names[1], names)
-    require("processor time" in page.text("#error-plot figcaption"), "no title")
+    for pace, title, unit in (("samples", "samples per pixel", ""),
+                              ("time", "processor time", "(s)")):
+        page.click(f'#pace [data-value="{pace}"]')
+        until(page, "return document.querySelector('#error-plot figcaption')?.innerText"
+              f".includes('{title}')", "no title with", title)
+        names = page.js("return [...document.querySelectorAll('#error-plot .axis-name')]"
+                        ".map((e) => e.textContent)")
+        require(len(names) == 2 and "(%)" in names[1], names)
+        require(names[0].startswith(title) and unit in names[0], names)
 
 
 @check

@@ -26,6 +26,7 @@ function rateRow(style, name, interval, texts, scale, marks = []) {
 }
 
 function rateAxis(scale, text, format) {
-  const axis = scale && whiskerAxis(scale, { width: 180, format, most: 4 });
+  const options = { width: 180, format, most: 4, ticks: decadeTicks };
+  const axis = scale && whiskerAxis(scale, options);
   return el("div.rate-row.rate-axis", el("span.rate-name", text), axis);
 }
