@@ -17,15 +17,23 @@ std::string Known(const Interval& v) {
   return std::isfinite(v.value) ? EstimateText(v) : "-";
 }
 
+// Returns "±0.12", or "±<0.01" where rounding would give zero.
+std::string HalfWidth(double half, int digits) {
+  const double least = std::pow(10.0, -digits);
+  if (half < least / 2) return fmt::format("±<{:.{}f}", least, digits);
+  return fmt::format("±{:.{}f}", half, digits);
+}
+
 // For symmetric intervals.
 std::string PlusMinus(const Interval& v) {
   if (!v.HasBounds()) return Known(v);
-  return fmt::format("{:.2f} ±{:.2f}", v.value, v.high - v.value);
+  return fmt::format("{:.2f} {}", v.value, HalfWidth(v.high - v.value, 2));
 }
 
 std::string Percent(const Interval& v) {
   if (!v.HasBounds() || !(v.value > 0)) return Known(WithoutBounds(v.value));
-  return fmt::format("{:.3g} ±{:.0f} %", v.value, 100 * (v.high - v.value) / v.value);
+  const double half = 100 * (v.high - v.value) / v.value;
+  return fmt::format("{:.3g} {} %", v.value, HalfWidth(half, half < 9.95 ? 1 : 0));
 }
 
 std::string RankText(const stat::RankRange& rank) {

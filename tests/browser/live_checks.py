@@ -67,7 +67,7 @@ def the_picture_refines(page):
 def errors_are_told_with_intervals(page):
     until(page, "return page.state.slots[0].looks.length > 2", "no errors")
     text = page.text('#card-0 [data-fact="relmse"]')
-    require("[" in text and "]" in text, text)
+    require("[" in text and "]" in text and "%" in text, text)
     require(page.js("return document.querySelector('#error-plot .bars').getAttribute('d')"),
             "no whiskers")
 
@@ -191,9 +191,54 @@ def overlays_have_legends(page):
         require(not page.js("return document.querySelector('#legend').hidden"),
                 "no legend of", layer)
         seen.add(page.js("return document.querySelector('#legend .note').innerText"))
+        ends = page.js("return [...document.querySelectorAll('#legend > span')]"
+                       ".map((e) => e.innerText)")
+        require(ends[0].startswith("≤") and ends[2].startswith("≥") or layer == "samples", ends)
+        require(("%" in ends[0] and "%" in ends[2]) == (layer == "relative"), layer, ends)
     require(len(seen) == 5, seen)
     choose(page, "#layer", "colour")
     require(not page.find("#legend").is_displayed(), "a legend of the picture itself")
+
+
+@check
+def overlay_colours_span_percentiles(page):
+    # 1 to 100, outliers and pixels without a value; then one outlier loses its value.
+    found = page.js("""
+        const half = (x) => {
+          const e = Math.floor(Math.log2(x));
+          return ((e + 15) << 10) | Math.round((x / 2 ** e - 1) * 1024);
+        };
+        const layer = new LayerValues({width: 13, height: 8});
+        const values = Array.from({length: 104}, (_, i) => i < 100 ? half(i + 1) : 0);
+        values[100] = half(60000), values[101] = half(2 ** -14);
+        values[102] = 0x7e00, values[103] = half(0.5);
+        layer.put(0, 0, 13, 8, values);
+        const before = layerRange([layer]);
+        layer.put(12, 7, 1, 1, [0x7c00]);
+        const after = layerRange([layer, new LayerValues({width: 1, height: 1})]);
+        layer.clear();
+        return [before, after, layerRange([layer])]""")
+    require(found == [[4, 96], [5, 96], None], found)
+
+
+@check
+def the_error_plot_has_a_title_and_named_axes(page):
+    for pace, title, unit in (("samples", "samples per pixel", ""),
+                              ("time", "processor time", "(s)")):
+        page.click(f'#pace [data-value="{pace}"]')
+        until(page, "return document.querySelector('#error-plot figcaption')?.innerText"
+              f".includes('{title}')", "no title with", title)
+        names = page.js("return [...document.querySelectorAll('#error-plot .axis-name')]"
+                        ".map((e) => e.textContent)")
+        require(len(names) == 2 and "(%)" in names[1], names)
+        require(names[0].startswith(title) and unit in names[0], names)
+
+
+@check
+def stages_stand_below_the_image(page):
+    until(page, "return document.querySelector('.live-stage')", "no stages")
+    image, stages, side = (page.box(s) for s in ("#viewer", "#stages", ".live-side"))
+    require(stages[1] >= image[3] and stages[2] <= side[0], image, stages, side)
 
 
 @check

@@ -61,7 +61,10 @@ def every_map_has_a_tile(page):
     require(sorted(names) == sorted(maps), names)
     require(names[0] == "wrong-inside", "the failed one is not the first:", names)
     for c in data(page)["cases"]:
+        axis = c["axis"]
         for p in page.all(f'.tile[data-case="{c["name"]}"]'):
+            title = page.js("return arguments[0].querySelector('.tile-axis').innerText", p)
+            require(title == axis["name"] + (f' ({axis["unit"]})' if axis["unit"] else ""), title)
             outcome = p.get_attribute("data-outcome")
             require(outcome == c["outcome"], c["name"], outcome)
     require(page.find(".chip").text == "single", "no chip for a single point")

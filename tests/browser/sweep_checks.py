@@ -130,6 +130,7 @@ def axes_without_positions_get_rows(page):
                   "samples_per_second")
              for s in STRATEGIES for scene in ("box", "<i>odd")]
     require(len(rows) == 4, "rows:", rows)
+    require(page.text(".rate-axis .rate-name") == "Samples per second", "no name of the axis")
     (_, x0), (_, x1) = rows[0], rows[1]
     for (text, x), rate in zip(rows, rates):
         share = (x - x0) / (x1 - x0)

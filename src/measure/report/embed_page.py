@@ -60,9 +60,9 @@ PAGES = {
               "FILES": "Without a browser, use lanelight render.",
               "CONNECT": "; connect-src 'self'"}, "live",
                  f"""{COMMON} strategies scale plot_draw tone place live_socket live_camera
-                 live_shader live_screen live_place live_viewer live_controls live_readout
-                 live_strategy live_presets live_score live_plot live_stages live_save
-                 live_main"""),
+                 live_shader live_range live_screen live_place live_viewer live_controls
+                 live_readout live_strategy live_presets live_score live_plot live_stages
+                 live_save live_main"""),
 }
 DATA, STYLES, SCRIPTS = "<!-- data -->", "<!-- styles -->", "<!-- scripts -->"
 PIECE = 12000  # characters of one literal; compilers must take 65535

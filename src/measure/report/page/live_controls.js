@@ -99,12 +99,17 @@ function drawLegend(page, legend, layers) {
   const note = (text) => el("span.note", `${meaning}${text}`);
   const range = page.range();
   if (!range) return legend.replaceChildren(note(": no data yet"));
-  const [low, high] = range;
+  const format = layer === RELATIVE ? (x) => `${fmt(100 * x, 2)} %` : (x) => fmt(x, 2);
+  const [low, high] = range.map(format);
+  const whole = layer === SAMPLES;
   legend.replaceChildren(
-    el("span", fmt(low, 2)),
+    el("span", whole ? low : `≤ ${low}`),
     el("span.ramp", { "aria-hidden": "true" }),
-    el("span", fmt(high, 2)),
-    note(", logarithmic scale; grey: no data yet"),
+    el("span", whole ? high : `≥ ${high}`),
+    note(whole
+      ? "; logarithmic scale; grey: no data yet"
+      : `; logarithmic scale from the ${LOW_PERCENTILE}th to the ${HIGH_PERCENTILE}th ` +
+        "percentile of the pixels; grey: no data yet"),
   );
 }
 

@@ -8,16 +8,11 @@ const page = {
   paused: false,
   pace: "time",
 
-  // [low, high] of the layer, the same for both slots; null while it is not known.
+  // [low, high] of the layer's colours, the same for both slots; null while it is not known.
   range() {
     const { slots } = this.screen;
     if (this.look.layer === SAMPLES) return [1, Math.max(2, ...slots.map((s) => s.most))];
-    const ranges = slots.map((s) => s.range).filter((r) => r && r.high >= r.low);
-    if (ranges.length === 0) return null;
-    return [
-      halfNumber(Math.min(...ranges.map((r) => r.low))),
-      halfNumber(Math.max(...ranges.map((r) => r.high))),
-    ];
+    return layerRange(slots.map((s) => s.values));
   },
 
   onPoint(point) {
@@ -60,9 +55,9 @@ function build(hello) {
     section("compare", "Compare strategies A and B", page.cards.map((card) => card.node), paceButtons(page),
       page.score, page.plot),
     section("figures", "Comparisons from the founding paper", presetButtons(page, page.cards)),
-    section("take", "Save and copy", saveBar(page)),
-    section("stages", "Processor time by stage", page.stages.node));
-  document.getElementById("content").replaceChildren(el("div.live", viewer, side));
+    section("take", "Save and copy", saveBar(page)));
+  const stages = section("stages", "Processor time by stage", page.stages.node);
+  document.getElementById("content").replaceChildren(el("div.live", viewer, side, stages));
   canvas.style.aspectRatio = `${page.size.width} / ${page.size.height}`;
   linkSections([["viewer", "Image"], ["compare", "Compare"],
     ["figures", "Figures"], ["take", "Files"], ["stages", "Stages"]]);
@@ -70,8 +65,8 @@ function build(hello) {
   document.getElementById("scenes").append(el("span.tab", name));
   document.title = `${name} – Lanelight live`;
   document.getElementById("bottom").textContent =
-    `${hello.version}, ${hello.threads} threads, ${hello.target}. Scene loading took ` +
-    `${fmtSeconds(hello.load_seconds)}, the BVH build ${fmtSeconds(hello.build_seconds)}.`;
+    `${hello.version}, ${hello.threads} thread${hello.threads === 1 ? "" : "s"}, ${hello.target}. ` +
+    `Scene loading took ${fmtSeconds(hello.load_seconds)}, the BVH build ${fmtSeconds(hello.build_seconds)}.`;
 }
 
 function explain(message) {

@@ -3,6 +3,7 @@
 
 // What lies over the colours; "samples" the page has already, the others are asked for.
 const COLOUR = "colour",
+  RELATIVE = "relative",
   SAMPLES = "samples";
 const CURVES = { srgb: 0, reinhard: 1, filmic: 2, false: 3 };
 
@@ -52,7 +53,7 @@ class Screen {
       over: floatTexture(gl, gl.NEAREST),
       view: -1,
       layer: COLOUR,
-      range: null,
+      values: new LayerValues(size),
       most: 0,
       shown: false,
     };
@@ -79,7 +80,8 @@ class Screen {
     const slot = this.slots[index];
     this.clear(slot);
     this.allocate(slot.coarse, { width: 1, height: 1 }, FOUR);
-    Object.assign(slot, { view: -1, range: null, most: 0, shown: false });
+    slot.values.clear();
+    Object.assign(slot, { view: -1, most: 0, shown: false });
   }
 
   // Takes a message of "kind": "picture".
@@ -87,7 +89,7 @@ class Screen {
     const slot = this.slots[head.slot];
     const fresh = head.view !== slot.view || !slot.shown;
     if (fresh || head.layer !== slot.layer) {
-      slot.range = null;
+      slot.values.clear();
       if (fresh) this.clear(slot);
     }
     if (fresh) slot.most = 0;
@@ -102,7 +104,7 @@ class Screen {
       if (!has) continue;
       const values = new Uint16Array(buffer, at, count);
       this.put(slot.over, x, y, width, height, ONE, values);
-      slot.range = widened(slot.range, values);
+      slot.values.put(x, y, width, height, values);
       at += 2 * count;
     }
   }
@@ -168,24 +170,4 @@ class Screen {
 // A colour of style as three numbers from 0 to 1.
 function colorNumbers(text) {
   return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16) / 255);
-}
-
-// The range [low, high] of the positive values among some of these half floats: their
-// order is that of their bits.
-function widened(range, bits) {
-  let low = range ? range.low : 0x7c00,
-    high = range ? range.high : 0;
-  for (let i = 0; i < bits.length; i += 7) {
-    const b = bits[i];
-    if (b === 0 || b >= 0x7c00) continue;
-    if (b < low) low = b;
-    if (b > high) high = b;
-  }
-  return { low, high };
-}
-
-function halfNumber(bits) {
-  const exponent = (bits >> 10) & 31,
-    fraction = bits & 1023;
-  return exponent === 0 ? fraction * 2 ** -24 : (1 + fraction / 1024) * 2 ** (exponent - 15);
 }

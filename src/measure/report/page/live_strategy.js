@@ -94,13 +94,17 @@ class StrategyCard {
     }
     const look = state.looks[state.looks.length - 1];
     const error = look
-      ? joined(intervalTexts({ value: look.relmse, low: look.low, high: look.high }))
+      ? joined(percentTexts(rmseOf(look)))
       : "available from 8 samples per pixel";
+    const notes = look && [
+      `relative MSE ${joined(intervalTexts({ value: look.relmse, low: look.low, high: look.high }))}`,
+      look.why,
+    ];
     this.status.replaceChildren(
       el("dl.facts.live-facts", fact("Samples per pixel", fmtCount(state.spp)),
         fact("Processor time", fmtSeconds(state.seconds)),
-        fact("Relative MSE", error,
-          look && look.why, { class: "wide", "data-fact": "relmse" }),
+        fact("Relative RMSE", error,
+          notes && notes.filter(Boolean).join("; "), { class: "wide", "data-fact": "relmse" }),
         state.training && fact("Training", state.training, null, { class: "wide" }),
         state.invalid > 0 && fact("Invalid samples", fmtCount(state.invalid)),
         fact("Notes", state.notes.join("; "), null, { class: "wide" })),

@@ -16,7 +16,7 @@ function rateTexts(interval) {
   return { value: rateTick(interval.value), bounds };
 }
 
-// A row with an interval on an axis; and the axis above such rows.
+// A row with an interval on an axis; and the axis above such rows, with its name and unit.
 function rateRow(style, name, interval, texts, scale, marks = []) {
   return el("div.rate-row",
     el("span.rate-name", swatch(style), name),
@@ -26,6 +26,7 @@ function rateRow(style, name, interval, texts, scale, marks = []) {
 }
 
 function rateAxis(scale, text, format) {
-  const axis = scale && whiskerAxis(scale, { width: 180, format, most: 4 });
-  return el("div.rate-row", el("span", text), axis);
+  const options = { width: 180, format, most: 4, ticks: decadeTicks };
+  const axis = scale && whiskerAxis(scale, options);
+  return el("div.rate-row.rate-axis", el("span.rate-name", text), axis);
 }

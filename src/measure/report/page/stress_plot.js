@@ -57,7 +57,7 @@ function mapPoints(line, plot, choice) {
 
 // What drawPlot() takes. plot: one of PLOTS; choice: of its choices, or null.
 function mapOptions(aCase, target, lines, plot, choice) {
-  const { name, unit } = aCase.axis;
+  const { name } = aCase.axis;
   const label = choice ? `${plot.choices[choice][0]} per sample` : plot.title;
   const x = parameterScale(aCase);
   const zero = x.log && aCase.points.some((p) => p.parameter === 0) ? [0] : [];
@@ -69,7 +69,7 @@ function mapOptions(aCase, target, lines, plot, choice) {
     kind: lines.length > MOST_BANDS ? "many" : null,
     label: `${label} against ${name}`,
     xAxis: {
-      label: unit ? `${name} (${unit})` : name,
+      label: axisTitle(aCase),
       ticks: (scale, most) => [...zero, ...decadeTicks(scale, most)],
       format: parameterTick,
     },

@@ -76,6 +76,10 @@ function tileDrawing(aCase, target) {
   );
 }
 
+function axisTitle({ axis: { name, unit } }) {
+  return unit ? `${name} (${unit})` : name;
+}
+
 function axisEnds(aCase) {
   const values = aCase.points.map((p) => p.parameter).filter(known);
   return [Math.min(...values), Math.max(...values)].map(parameterTick);
@@ -99,6 +103,7 @@ function tile(aCase, target, onChoose) {
       el("span.tile-name", aCase.name),
       tileDrawing(aCase, target),
       el("span.tile-ends", el("span", low), el("span", high)),
+      el("span.tile-axis", axisTitle(aCase)),
     ),
     () => noteOf(
       aCase.name,

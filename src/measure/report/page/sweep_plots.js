@@ -83,7 +83,7 @@ function distinctRows(rows) {
 
 // Where the axis has no positions: a row with an interval for each value and line.
 function measureRows(view, host, choice, lines, { measure, include }) {
-  const { texts, tick } = SWEEP_MEASURES[measure];
+  const { label, axis: name, texts, tick } = SWEEP_MEASURES[measure];
   const rows = distinctRows(
     lines.flatMap((line) =>
       line.points.map((point) => ({ line, point, y: intervalOf(point.group, measure) })),
@@ -95,7 +95,7 @@ function measureRows(view, host, choice, lines, { measure, include }) {
     withTip(rateRow(line.style, point.name, y, texts, scale, log ? [1] : []), () =>
       describeGroup(choice, measure, line, point),
     );
-  const axis = rateAxis(scale, "", tick);
+  const axis = rateAxis(scale, capitalised(name || label), tick);
   const draw = () =>
     host.replaceChildren(
       axis,

@@ -66,13 +66,15 @@ function whisker(
 }
 
 // The axis above or below a column of whiskers.
-function whiskerAxis(scale, { width = 150, format = fmtShort, most = 5 }) {
+function whiskerAxis(
+  scale, { width = 150, format = fmtShort, most = 5, ticks = roundTicks },
+) {
   const pad = 6;
   const at = (v) => pad + whiskerX(scale, v, width - 2 * pad);
   return svg("svg.whisker-axis",
     { width, height: 22, viewBox: `0 0 ${width} 22`, "aria-hidden": "true" },
     svg("line", { x1: pad, x2: width - pad, y1: 20.5, y2: 20.5 }),
-    roundTicks(scale, most).map((tick) => [
+    ticks(scale, most).map((tick) => [
       svg("line", { x1: at(tick), x2: at(tick), y1: 16, y2: 21 }),
       svg("text",
         {
