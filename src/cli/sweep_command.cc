@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "src/base/core/text_layout.h"
 #include "src/cli/commands.h"
 #include "src/cli/console.h"
 #include "src/cli/exit_codes.h"

@@ -18,9 +18,9 @@ struct BudgetPlan {
 
 /// Gives every cell the same time, so that each part of the sweep takes `seconds` in one
 /// process: what compiling the scenes takes is measured and left out. OUT/budget.json
-/// keeps the plan, which later runs use. Throws InputError for cells that have samples,
-/// times or targets of their own, for a plan of another budget or grid, and if a cell
-/// would have less than 0.05 seconds.
+/// keeps the plan, which later runs use. Throws InputError for cells with samples, times
+/// or targets of their own, and for a plan of another budget or grid. Also throws if a
+/// cell would have less than 0.05 seconds.
 BudgetPlan PlanBudget(Sweep& sweep, double seconds, const Part& part,
                       const std::string& out);
 
