@@ -144,11 +144,10 @@ struct LastStep {
   }
 };
 
-/// Returns the step to a point of a shape with the unit normal n.
+/// Returns the step to a point of a shape, whose normal has this cosine > 0 to it.
 HWY_INLINE LastStep StepToShape(const Wave& wave, const Lights& light, VI index,
-                                VF distance, V3 n, V3 direction) {
+                                VF distance, VF cosine) {
   const VF density = AreaDensity(wave, light, index);
-  const VF cosine = hn::Abs(Dot(n, direction));
   return {hn::Mul(density, PerCosine(light)),
           hn::Div(hn::Mul(density, hn::Mul(distance, distance)), cosine),
           hn::Gt(density, hn::Zero(DF()))};

@@ -50,8 +50,8 @@ HWY_NOINLINE LastStep StepToSample(const Wave& wave, const Slots& slots) {
   const V3 from = Gather3(p.p_x, p.p_y, p.p_z, slots);
   if (emission.HasAny(kEmittingShape)) {
     const V3 at = MulAdd(to_light, distance, from);
-    step = StepToShape(wave, light, index, distance, NormalOfLight(wave, light, at),
-                       to_light);
+    const VF cosine = hn::Abs(Dot(NormalOfLight(wave, light, at), to_light));
+    step = StepToShape(wave, light, index, distance, cosine);
   }
   const MF starts = hn::Gt(StartPmf(wave, index), zero);
   if (StartAtPositions(emission)) {
@@ -149,7 +149,8 @@ HWY_INLINE void WeighHit(const Wave& wave, const StoreSlots& slots, VI index, V3
   const PathColumns& p = wave.path;
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
   const Lights light(wave, index);
-  WeighFound(wave, slots, StepToShape(wave, light, index, Gather(p.t, slots), n, d));
+  WeighFound(wave, slots,
+             StepToShape(wave, light, index, Gather(p.t, slots), hn::Abs(Dot(n, d))));
 }
 
 template <LightShape kShape>

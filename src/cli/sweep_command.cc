@@ -130,7 +130,8 @@ void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
       "--wait", options.sweep.wait,
       "Wait for cells of other processes, and render them if those processes die");
   AddOption(command, "--budget TIME", options.budget,
-            "Give all cells the same time, so that one process takes TIME (7200, 2h)");
+            "Give all cells the same time, so that one process takes TIME (7200, 2h); "
+            "default: the amounts of the grid");
   command.add_flag(
       "--race", options.sweep.race,
       "Stop strategies that are clearly less efficient than the best; seed by seed");

@@ -51,7 +51,7 @@ TEST_CASE("printed texts and pages name the machine", "[cli]") {
   const std::vector<std::string> commands[] = {
       {"info"},
       {"render", scene, "-o", image, "--spp", "2", "-v"},
-      {"profile", scene, "--spp", "1"}};
+      {"profile", scene, "--spp", "1", "-v"}};
   for (const auto& command : commands) {
     CHECK_THAT(RunLanelight(command).out, Contains(line));
   }

@@ -190,8 +190,9 @@ std::vector<Vertex> BidirectionalTwin::LightSubpath() const {
   const Vec3d local = SampleDiffuse(Scattering::kLambertian, random);
   const Vec3d d = Normalize(MakeFrame(from->n).ToWorld(local));
   // The cosine of the direction cancels its density.
-  const Rgb beta = lights.Emitted(from->primitive, path[0].at, d) *
-                   (kPi / lights.EmissionDensity(from->primitive));
+  const Rgb beta =
+      lights.Emitted(from->primitive, path[0].at, d) *
+      (lights.Sides(from->primitive) * kPi / lights.EmissionDensity(from->primitive));
   Walk({from->p, d, from->primitive}, beta, true, path);
   return path;
 }
@@ -236,7 +237,8 @@ std::vector<double> BidirectionalTwin::Densities(const Path& path) const {
   }
   light[n] = lights.EmissionDensity(path[n]->primitive);
   if (n > 1) {
-    light[n - 1] = AbsDot(path[n]->at.ng, direction(n, n - 1)) / kPi * by_area(n, n - 1);
+    light[n - 1] = AbsDot(path[n]->at.ng, direction(n, n - 1)) /
+                   (lights.Sides(path[n]->primitive) * kPi) * by_area(n, n - 1);
   }
   for (int i = n - 1; i > 1; --i) {
     light[i - 1] =

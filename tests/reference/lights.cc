@@ -319,15 +319,20 @@ std::optional<EmittedPoint> Lights::SampleEmission(Random& random) const {
     if (left > 0) continue;
     if (EmissionDensity(emitter.primitive) == 0) return std::nullopt;
     const auto [p, n] = SamplePoint(geometry_.primitives()[emitter.primitive], random);
-    return EmittedPoint{emitter.primitive, p, n};
+    const bool back = emitter.two_sided && random.Uniform() < 0.5;
+    return EmittedPoint{emitter.primitive, p, back ? -n : n};
   }
   return std::nullopt;
+}
+
+int Lights::Sides(int primitive) const {
+  return emitters_[emitter_of_[primitive]].two_sided ? 2 : 1;
 }
 
 double Lights::EmissionDensity(int primitive) const {
   if (emitter_of_[primitive] == kNone) return 0;
   const Emitter& emitter = emitters_[emitter_of_[primitive]];
-  if (emitter.two_sided || emitter.image != kNone) return 0;
+  if (emitter.image != kNone) return 0;
   double power = 0;
   for (const Emitter& other : emitters_) power += PowerOf(other);
   return PowerOf(emitter) / power / emitter.area;

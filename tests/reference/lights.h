@@ -56,11 +56,13 @@ class Lights {
   std::vector<LightConnection> UnseenLights(Vec3d p, Random& random) const;
 
   /// Returns a point from which a light subpath starts: of a shape chosen by power,
-  /// uniform over its area. Empty if the shape has two sides or an image, or if there is
-  /// none.
+  /// uniform over its area, and of either side. Empty if the shape has an image, or if
+  /// there is none.
   std::optional<EmittedPoint> SampleEmission(Random& random) const;
   /// Returns the density of SampleEmission, by area, on this primitive.
   double EmissionDensity(int primitive) const;
+  /// Returns the number of sides of a light that emit.
+  int Sides(int primitive) const;
 
  private:
   struct Emitter {
