@@ -86,8 +86,8 @@ def _sweep_figures(sweep):
                  [(Panel("relative MSE", SECONDS, slope=-1), ("relmse", "cpu_seconds"))]),
         "efficiency": ("efficiency relative to the baseline", "Efficiency",
                        [(Panel(efficiency, mark=1), ("efficiency", ""))]),
-        "rate": ("samples per second", "Throughput",
-                 [(Panel("samples per second"), ("samples_per_second", ""))])}
+        "rate": ("samples per wall second", "Throughput",
+                 [(Panel("samples per wall second"), ("samples_per_second", ""))])}
     for axis in sweep["axes"]:
         if axis["parameter"] and axis["numeric"]:
             name = axis["name"]
@@ -101,7 +101,7 @@ def figures(data):
     """{name: what it shows} of the plots that this JSON can be drawn as."""
     kind = _kind(data)
     if kind == "bench":
-        return {"rate": "samples per second of every row, with intervals"}
+        return {"rate": "samples per wall second of every row, with intervals"}
     known = STUDY_FIGURES if kind == "study" else _sweep_figures(data)
     return {name: shows for name, (shows, *_) in known.items()}
 
@@ -207,7 +207,7 @@ def _bench_plot(bench):
         series[name] = (targets.index(row["target"]), points)
     return Plot("Throughput", f"{100 * bench['confidence']:g} % intervals of the median; "
                 f"{bench['program']}; {bench['machine']['text']}",
-                [Panel("samples per second", series=series)])
+                [Panel("samples per wall second", series=series)])
 
 
 def make(data, figure, scene="", everything=False):

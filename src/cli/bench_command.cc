@@ -23,8 +23,10 @@ namespace {
 struct BenchCommandOptions {
   ThroughputOptions bench;
   std::string json, csv, markdown, html, against;
-  double tolerance = 0.05;
+  double tolerance = kTolerance;
   bool all_targets = false, quiet = false;
+  std::optional<std::string> list;  // folder; empty: bench/results of the program
+  bool measure = true;
 };
 
 void Complete(BenchCommandOptions& options) {
@@ -49,6 +51,19 @@ std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   });
 }
 
+// Prints the stored results, that of `--against` and the one just measured.
+void PrintList(std::vector<KnownThroughput> results,
+               const std::optional<KnownThroughput>& before,
+               const std::optional<KnownThroughput>& now) {
+  if (before) {
+    std::erase_if(results, [&](const auto& known) { return known.name == before->name; });
+    results.insert(results.begin(), *before);
+  }
+  const std::size_t reference = now ? 1 : 0;
+  if (now) results.insert(results.begin(), *now);
+  Print(ListText(results, results[reference], TerminalColumns(Stream::kOutput)));
+}
+
 int Bench(BenchCommandOptions options) {
   Complete(options);
   const OutputPaths outputs = {
@@ -56,6 +71,12 @@ int Bench(BenchCommandOptions options) {
   CheckOutputPaths(outputs, {options.against});
   std::optional<KnownThroughput> before;
   if (!options.against.empty()) before = ReadThroughput(options.against);
+  std::vector<KnownThroughput> stored;
+  if (options.list) stored = ListedResults(*options.list);
+  if (!options.measure) {
+    PrintList(stored, before, std::nullopt);
+    return kExitGood;
+  }
   const std::vector<ThroughputRow> rows = MeasureRows(options);
   const nlohmann::json json = ToJson(rows, options.bench.within);
   const std::size_t columns = TerminalColumns(Stream::kOutput);
@@ -71,8 +92,14 @@ int Bench(BenchCommandOptions options) {
   save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
   if (!options.html.empty()) save(options.html, ReportPage(PageKind::kBench, json));
   if (!success) return kExitBadInput;
+  KnownThroughput now = ThroughputFromJson(json);
+  now.name = "this run";
+  if (options.list && options.json != "-") {
+    Print("\n");
+    PrintList(stored, before, now);
+  }
   if (!before) return kExitGood;
-  const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
+  const RateComparison comparison = CompareRates(*before, now);
   if (options.json != "-") {
     Print("\n" + ComparisonText(comparison, *before, options.tolerance, columns));
   }
@@ -133,14 +160,22 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   AddOption(command, "--tolerance X", options.tolerance,
             WithDefault("Fraction by which a row may be slower", options.tolerance))
       ->transform(ValueFrom(0.0, 1.0));
+  command
+      .add_option_function<std::string>(
+          "--list", [&](const std::string& folder) { options.list = folder; },
+          "Print the stored results of other machines, or those in DIR, beside each "
+          "other, with ratios to --against or the newest. Measures only if scenes or "
+          "other options are given")
+      ->type_name("[DIR]")
+      ->expected(0, 1);
   command.add_flag("--quiet", options.quiet, "No progress");
 }
 
 }  // namespace
 
 void AddBenchCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command =
-      root.add_subcommand("bench", "Measure samples and rays per second of this machine");
+  CLI::App* command = root.add_subcommand(
+      "bench", "Measure how many samples and rays this machine renders per second");
   auto options = std::make_shared<BenchCommandOptions>();
   AddBenchOptions(*command, *options);
   AddBenchOutputs(*command, *options);
@@ -149,10 +184,17 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
       "docs/bench.md says what the columns mean, and which scenes these are.\n"
       "\nExamples:\n"
       "  lanelight bench --json today.json --html today.html\n"
-      "  lanelight bench --against yesterday.json --tolerance 0.03\n"
+      "  lanelight bench --against yesterday.json --tolerance 0.05\n"
+      "  lanelight bench --list\n"
       "  lanelight bench scene.pbrt --threads 1,2,4,8 --all-targets");
-  command->callback(
-      [options, &chosen] { chosen = [options] { return Bench(*options); }; });
+  command->callback([command, options, &chosen] {
+    options->measure = !options->list;
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = option->get_name();
+      options->measure |= option->count() > 0 && name != "--list" && name != "--against";
+    }
+    chosen = [options] { return Bench(*options); };
+  });
 }
 
 }  // namespace lanelight

@@ -6,6 +6,7 @@
 
 #include "kernels/simd/target.h"
 #include "src/base/core/check.h"
+#include "src/base/core/hash.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
 #include "src/render/job/job.h"
@@ -36,6 +37,11 @@ double MeanOf(const FilmAccumulator& film) {
   return sum / (3.0 * film.width() * film.height());
 }
 
+std::uint64_t HashOf(const std::string& scene) {
+  const BenchScene* const found = FindBenchScene(scene);
+  return found == nullptr ? HashSceneFiles(scene) : Hash64(found->text);
+}
+
 // Renders the job once and returns the mean of its image.
 double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
   job.spp = row.spp;
@@ -48,7 +54,7 @@ double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
 class SceneBench {
  public:
   SceneBench(const ThroughputOptions& options, const std::string& scene)
-      : options_(options), scene_(scene) {
+      : options_(options), scene_(scene), scene_hash_(HashOf(scene)) {
     RenderSettings settings = options.settings;
     if (!settings.spp) settings.spp = BenchSpp(scene);
     for (const std::string& target : options.targets) {
@@ -89,6 +95,7 @@ class SceneBench {
   ThroughputRow RowOf(const Job& job, int threads) const {
     ThroughputRow row;
     row.scene = scene_;
+    row.scene_hash = scene_hash_;
     row.target = job.plan.options.target.name();
     row.strategy = ToText(job.scene.strategy);
     row.threads = threads;
@@ -102,6 +109,7 @@ class SceneBench {
 
   const ThroughputOptions& options_;
   const std::string scene_;
+  const std::uint64_t scene_hash_;
   std::vector<Job> jobs_;  // one for each target, with its own BVHs
   std::vector<ThroughputRow> rows_;
 };

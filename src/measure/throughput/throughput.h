@@ -2,9 +2,11 @@
 // rate affects all of them, until the intervals of their medians are narrow.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,7 +21,7 @@ namespace lanelight {
 struct SceneDescription;  // src/scene/description/description.h
 
 /// A default scene of `lanelight bench`. Their texts are part of the program
-/// (embed_scenes.py), so that all users measure the same scenes.
+/// (embed_bench.py), so that all users measure the same scenes.
 struct BenchScene {
   const char* name;
   std::uint64_t spp;     // of a render; fixed, so that measurements can be compared
@@ -29,6 +31,12 @@ struct BenchScene {
 
 /// Returns the scenes in the order in which they are measured.
 const std::vector<BenchScene>& BenchScenes();
+
+/// A result in bench/results, part of the program (embed_bench.py).
+struct StoredResult {
+  const char *name, *text;
+};
+const std::vector<StoredResult>& StoredResults();
 
 /// Returns the default samples per pixel of that scene; kFileSpp for scene files.
 std::uint64_t BenchSpp(const std::string& scene);
@@ -54,6 +62,7 @@ struct ThroughputOptions {
 /// One scene, on one SIMD target, with one number of threads.
 struct ThroughputRow {
   std::string scene, target, strategy;
+  std::uint64_t scene_hash = 0;  // of the scene's text, or HashSceneFiles()
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
   std::vector<double> seconds;      // of the repeats
@@ -100,6 +109,19 @@ double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows);
 const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
                                   const ThroughputRow& row);
 
+/// Returns the name of the scene file without folder and extension, or `scene` if another
+/// scene of the rows has that name.
+template <class Row>
+std::string SceneLabel(const std::string& scene, const std::vector<Row>& rows) {
+  const auto stem = [](const std::string& path) {
+    return std::filesystem::path(path).stem().string();
+  };
+  const bool unique = std::ranges::none_of(rows, [&](const Row& row) {
+    return row.scene != scene && stem(row.scene) == stem(scene);
+  });
+  return unique ? stem(scene) : scene;
+}
+
 /// Returns rows by scene, then target, then threads. Before timing, compares every image
 /// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
 /// ends it early and returns the rows measured so far.
@@ -125,8 +147,7 @@ struct TableStyle {
   std::size_t width = 80;
 };
 
-/// Returns the machine and two tables: rates, and nanoseconds per sample by kind of
-/// stage.
+/// Returns the machine and two tables: rates with intervals, and what they depend on.
 std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
                            const TableStyle& style);
 /// Returns one line per row, each with the machine.

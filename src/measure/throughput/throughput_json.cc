@@ -1,6 +1,12 @@
 #include "src/measure/throughput/throughput_comparison.h"
 
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
@@ -30,6 +36,13 @@ Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
   return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
 }
 
+// Returns the date of UTC: "2026-11-28".
+std::string Today() {
+  using std::chrono::system_clock;
+  return fmt::format("{:%Y-%m-%d}",
+                     fmt::gmtime(system_clock::to_time_t(system_clock::now())));
+}
+
 Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
   Json groups = Json::array(), stages = Json::array();
   for (const StageGroup& g : StageGroups(row)) {
@@ -43,6 +56,7 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
                       {"ns_per_sample", 1e9 * s.seconds / double(row.counts.samples)}});
   }
   return {{"scene", row.scene},
+          {"scene_hash", fmt::format("{:016x}", row.scene_hash)},
           {"target", row.target},
           {"strategy", row.strategy},
           {"threads", row.threads},
@@ -70,6 +84,7 @@ Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
   Json out = {{"schema", kBenchSchema},
               {"machine", ToJson(ThisMachine())},
               {"program", FullVersion()},
+              {"date", Today()},
               {"confidence", kBenchConfidence},
               {"busy", BusyReasons(rows, ThisMachine())},
               {"warnings", ThroughputWarnings(rows, within)},
@@ -85,22 +100,33 @@ std::string KnownRow::Key() const {
                      changes.empty() ? "" : ", ", changes);
 }
 
+bool KnownRow::SameWork(const KnownRow& other) const {
+  const auto work = [](const KnownRow& row) {
+    return std::tuple(row.scene_hash, row.width, row.height, row.spp,
+                      ChoicesNotIn(ToText(Strategy{}), row.strategy));
+  };
+  return !scene_hash.empty() && work(*this) == work(other);
+}
+
 KnownThroughput ThroughputFromJson(const Json& json) {
   KnownThroughput known;
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
   known.busy = json.at("busy");
+  known.date = json.value("date", "");
   for (const Json& row : json.at("rows")) {
-    known.rows.push_back(
-        {row.at("scene"), row.at("target"), row.at("strategy"), row.at("threads"),
-         row.at("resolution").at(0), row.at("resolution").at(1), row.at("spp"),
-         row.at("samples_per_second"), row.at("samples_per_cpu_second")});
+    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
+                          row.at("threads"), row.at("resolution").at(0),
+                          row.at("resolution").at(1), row.at("spp"),
+                          row.at("samples_per_second"), row.at("samples_per_cpu_second"),
+                          row.value("scene_hash", "")});
   }
+  for (KnownRow& row : known.rows) row.label = SceneLabel(row.scene, known.rows);
   return known;
 }
 
 KnownThroughput ReadThroughput(const std::string& path) {
-  return FromJsonOf(path, [&] {
+  KnownThroughput known = FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
     if (!json.contains("rows") || !json.contains("program")) {
       throw InputError("'{}' was not written by `lanelight bench --json`", path);
@@ -113,6 +139,32 @@ KnownThroughput ReadThroughput(const std::string& path) {
     }
     return ThroughputFromJson(json);
   });
+  known.name = std::filesystem::path(path).stem();
+  return known;
+}
+
+std::vector<KnownThroughput> ListedResults(const std::string& folder) {
+  std::vector<KnownThroughput> results;
+  if (folder.empty()) {
+    for (const StoredResult& stored : StoredResults()) {
+      results.push_back(ThroughputFromJson(Json::parse(stored.text)));
+      results.back().name = stored.name;
+    }
+  } else {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+      if (entry.path().extension() != ".json") continue;
+      results.push_back(ReadThroughput(entry.path()));
+    }
+    if (error) throw InputError("cannot read folder '{}': {}", folder, error.message());
+  }
+  if (results.empty()) {
+    throw InputError("no result of `lanelight bench --json` in '{}'", folder);
+  }
+  std::ranges::sort(results, [](const KnownThroughput& a, const KnownThroughput& b) {
+    return std::tie(b.date, a.name) < std::tie(a.date, b.name);  // newest first
+  });
+  return results;
 }
 
 }  // namespace lanelight

@@ -1,4 +1,8 @@
-"""Writes the scenes of `lanelight bench` as C++: embed_scenes.py SCENES_FOLDER OUT.cc."""
+"""Writes scenes and stored results of `lanelight bench` as C++.
+
+Usage: embed_bench.py SCENES_FOLDER RESULTS_FOLDER OUT.cc
+"""
+import json
 import pathlib
 import re
 import sys
@@ -28,20 +32,34 @@ def whole(path):
     return "\n".join(lines)
 
 
+def result(path):
+    """The members of a stored result that comparisons read."""
+    known = json.loads(path.read_text())
+    for row in known["rows"]:
+        for unused in ("stages", "groups", "seconds", "cpu_seconds"):
+            row.pop(unused, None)
+    return json.dumps(known)
+
+
 def literal(text):
     parts = [text[i:i + MOST] for i in range(0, len(text), MOST)]
     return "\n".join(f'R"pbrt({part})pbrt"' for part in parts)
 
 
 def main():
-    folder, out = map(pathlib.Path, sys.argv[1:])
+    folder, results, out = map(pathlib.Path, sys.argv[1:])
     rows = ",\n".join(f'{{"{name}", {spp}, "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
                       for name, spp, stresses in SCENES)
-    out.write_text("// Written by src/measure/throughput/embed_scenes.py.\n"
+    stored = ",\n".join(f'{{"{path.stem}",\n{literal(result(path))}}}'
+                        for path in sorted(results.glob("*.json")))
+    out.write_text("// Written by src/measure/throughput/embed_bench.py.\n"
                    '#include "src/measure/throughput/throughput.h"\n\nnamespace lanelight {\n\n'
                    "const std::vector<BenchScene>& BenchScenes() {\n"
                    f"static const std::vector<BenchScene> scenes = {{\n{rows}}};\n"
-                   "return scenes;\n}\n\n}  // namespace lanelight\n")
+                   "return scenes;\n}\n\n"
+                   "const std::vector<StoredResult>& StoredResults() {\n"
+                   f"static const std::vector<StoredResult> results = {{\n{stored}}};\n"
+                   "return results;\n}\n\n}  // namespace lanelight\n")
 
 
 main()
