@@ -51,17 +51,15 @@ std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   });
 }
 
-// Prints the stored results, that of `--against` and the one just measured.
-void PrintList(std::vector<KnownThroughput> results,
-               const std::optional<KnownThroughput>& before,
-               const std::optional<KnownThroughput>& now) {
-  if (before) {
-    std::erase_if(results, [&](const auto& known) { return known.name == before->name; });
-    results.insert(results.begin(), *before);
-  }
-  const std::size_t reference = now ? 1 : 0;
-  if (now) results.insert(results.begin(), *now);
-  Print(ListText(results, results[reference], TerminalColumns(Stream::kOutput)));
+// Returns the results that --list prints, that of --against first.
+std::vector<KnownThroughput> Listed(const BenchCommandOptions& options,
+                                    const std::optional<KnownThroughput>& before) {
+  if (!options.list) return {};
+  std::vector<KnownThroughput> results = ListedResults(*options.list);
+  if (!before) return results;
+  std::erase_if(results, [&](const auto& known) { return known.name == before->name; });
+  results.insert(results.begin(), *before);
+  return results;
 }
 
 int Bench(BenchCommandOptions options) {
@@ -71,15 +69,14 @@ int Bench(BenchCommandOptions options) {
   CheckOutputPaths(outputs, {options.against});
   std::optional<KnownThroughput> before;
   if (!options.against.empty()) before = ReadThroughput(options.against);
-  std::vector<KnownThroughput> stored;
-  if (options.list) stored = ListedResults(*options.list);
+  const std::size_t columns = TerminalColumns(Stream::kOutput);
+  std::vector<KnownThroughput> listed = Listed(options, before);
   if (!options.measure) {
-    PrintList(stored, before, std::nullopt);
+    Print(ListText(listed, 0, columns));
     return kExitGood;
   }
   const std::vector<ThroughputRow> rows = MeasureRows(options);
   const nlohmann::json json = ToJson(rows, options.bench.within);
-  const std::size_t columns = TerminalColumns(Stream::kOutput);
   if (options.json != "-") {
     Print(ThroughputText(rows, options.bench.within, {false, columns}));
   }
@@ -95,8 +92,8 @@ int Bench(BenchCommandOptions options) {
   KnownThroughput now = ThroughputFromJson(json);
   now.name = "this run";
   if (options.list && options.json != "-") {
-    Print("\n");
-    PrintList(stored, before, now);
+    listed.insert(listed.begin(), now);
+    Print("\n" + ListText(listed, 1, columns));
   }
   if (!before) return kExitGood;
   const RateComparison comparison = CompareRates(*before, now);
@@ -163,9 +160,8 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   command
       .add_option_function<std::string>(
           "--list", [&](const std::string& folder) { options.list = folder; },
-          "Print the stored results of other machines, or those in DIR, beside each "
-          "other, with ratios to --against or the newest. Measures only if scenes or "
-          "other options are given")
+          "Print stored results beside each other; measure only if scenes or other "
+          "options are given; default: the results in the program")
       ->type_name("[DIR]")
       ->expected(0, 1);
   command.add_flag("--quiet", options.quiet, "No progress");

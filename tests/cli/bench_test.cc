@@ -44,8 +44,8 @@ TEST_CASE("bench prints rates and writes JSON", "[cli]") {
                   "--markdown", directory / "b.md", "--html", directory / "b.html"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("Msamples/processor s") && Contains("machine") &&
-                        Contains("lanes"));
+  CHECK_THAT(r.out,
+             Contains("Msamples/CPU s") && Contains("machine") && Contains("lanes"));
   const Json json = ReadJson(directory / "b.json");
   CHECK(json.at("schema") == 1);
   CHECK(json.at("machine").contains("processor"));
@@ -97,7 +97,7 @@ TEST_CASE("bench lists stored results, alone and beside a measured one", "[cli]"
   const ProcessResult built_in = RunLanelight({"bench", "--list"});
   INFO(built_in.err);
   REQUIRE(built_in.exit_code == kExitGood);
-  CHECK_THAT(built_in.out, Contains("amd-epyc-2-cores") && Contains("processor ratio") &&
+  CHECK_THAT(built_in.out, Contains("amd-epyc-2-cores") && Contains("CPU ratio") &&
                                !Contains("this run"));
   CHECK(RunLanelight({"bench", "--list", results.path()}).exit_code == kExitBadInput);
   REQUIRE(Bench(directory, {"--json", results / "mine.json"}).exit_code == kExitGood);

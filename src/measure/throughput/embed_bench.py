@@ -1,8 +1,4 @@
-"""Writes scenes and stored results of `lanelight bench` as C++.
-
-Usage: embed_bench.py SCENES_FOLDER RESULTS_FOLDER OUT.cc
-"""
-import json
+"""Writes scenes and results of `lanelight bench` as C++: embed_bench.py SCENES RESULTS OUT.cc."""
 import pathlib
 import re
 import sys
@@ -32,15 +28,6 @@ def whole(path):
     return "\n".join(lines)
 
 
-def result(path):
-    """The members of a stored result that comparisons read."""
-    known = json.loads(path.read_text())
-    for row in known["rows"]:
-        for unused in ("stages", "groups", "seconds", "cpu_seconds"):
-            row.pop(unused, None)
-    return json.dumps(known)
-
-
 def literal(text):
     parts = [text[i:i + MOST] for i in range(0, len(text), MOST)]
     return "\n".join(f'R"pbrt({part})pbrt"' for part in parts)
@@ -50,7 +37,7 @@ def main():
     folder, results, out = map(pathlib.Path, sys.argv[1:])
     rows = ",\n".join(f'{{"{name}", {spp}, "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
                       for name, spp, stresses in SCENES)
-    stored = ",\n".join(f'{{"{path.stem}",\n{literal(result(path))}}}'
+    stored = ",\n".join(f'{{"{path.stem}",\n{literal(path.read_text())}}}'
                         for path in sorted(results.glob("*.json")))
     out.write_text("// Written by src/measure/throughput/embed_bench.py.\n"
                    '#include "src/measure/throughput/throughput.h"\n\nnamespace lanelight {\n\n'

@@ -146,7 +146,6 @@ std::vector<ThroughputRow> MeasureThroughput(
                      watch.Seconds() >= max_seconds))
         break;
       bench.Repeat(stop);
-      progress.worst = MaxRelativeHalfWidth(bench.rows());
       on_progress(progress);
     }
     ++progress.done;

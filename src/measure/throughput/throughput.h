@@ -2,7 +2,6 @@
 // rate affects all of them, until the intervals of their medians are narrow.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -99,7 +98,6 @@ struct BenchProgress {
   std::string scene;
   std::size_t done = 0, scenes = 0;
   int repeats = 0;
-  double worst = 0;  // largest RelativeHalfWidth()
 };
 
 /// Returns the largest RelativeHalfWidth(); 0 without rows.
@@ -113,13 +111,11 @@ const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
 /// scene of the rows has that name.
 template <class Row>
 std::string SceneLabel(const std::string& scene, const std::vector<Row>& rows) {
-  const auto stem = [](const std::string& path) {
-    return std::filesystem::path(path).stem().string();
-  };
-  const bool unique = std::ranges::none_of(rows, [&](const Row& row) {
-    return row.scene != scene && stem(row.scene) == stem(scene);
-  });
-  return unique ? stem(scene) : scene;
+  const auto stem = [](const std::filesystem::path& path) { return path.stem(); };
+  for (const Row& row : rows) {
+    if (row.scene != scene && stem(row.scene) == stem(scene)) return scene;
+  }
+  return stem(scene);
 }
 
 /// Returns rows by scene, then target, then threads. Before timing, compares every image

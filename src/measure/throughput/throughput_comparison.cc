@@ -51,6 +51,7 @@ std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
   for (const KnownRow& candidate : other.rows) {
     if (candidate.scene != row.scene) continue;
     keys += (keys.empty() ? "" : "; ") + candidate.Key();
+    if (candidate.Key() == row.Key()) keys += ", another scene file";
   }
   return keys;
 }
@@ -68,11 +69,13 @@ std::string IntervalText(const Interval& ratio) {
 }
 
 std::string VerdictText(const RateComparison& comparison, double tolerance) {
+  std::vector<Interval> ratios;
+  for (const RateRatio& row : comparison.rows) ratios.push_back(row.ratio);
   const std::string fast =
       comparison.rows.empty()
           ? ""
           : fmt::format("{:.3g} times as fast (geometric mean of {}); ",
-                        comparison.Mean().value, comparison.rows.size());
+                        GeometricMean(ratios).value, comparison.rows.size());
   std::string slower;
   for (const RateRatio& row : comparison.rows) {
     if (row.Regresses(tolerance)) slower += (slower.empty() ? "" : "; ") + row.row;
@@ -105,13 +108,8 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
   AddBusy(now, "this run", comparison);
   for (const KnownRow& row : now.rows) {
     const auto found = old.find(row.Key());
-    if (found != old.end()) {
+    if (found != old.end() && found->second->scene_hash == row.scene_hash) {
       const KnownRow& other = *found->second;
-      if (other.scene_hash != row.scene_hash) {
-        comparison.refused.push_back(row.Key() + " (before: the scene file differs)");
-        old.erase(found);
-        continue;
-      }
       comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, other.rate),
                                  RateRatioOf(row.cpu_rate, other.cpu_rate), 0});
       old.erase(found);
@@ -135,12 +133,6 @@ RateComparison::Verdict RateComparison::Judge(double tolerance) const {
     if (row.Regresses(tolerance)) return Verdict::kSlower;
   }
   return refused.empty() && !rows.empty() ? Verdict::kNotSlower : Verdict::kNotComparable;
-}
-
-Interval RateComparison::Mean() const {
-  std::vector<Interval> ratios;
-  for (const RateRatio& row : rows) ratios.push_back(row.ratio);
-  return GeometricMean(ratios);
 }
 
 std::string ComparisonText(const RateComparison& comparison,

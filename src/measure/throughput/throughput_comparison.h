@@ -22,12 +22,11 @@ struct KnownRow {
   std::string scene, target, strategy;
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
-  Interval rate, cpu_rate;      // samples per second, and per second of processor time
-  std::string scene_hash = {};  // empty in files of older versions
-  std::string label = {};       // SceneLabel()
+  Interval rate, cpu_rate;        // samples per second, and per second of processor time
+  std::string scene_hash, label;  // SceneLabel()
 
   /// Returns whether both rows render the same scene file with the same size, samples per
-  /// pixel and strategy, on any machine. False without a hash.
+  /// pixel and strategy, on any machine.
   bool SameWork(const KnownRow& other) const;
 
   /// Returns a text that is equal for rows that can be compared. It has those parts of
@@ -38,7 +37,7 @@ struct KnownThroughput {
   std::string machine, program;
   std::vector<std::string> busy;  // BusyReasons()
   std::vector<KnownRow> rows;
-  std::string date = {}, name = {};  // UTC; the file without folder and extension
+  std::string date, name;  // UTC; the file without folder and extension
 };
 
 /// Reads JSON written by ToJson(). Throws InputError.
@@ -78,8 +77,6 @@ struct RateComparison {
   /// Returns kNotComparable if a machine was busy, or a row was refused and no other is
   /// slower.
   Verdict Judge(double tolerance) const;
-  /// Returns the geometric mean of the ratios; 1 without rows.
-  Interval Mean() const;
 };
 
 /// Returns the ratio of two independent rates: squares of half widths of their logarithms
@@ -98,9 +95,9 @@ std::string ComparisonText(const RateComparison& comparison,
                            const KnownThroughput& before, double tolerance,
                            std::size_t width);
 
-/// Returns a table of the results beside each other: rates by scene, and ratios to
-/// `reference`, in lines of at most `width` columns.
-std::string ListText(const std::vector<KnownThroughput>& results,
-                     const KnownThroughput& reference, std::size_t width);
+/// Returns a table of the results beside each other: rates by scene, and ratios to the
+/// result of that index, in lines of at most `width` columns.
+std::string ListText(const std::vector<KnownThroughput>& results, std::size_t reference,
+                     std::size_t width);
 
 }  // namespace lanelight

@@ -3,7 +3,7 @@
 #include <fmt/chrono.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -34,13 +34,6 @@ Json ParallelEfficiency(const std::vector<ThroughputRow>& rows,
   const Interval ratio = RateRatioOf(row.Rate(), one->Rate());
   const double n = row.threads;
   return IntervalJson(Interval{ratio.value / n, ratio.low / n, ratio.high / n});
-}
-
-// Returns the date of UTC: "2026-11-28".
-std::string Today() {
-  using std::chrono::system_clock;
-  return fmt::format("{:%Y-%m-%d}",
-                     fmt::gmtime(system_clock::to_time_t(system_clock::now())));
 }
 
 Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
@@ -84,7 +77,7 @@ Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
   Json out = {{"schema", kBenchSchema},
               {"machine", ToJson(ThisMachine())},
               {"program", FullVersion()},
-              {"date", Today()},
+              {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
               {"confidence", kBenchConfidence},
               {"busy", BusyReasons(rows, ThisMachine())},
               {"warnings", ThroughputWarnings(rows, within)},
@@ -100,12 +93,11 @@ std::string KnownRow::Key() const {
                      changes.empty() ? "" : ", ", changes);
 }
 
-bool KnownRow::SameWork(const KnownRow& other) const {
-  const auto work = [](const KnownRow& row) {
-    return std::tuple(row.scene_hash, row.width, row.height, row.spp,
-                      ChoicesNotIn(ToText(Strategy{}), row.strategy));
-  };
-  return !scene_hash.empty() && work(*this) == work(other);
+bool KnownRow::SameWork(const KnownRow& o) const {
+  const std::string usual = ToText(Strategy{});
+  return std::tie(scene_hash, width, height, spp) ==
+             std::tie(o.scene_hash, o.width, o.height, o.spp) &&
+         ChoicesNotIn(usual, strategy) == ChoicesNotIn(usual, o.strategy);
 }
 
 KnownThroughput ThroughputFromJson(const Json& json) {
@@ -113,13 +105,13 @@ KnownThroughput ThroughputFromJson(const Json& json) {
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
   known.busy = json.at("busy");
-  known.date = json.value("date", "");
+  known.date = json.at("date");
   for (const Json& row : json.at("rows")) {
     known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
                           row.at("threads"), row.at("resolution").at(0),
                           row.at("resolution").at(1), row.at("spp"),
                           row.at("samples_per_second"), row.at("samples_per_cpu_second"),
-                          row.value("scene_hash", "")});
+                          row.at("scene_hash"), ""});
   }
   for (KnownRow& row : known.rows) row.label = SceneLabel(row.scene, known.rows);
   return known;
@@ -128,14 +120,9 @@ KnownThroughput ThroughputFromJson(const Json& json) {
 KnownThroughput ReadThroughput(const std::string& path) {
   KnownThroughput known = FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
-    if (!json.contains("rows") || !json.contains("program")) {
-      throw InputError("'{}' was not written by `lanelight bench --json`", path);
-    }
-    if (!json.contains("busy")) {
-      throw InputError(
-          "'{}' was written by an older version, whose samples per pixel depended on "
-          "time; measure again with `lanelight bench --json`",
-          path);
+    if (!json.contains("rows") || !json.contains("date")) {
+      throw InputError("'{}' was not written by `lanelight bench --json` of this version",
+                       path);
     }
     return ThroughputFromJson(json);
   });
@@ -150,17 +137,13 @@ std::vector<KnownThroughput> ListedResults(const std::string& folder) {
       results.push_back(ThroughputFromJson(Json::parse(stored.text)));
       results.back().name = stored.name;
     }
-  } else {
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-      if (entry.path().extension() != ".json") continue;
-      results.push_back(ReadThroughput(entry.path()));
-    }
-    if (error) throw InputError("cannot read folder '{}': {}", folder, error.message());
   }
-  if (results.empty()) {
-    throw InputError("no result of `lanelight bench --json` in '{}'", folder);
+  std::error_code error;  // a missing folder has no results
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    results.push_back(ReadThroughput(entry.path()));
   }
+  if (results.empty()) throw InputError("no bench result (.json) in '{}'", folder);
   std::ranges::sort(results, [](const KnownThroughput& a, const KnownThroughput& b) {
     return std::tie(b.date, a.name) < std::tie(a.date, b.name);  // newest first
   });

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
+#include <map>
 
 #include "src/base/core/text_layout.h"
 #include "src/measure/throughput/throughput_comparison.h"
@@ -12,129 +12,105 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-// The rows of a result with the same target and threads.
-struct Line {
-  std::string target;
-  int threads = 0;
-  bool all_cores = false;  // no line of the result has more threads
-  std::vector<const KnownRow*> rows;
-};
-
-std::vector<Line> LinesOf(const KnownThroughput& result) {
-  std::vector<Line> lines;
+int MostThreads(const KnownThroughput& result) {
   int most = 0;
-  for (const KnownRow& row : result.rows) {
-    most = std::max(most, row.threads);
-    auto line = std::ranges::find_if(lines, [&](const Line& l) {
-      return l.target == row.target && l.threads == row.threads;
-    });
-    if (line == lines.end()) {
-      line = lines.insert(line, {row.target, row.threads, false, {}});
-    }
-    line->rows.push_back(&row);
-  }
-  for (Line& line : lines) line.all_cores = line.threads == most;
-  return lines;
+  for (const KnownRow& row : result.rows) most = std::max(most, row.threads);
+  return most;
 }
 
-// Returns the line with as many threads, or if both are on all cores, that line; of the
-// same target if there is one. Null without one.
-const Line* Counterpart(const Line& line, const std::vector<Line>& reference) {
-  const Line* best = nullptr;
+// Returns the row of the reference that does the same work with as many threads, or with
+// the most threads of both results; of the same target if possible. Null without one.
+const KnownRow* Counterpart(const KnownRow& row, const KnownThroughput& result,
+                            const KnownThroughput& reference) {
+  const bool all = row.threads > 1 && row.threads == MostThreads(result);
+  const KnownRow* best = nullptr;
   int best_score = 0;
-  for (const Line& other : reference) {
-    const bool same = other.threads == line.threads;
-    if (!same && !(line.threads > 1 && line.all_cores && other.all_cores)) continue;
-    const int score = 1 + 2 * int(same) + int(other.target == line.target);
-    if (score > best_score) std::tie(best, best_score) = std::tuple(&other, score);
+  for (const KnownRow& other : reference.rows) {
+    const bool same = other.threads == row.threads;
+    if (!row.SameWork(other) ||
+        !(same || (all && other.threads == MostThreads(reference))))
+      continue;
+    const int score = 1 + 2 * int(same) + int(other.target == row.target);
+    if (score > best_score) best = &other;
+    best_score = std::max(best_score, score);
   }
   return best;
 }
 
 std::string RatioText(const std::vector<Interval>& ratios) {
-  if (ratios.empty()) return "-";
   const Interval mean = GeometricMean(ratios);
+  if (ratios.empty()) return "-";
+  if (mean.low == mean.high) return "1";  // the reference itself
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", mean.value, mean.low, mean.high);
 }
 
-Cells CellsOf(const std::string& number, const Line& line,
-              const std::vector<Line>& reference, const Cells& scenes, bool& marked) {
-  const Line* const other = Counterpart(line, reference);
-  Cells cells = {number, line.target, std::to_string(line.threads)};
-  std::vector<Interval> ratios, cpu_ratios;
-  for (const std::string& scene : scenes) {
-    const auto row = std::ranges::find(line.rows, scene, &KnownRow::label);
-    if (row == line.rows.end()) {
-      cells.push_back("-");
-      continue;
-    }
-    const KnownRow* before = nullptr;
-    for (const KnownRow* r : other ? other->rows : std::vector<const KnownRow*>()) {
-      if ((*row)->SameWork(*r)) before = r;
-    }
-    marked |= before == nullptr;
-    cells.push_back(
-        fmt::format("{:.3g}{}", 1e-6 * (*row)->rate.value, before ? "" : "*"));
-    if (before == nullptr) continue;
-    ratios.push_back(RateRatioOf((*row)->rate, before->rate));
-    cpu_ratios.push_back(RateRatioOf((*row)->cpu_rate, before->cpu_rate));
+// Adds a line for each target and number of threads.
+void AddLines(const std::string& number, const KnownThroughput& result,
+              const KnownThroughput& reference, std::vector<Cells>& table) {
+  struct Line {
+    Cells cells;
+    std::vector<Interval> ratios, cpu_ratios;
+  };
+  std::map<std::pair<std::string, int>, Line> lines;
+  for (const KnownRow& row : result.rows) {
+    Line& line = lines[{row.target, row.threads}];
+    line.cells.resize(table[0].size(), "-");
+    const KnownRow* const other = Counterpart(row, result, reference);
+    const auto column = std::ranges::find(table[0], row.label) - table[0].begin();
+    line.cells[std::size_t(column)] =
+        fmt::format("{:.3g}{}", 1e-6 * row.rate.value, other ? "" : "*");
+    if (other == nullptr) continue;
+    const bool itself = other == &row;
+    line.ratios.push_back(itself ? Interval{1, 1, 1}
+                                 : RateRatioOf(row.rate, other->rate));
+    line.cpu_ratios.push_back(itself ? Interval{1, 1, 1}
+                                     : RateRatioOf(row.cpu_rate, other->cpu_rate));
   }
-  const bool itself = other != nullptr && other->rows == line.rows;
-  cells.push_back(itself ? "1" : RatioText(ratios));
-  cells.push_back(itself ? "1" : RatioText(cpu_ratios));
-  return cells;
+  for (auto& [key, line] : lines) {
+    std::ranges::copy(Cells{number, key.first, std::to_string(key.second)},
+                      line.cells.begin());
+    line.cells.end()[-2] = RatioText(line.ratios);
+    line.cells.end()[-1] = RatioText(line.cpu_ratios);
+    table.push_back(std::move(line.cells));
+  }
 }
 
 }  // namespace
 
-std::string ListText(const std::vector<KnownThroughput>& results,
-                     const KnownThroughput& reference, std::size_t width) {
-  std::string text;
-  Cells scenes;
+std::string ListText(const std::vector<KnownThroughput>& results, std::size_t reference,
+                     std::size_t width) {
+  std::vector<Cells> table = {{"result", "target", "threads"}};
   for (const KnownThroughput& result : results) {
     for (const KnownRow& row : result.rows) {
-      const bool known = std::ranges::find(scenes, row.label) != scenes.end();
-      if (!known) scenes.push_back(row.label);
+      Cells& head = table[0];
+      if (std::ranges::find(head, row.label) == head.end()) head.push_back(row.label);
     }
   }
-  Cells head = {"result", "target", "threads"};
-  head.insert(head.end(), scenes.begin(), scenes.end());
-  head.insert(head.end(), {"wall ratio", "processor ratio"});
-  std::vector<Cells> table = {head};
-  const std::vector<Line> reference_lines = LinesOf(reference);
-  bool marked = false;
+  table[0].insert(table[0].end(), {"wall ratio", "CPU ratio"});
+  std::string text;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const KnownThroughput& r = results[i];
-    const std::string number = std::to_string(i + 1);
-    const bool itself = &r == &reference;
-    text += LabelledRow(number, fmt::format("{}, {}", r.name, r.machine), width, 2) +
-            LabelledRow("", fmt::format("{} {}", r.date, r.program), width, 2);
-    if (!r.busy.empty()) {
-      text += LabelledRow("", fmt::format("busy: {}", fmt::join(r.busy, "; ")), width, 2);
-    }
-    const std::vector<Line> lines = itself ? reference_lines : LinesOf(r);
-    for (const Line& line : lines) {
-      table.push_back(CellsOf(number, line, reference_lines, scenes, marked));
-    }
+    const std::string busy =
+        r.busy.empty() ? "" : fmt::format("; busy: {}", fmt::join(r.busy, "; "));
+    text += LabelledRow(
+        std::to_string(i + 1),
+        fmt::format("{}, {}, {}, {}{}", r.name, r.date, r.machine, r.program, busy),
+        width, 2);
+    AddLines(std::to_string(i + 1), r, results[reference], table);
   }
-  text +=
-      "\n" + TextTable(table, {width, 3, 0}) + "\n" +
-      Wrapped(
-          fmt::format(
-              "Millions of samples per wall second. Ratios to '{}': "
-              "geometric means with 95 % intervals, per wall and per "
-              "processor second. The most threads are compared with the most threads.",
-              reference.name),
-          width) +
-      "\n";
-  if (marked) {
-    text += Wrapped(
-                "* not comparable: the reference has no such row with the same scene "
-                "file, size, samples per pixel and strategy.",
-                width) +
-            "\n";
-  }
-  return text;
+  const std::string note = fmt::format(
+      "Millions of samples per wall second. Ratios to result {}: geometric means with "
+      "95 % intervals, per wall and per processor second.",
+      reference + 1);
+  const char* const mark =
+      "* not comparable: the reference has no such row with the same scene file, size, "
+      "samples per pixel and strategy.";
+  text += "\n" + TextTable(table, {width, 3, 0}) + "\n" + Wrapped(note, width) + "\n";
+  const bool marked = std::ranges::any_of(table, [](const Cells& line) {
+    return std::ranges::any_of(line,
+                               [](const auto& cell) { return cell.ends_with("*"); });
+  });
+  return marked ? text + Wrapped(mark, width) + "\n" : text;
 }
 
 }  // namespace lanelight

@@ -60,8 +60,8 @@ std::string Millions(const Interval& rate) {
 }
 
 std::string RateTable(const std::vector<ThroughputRow>& rows, const TableStyle& style) {
-  std::vector<Cells> lines = {{"scene", "target", "threads", "Msamples/wall s",
-                               "Msamples/processor s", "scaling"}};
+  std::vector<Cells> lines = {
+      {"scene", "target", "threads", "Msamples/wall s", "Msamples/CPU s", "scaling"}};
   for (const ThroughputRow& row : rows) {
     lines.push_back({SceneLabel(row.scene, rows), row.target, std::to_string(row.threads),
                      Millions(row.Rate()), Millions(row.CpuRate()), Scaling(rows, row)});
