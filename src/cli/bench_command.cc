@@ -24,9 +24,8 @@ struct BenchCommandOptions {
   ThroughputOptions bench;
   std::string json, csv, markdown, html, against;
   double tolerance = kTolerance;
-  bool all_targets = false, quiet = false;
+  bool all_targets = false, quiet = false, measure = true;
   std::optional<std::string> list;  // folder; empty: bench/results of the program
-  bool measure = true;
 };
 
 void Complete(BenchCommandOptions& options) {
