@@ -22,10 +22,9 @@ namespace {
 
 struct BenchCommandOptions {
   ThroughputOptions bench;
-  std::string json, csv, markdown, html, against;
+  std::string json, csv, markdown, html, against, folder;
   double tolerance = kTolerance;
-  bool all_targets = false, quiet = false, measure = true;
-  std::optional<std::string> list;  // folder; empty: bench/results of the program
+  bool all_targets = false, quiet = false, list = false, measure = true;
 };
 
 void Complete(BenchCommandOptions& options) {
@@ -44,9 +43,10 @@ void Complete(BenchCommandOptions& options) {
 std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   const InterruptGuard interrupt(
       "\nstopping: what was measured so far is printed (press Ctrl-C again to abort)\n");
-  return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
-    if (options.quiet || p.repeats > 0) return;
-    PrintError(fmt::format("measuring {} ({} of {})", p.scene, p.done + 1, p.scenes));
+  return MeasureThroughput(options.bench, interrupt.stop(), [&](std::size_t i) {
+    const std::vector<std::string>& scenes = options.bench.scenes;
+    if (options.quiet) return;
+    PrintError(fmt::format("measuring {} ({} of {})", scenes[i], i + 1, scenes.size()));
   });
 }
 
@@ -54,7 +54,7 @@ std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
 std::vector<KnownThroughput> Listed(const BenchCommandOptions& options,
                                     const std::optional<KnownThroughput>& before) {
   if (!options.list) return {};
-  std::vector<KnownThroughput> results = ListedResults(*options.list);
+  std::vector<KnownThroughput> results = ListedResults(options.folder);
   if (!before) return results;
   std::erase_if(results, [&](const auto& known) { return known.name == before->name; });
   results.insert(results.begin(), *before);
@@ -156,12 +156,9 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   AddOption(command, "--tolerance X", options.tolerance,
             WithDefault("Fraction by which a row may be slower", options.tolerance))
       ->transform(ValueFrom(0.0, 1.0));
-  command
-      .add_option_function<std::string>(
-          "--list", [&](const std::string& folder) { options.list = folder; },
-          "Print stored results beside each other; measure only if scenes or other "
-          "options are given; default: the results in the program")
-      ->type_name("[DIR]")
+  AddOption(command, "--list [DIR]", options.folder,
+            "Print stored results beside each other; measure only if scenes or other "
+            "options are given; default: the results in the program")
       ->expected(0, 1);
   command.add_flag("--quiet", options.quiet, "No progress");
 }
@@ -183,6 +180,7 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
       "  lanelight bench --list\n"
       "  lanelight bench scene.pbrt --threads 1,2,4,8 --all-targets");
   command->callback([command, options, &chosen] {
+    options->list = command->count("--list") > 0;
     options->measure = !options->list;
     for (const CLI::Option* option : command->get_options()) {
       const std::string name = option->get_name();

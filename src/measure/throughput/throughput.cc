@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include "kernels/simd/target.h"
@@ -42,6 +43,19 @@ std::uint64_t HashOf(const std::string& scene) {
   return found == nullptr ? HashSceneFiles(scene) : Hash64(found->text);
 }
 
+// Returns the seconds that threads of this process, also those without a task, have
+// waited for a processor (Linux; otherwise 0).
+double RunDelaySeconds() {
+  double ns = 0;
+  std::error_code error;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+    std::ifstream file(task.path() / "schedstat");
+    double running = 0, waiting = 0;
+    if (file >> running >> waiting) ns += waiting;
+  }
+  return 1e-9 * ns;
+}
+
 // Renders the job once and returns the mean of its image.
 double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
   job.spp = row.spp;
@@ -79,12 +93,14 @@ class SceneBench {
 
   void Repeat(const std::atomic<bool>& stop) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Render(JobOf(i), rows_[i], stop);
-      if (stop) return;
       ThroughputRow& row = rows_[i];
+      const double delay = RunDelaySeconds();
+      Render(JobOf(i), row, stop);
+      if (stop) return;
       row.seconds.push_back(row.counts.seconds);
       row.cpu_seconds.push_back(row.counts.cpu_seconds);
-      row.waiting_seconds += std::max(0.0, row.counts.waiting_seconds);
+      row.waiting_seconds +=
+          std::max({0.0, row.counts.waiting_seconds, RunDelaySeconds() - delay});
     }
   }
 
@@ -129,26 +145,21 @@ SceneDescription ReadBenchScene(const std::string& scene) {
 
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_progress) {
+    const std::function<void(std::size_t)>& on_scene) {
   std::vector<ThroughputRow> rows;
-  BenchProgress progress;
-  progress.scenes = options.scenes.size();
-  for (const std::string& scene : options.scenes) {
-    if (stop) break;
-    progress.scene = scene;
-    SceneBench bench(options, scene);
+  for (std::size_t i = 0; i < options.scenes.size() && !stop; ++i) {
+    on_scene(i);
+    SceneBench bench(options, options.scenes[i]);
     bench.Begin(stop);
     const Stopwatch watch;
     const double max_seconds = options.seconds * double(bench.rows().size());
-    for (progress.repeats = 0; !stop; ++progress.repeats) {
-      const bool enough = progress.repeats >= kMinRepeats;
+    for (int repeats = 0; !stop; ++repeats) {
+      const bool enough = repeats >= kMinRepeats;
       if (enough && (MaxRelativeHalfWidth(bench.rows()) <= options.within ||
                      watch.Seconds() >= max_seconds))
         break;
       bench.Repeat(stop);
-      on_progress(progress);
     }
-    ++progress.done;
     for (ThroughputRow& row : bench.rows()) {
       if (!row.seconds.empty()) rows.push_back(std::move(row));
     }

@@ -94,12 +94,6 @@ struct StageGroup {
 /// Returns one group for each kind of stage, in a fixed order.
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
 
-struct BenchProgress {
-  std::string scene;
-  std::size_t done = 0, scenes = 0;
-  int repeats = 0;
-};
-
 /// Returns the largest RelativeHalfWidth(); 0 without rows.
 double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows);
 
@@ -120,10 +114,11 @@ std::string SceneLabel(const std::string& scene, const std::vector<Row>& rows) {
 
 /// Returns rows by scene, then target, then threads. Before timing, compares every image
 /// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
-/// ends it early and returns the rows measured so far.
+/// ends it early and returns the rows measured so far. Calls `on_scene` with the index of
+/// each scene before its first render.
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_progress);
+    const std::function<void(std::size_t)>& on_scene);
 
 /// Returns reasons why these rates depend on other programs: the load of the machine
 /// before the start exceeded its cores, or threads waited for a processor for more than

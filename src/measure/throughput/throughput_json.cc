@@ -121,8 +121,7 @@ KnownThroughput ReadThroughput(const std::string& path) {
   KnownThroughput known = FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
     if (!json.contains("rows") || !json.contains("date")) {
-      throw InputError("'{}' was not written by `lanelight bench --json` of this version",
-                       path);
+      throw InputError("'{}' was not written by `lanelight bench --json`", path);
     }
     return ThroughputFromJson(json);
   });

@@ -103,8 +103,7 @@ std::string ListText(const std::vector<KnownThroughput>& results, std::size_t re
       "95 % intervals, per wall and per processor second.",
       reference + 1);
   const char* const mark =
-      "* not comparable: the reference has no such row with the same scene file, size, "
-      "samples per pixel and strategy.";
+      "* not comparable: another scene file, size, samples per pixel or strategy.";
   text += "\n" + TextTable(table, {width, 3, 0}) + "\n" + Wrapped(note, width) + "\n";
   const bool marked = std::ranges::any_of(table, [](const Cells& line) {
     return std::ranges::any_of(line,
