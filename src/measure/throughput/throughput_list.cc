@@ -40,7 +40,6 @@ const KnownRow* Counterpart(const KnownRow& row, const KnownThroughput& result,
 std::string RatioText(const std::vector<Interval>& ratios) {
   const Interval mean = GeometricMean(ratios);
   if (ratios.empty()) return "-";
-  if (mean.low == mean.high) return "1";  // the reference itself
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", mean.value, mean.low, mean.high);
 }
 
@@ -60,17 +59,15 @@ void AddLines(const std::string& number, const KnownThroughput& result,
     line.cells[std::size_t(column)] =
         fmt::format("{:.3g}{}", 1e-6 * row.rate.value, other ? "" : "*");
     if (other == nullptr) continue;
-    const bool itself = other == &row;
-    line.ratios.push_back(itself ? Interval{1, 1, 1}
-                                 : RateRatioOf(row.rate, other->rate));
-    line.cpu_ratios.push_back(itself ? Interval{1, 1, 1}
-                                     : RateRatioOf(row.cpu_rate, other->cpu_rate));
+    line.ratios.push_back(RateRatioOf(row.rate, other->rate));
+    line.cpu_ratios.push_back(RateRatioOf(row.cpu_rate, other->cpu_rate));
   }
+  const bool itself = &result == &reference;
   for (auto& [key, line] : lines) {
     std::ranges::copy(Cells{number, key.first, std::to_string(key.second)},
                       line.cells.begin());
-    line.cells.end()[-2] = RatioText(line.ratios);
-    line.cells.end()[-1] = RatioText(line.cpu_ratios);
+    line.cells.end()[-2] = itself ? "1" : RatioText(line.ratios);
+    line.cells.end()[-1] = itself ? "1" : RatioText(line.cpu_ratios);
     table.push_back(std::move(line.cells));
   }
 }
