@@ -55,8 +55,8 @@ def sweep_figures(sweep):
                  [(Panel("relative MSE", SECONDS, slope=-1), ("relmse", "cpu_seconds"))]),
         "efficiency": ("efficiency relative to the baseline", "Efficiency",
                        [(Panel(efficiency, mark=1), ("efficiency", ""))]),
-        "rate": ("samples per second", "Throughput",
-                 [(Panel("samples per second"), ("samples_per_second", ""))])}
+        "rate": ("samples per wall second", "Throughput",
+                 [(Panel("samples per wall second"), ("samples_per_second", ""))])}
     for axis in sweep["axes"]:
         if axis["parameter"] and axis["numeric"]:
             name = axis["name"]
@@ -167,4 +167,4 @@ def bench_plot(bench):
         series[name] = (targets.index(row["target"]), points)
     return Plot("Throughput", f"{100 * bench['confidence']:g} % intervals of the median; "
                 f"{bench['program']}; {bench['machine']['text']}",
-                [Panel("samples per second", series=series)])
+                [Panel("samples per wall second", series=series)])

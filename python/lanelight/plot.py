@@ -30,7 +30,7 @@ def figures(data: dict) -> dict:
     """Returns {name: what it shows} of the plots of this study, sweep or bench."""
     kind = _kind(data)
     if kind == "bench":
-        return {"rate": "samples per second of every row, with intervals"}
+        return {"rate": "samples per wall second of every row, with intervals"}
     known = STUDY_FIGURES if kind == "study" else sweep_figures(data)
     return {name: shows for name, (shows, *_) in known.items()}
 

@@ -22,9 +22,9 @@ namespace {
 
 struct BenchCommandOptions {
   ThroughputOptions bench;
-  std::string json, csv, markdown, html, against;
-  double tolerance = 0.05;
-  bool all_targets = false, quiet = false;
+  std::string json, csv, markdown, html, against, folder;
+  double tolerance = kTolerance;
+  bool all_targets = false, quiet = false, list = false, measure = true;
 };
 
 void Complete(BenchCommandOptions& options) {
@@ -43,10 +43,22 @@ void Complete(BenchCommandOptions& options) {
 std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   const InterruptGuard interrupt(
       "\nstopping: what was measured so far is printed (press Ctrl-C again to abort)\n");
-  return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
-    if (options.quiet || p.repeats > 0) return;
-    PrintError(fmt::format("measuring {} ({} of {})", p.scene, p.done + 1, p.scenes));
+  return MeasureThroughput(options.bench, interrupt.stop(), [&](std::size_t i) {
+    const std::vector<std::string>& scenes = options.bench.scenes;
+    if (options.quiet) return;
+    PrintError(fmt::format("measuring {} ({} of {})", scenes[i], i + 1, scenes.size()));
   });
+}
+
+// Returns the results that --list prints, that of --against first.
+std::vector<KnownThroughput> Listed(const BenchCommandOptions& options,
+                                    const std::optional<KnownThroughput>& before) {
+  if (!options.list) return {};
+  std::vector<KnownThroughput> results = ListedResults(options.folder);
+  if (!before) return results;
+  std::erase_if(results, [&](const auto& known) { return known.name == before->name; });
+  results.insert(results.begin(), *before);
+  return results;
 }
 
 int Bench(BenchCommandOptions options) {
@@ -56,9 +68,14 @@ int Bench(BenchCommandOptions options) {
   CheckOutputPaths(outputs, {options.against});
   std::optional<KnownThroughput> before;
   if (!options.against.empty()) before = ReadThroughput(options.against);
+  const std::size_t columns = TerminalColumns(Stream::kOutput);
+  std::vector<KnownThroughput> listed = Listed(options, before);
+  if (!options.measure) {
+    Print(ListText(listed, 0, columns));
+    return kExitGood;
+  }
   const std::vector<ThroughputRow> rows = MeasureRows(options);
   const nlohmann::json json = ToJson(rows, options.bench.within);
-  const std::size_t columns = TerminalColumns(Stream::kOutput);
   if (options.json != "-") {
     Print(ThroughputText(rows, options.bench.within, {false, columns}));
   }
@@ -71,8 +88,14 @@ int Bench(BenchCommandOptions options) {
   save(options.markdown, ThroughputText(rows, options.bench.within, {true}));
   if (!options.html.empty()) save(options.html, ReportPage(PageKind::kBench, json));
   if (!success) return kExitBadInput;
+  KnownThroughput now = ThroughputFromJson(json);
+  now.name = "this run";
+  if (options.list && options.json != "-") {
+    listed.insert(listed.begin(), now);
+    Print("\n" + ListText(listed, 1, columns));
+  }
   if (!before) return kExitGood;
-  const RateComparison comparison = CompareRates(*before, ThroughputFromJson(json));
+  const RateComparison comparison = CompareRates(*before, now);
   if (options.json != "-") {
     Print("\n" + ComparisonText(comparison, *before, options.tolerance, columns));
   }
@@ -133,14 +156,18 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   AddOption(command, "--tolerance X", options.tolerance,
             WithDefault("Fraction by which a row may be slower", options.tolerance))
       ->transform(ValueFrom(0.0, 1.0));
+  AddOption(command, "--list [DIR]", options.folder,
+            "Print stored results beside each other; measure only if scenes or other "
+            "options are given; default: the results in the program")
+      ->expected(0, 1);
   command.add_flag("--quiet", options.quiet, "No progress");
 }
 
 }  // namespace
 
 void AddBenchCommand(CLI::App& root, Command& chosen) {
-  CLI::App* command =
-      root.add_subcommand("bench", "Measure samples and rays per second of this machine");
+  CLI::App* command = root.add_subcommand(
+      "bench", "Measure how many samples and rays this machine renders per second");
   auto options = std::make_shared<BenchCommandOptions>();
   AddBenchOptions(*command, *options);
   AddBenchOutputs(*command, *options);
@@ -149,10 +176,18 @@ void AddBenchCommand(CLI::App& root, Command& chosen) {
       "docs/bench.md says what the columns mean, and which scenes these are.\n"
       "\nExamples:\n"
       "  lanelight bench --json today.json --html today.html\n"
-      "  lanelight bench --against yesterday.json --tolerance 0.03\n"
+      "  lanelight bench --against yesterday.json --tolerance 0.05\n"
+      "  lanelight bench --list\n"
       "  lanelight bench scene.pbrt --threads 1,2,4,8 --all-targets");
-  command->callback(
-      [options, &chosen] { chosen = [options] { return Bench(*options); }; });
+  command->callback([command, options, &chosen] {
+    options->list = command->count("--list") > 0;
+    options->measure = !options->list;
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string name = option->get_name();
+      options->measure |= option->count() > 0 && name != "--list" && name != "--against";
+    }
+    chosen = [options] { return Bench(*options); };
+  });
 }
 
 }  // namespace lanelight

@@ -44,7 +44,8 @@ TEST_CASE("bench prints rates and writes JSON", "[cli]") {
                   "--markdown", directory / "b.md", "--html", directory / "b.html"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
-  CHECK_THAT(r.out, Contains("Msamples/s") && Contains("machine") && Contains("lanes"));
+  CHECK_THAT(r.out,
+             Contains("Msamples/CPU s") && Contains("machine") && Contains("lanes"));
   const Json json = ReadJson(directory / "b.json");
   CHECK(json.at("schema") == 1);
   CHECK(json.at("machine").contains("processor"));
@@ -89,6 +90,24 @@ TEST_CASE("bench reports slower rows, also by its exit code", "[cli]") {
       Bench(directory, {"--against", slow, "--resolution", "8x8"});
   CHECK(other.exit_code == kExitNotComparable);
   CHECK_THAT(other.out, Contains("refused: "));
+}
+
+TEST_CASE("bench lists stored results, alone and beside a measured one", "[cli]") {
+  const TempDirectory directory, results;
+  const ProcessResult built_in = RunLanelight({"bench", "--list"});
+  INFO(built_in.err);
+  REQUIRE(built_in.exit_code == kExitGood);
+  CHECK_THAT(built_in.out, Contains("amd-epyc-2-cores") && Contains("CPU ratio") &&
+                               !Contains("this run"));
+  CHECK(RunLanelight({"bench", "--list", results.path()}).exit_code == kExitBadInput);
+  REQUIRE(Bench(directory, {"--json", results / "mine.json"}).exit_code == kExitGood);
+  const ProcessResult both = Bench(directory, {"--list", results.path()});
+  CHECK(both.exit_code == kExitGood);
+  CHECK_THAT(both.out, Contains("1  this run") && Contains("2  mine") &&
+                           !Contains("not comparable"));
+  const ProcessResult other =
+      Bench(directory, {"--resolution", "8x8", "--list", results.path()});
+  CHECK_THAT(other.out, Contains("* not comparable"));
 }
 
 TEST_CASE("bench refuses invalid input", "[cli]") {

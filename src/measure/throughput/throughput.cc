@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include "kernels/simd/target.h"
 #include "src/base/core/check.h"
+#include "src/base/core/hash.h"
 #include "src/base/core/parallel.h"
 #include "src/base/core/stopwatch.h"
 #include "src/render/job/job.h"
@@ -36,6 +38,24 @@ double MeanOf(const FilmAccumulator& film) {
   return sum / (3.0 * film.width() * film.height());
 }
 
+std::uint64_t HashOf(const std::string& scene) {
+  const BenchScene* const found = FindBenchScene(scene);
+  return found == nullptr ? HashSceneFiles(scene) : Hash64(found->text);
+}
+
+// Returns the seconds that threads of this process, also those without a task, have
+// waited for a processor (Linux; otherwise 0).
+double RunDelaySeconds() {
+  double ns = 0;
+  std::error_code error;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+    std::ifstream file(task.path() / "schedstat");
+    double running = 0, waiting = 0;
+    if (file >> running >> waiting) ns += waiting;
+  }
+  return 1e-9 * ns;
+}
+
 // Renders the job once and returns the mean of its image.
 double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
   job.spp = row.spp;
@@ -48,7 +68,7 @@ double Render(Job job, ThroughputRow& row, const std::atomic<bool>& stop) {
 class SceneBench {
  public:
   SceneBench(const ThroughputOptions& options, const std::string& scene)
-      : options_(options), scene_(scene) {
+      : options_(options), scene_(scene), scene_hash_(HashOf(scene)) {
     RenderSettings settings = options.settings;
     if (!settings.spp) settings.spp = BenchSpp(scene);
     for (const std::string& target : options.targets) {
@@ -73,12 +93,14 @@ class SceneBench {
 
   void Repeat(const std::atomic<bool>& stop) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Render(JobOf(i), rows_[i], stop);
-      if (stop) return;
       ThroughputRow& row = rows_[i];
+      const double delay = RunDelaySeconds();
+      Render(JobOf(i), row, stop);
+      if (stop) return;
       row.seconds.push_back(row.counts.seconds);
       row.cpu_seconds.push_back(row.counts.cpu_seconds);
-      row.waiting_seconds += std::max(0.0, row.counts.waiting_seconds);
+      row.waiting_seconds +=
+          std::max({0.0, row.counts.waiting_seconds, RunDelaySeconds() - delay});
     }
   }
 
@@ -89,6 +111,7 @@ class SceneBench {
   ThroughputRow RowOf(const Job& job, int threads) const {
     ThroughputRow row;
     row.scene = scene_;
+    row.scene_hash = scene_hash_;
     row.target = job.plan.options.target.name();
     row.strategy = ToText(job.scene.strategy);
     row.threads = threads;
@@ -102,6 +125,7 @@ class SceneBench {
 
   const ThroughputOptions& options_;
   const std::string scene_;
+  const std::uint64_t scene_hash_;
   std::vector<Job> jobs_;  // one for each target, with its own BVHs
   std::vector<ThroughputRow> rows_;
 };
@@ -121,27 +145,21 @@ SceneDescription ReadBenchScene(const std::string& scene) {
 
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_progress) {
+    const std::function<void(std::size_t)>& on_scene) {
   std::vector<ThroughputRow> rows;
-  BenchProgress progress;
-  progress.scenes = options.scenes.size();
-  for (const std::string& scene : options.scenes) {
-    if (stop) break;
-    progress.scene = scene;
-    SceneBench bench(options, scene);
+  for (std::size_t i = 0; i < options.scenes.size() && !stop; ++i) {
+    on_scene(i);
+    SceneBench bench(options, options.scenes[i]);
     bench.Begin(stop);
     const Stopwatch watch;
     const double max_seconds = options.seconds * double(bench.rows().size());
-    for (progress.repeats = 0; !stop; ++progress.repeats) {
-      const bool enough = progress.repeats >= kMinRepeats;
+    for (int repeats = 0; !stop; ++repeats) {
+      const bool enough = repeats >= kMinRepeats;
       if (enough && (MaxRelativeHalfWidth(bench.rows()) <= options.within ||
                      watch.Seconds() >= max_seconds))
         break;
       bench.Repeat(stop);
-      progress.worst = MaxRelativeHalfWidth(bench.rows());
-      on_progress(progress);
     }
-    ++progress.done;
     for (ThroughputRow& row : bench.rows()) {
       if (!row.seconds.empty()) rows.push_back(std::move(row));
     }

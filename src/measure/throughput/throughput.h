@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ namespace lanelight {
 struct SceneDescription;  // src/scene/description/description.h
 
 /// A default scene of `lanelight bench`. Their texts are part of the program
-/// (embed_scenes.py), so that all users measure the same scenes.
+/// (embed_bench.py), so that all users measure the same scenes.
 struct BenchScene {
   const char* name;
   std::uint64_t spp;     // of a render; fixed, so that measurements can be compared
@@ -29,6 +30,12 @@ struct BenchScene {
 
 /// Returns the scenes in the order in which they are measured.
 const std::vector<BenchScene>& BenchScenes();
+
+/// A result in bench/results, part of the program (embed_bench.py).
+struct StoredResult {
+  const char *name, *text;
+};
+const std::vector<StoredResult>& StoredResults();
 
 /// Returns the default samples per pixel of that scene; kFileSpp for scene files.
 std::uint64_t BenchSpp(const std::string& scene);
@@ -54,6 +61,7 @@ struct ThroughputOptions {
 /// One scene, on one SIMD target, with one number of threads.
 struct ThroughputRow {
   std::string scene, target, strategy;
+  std::uint64_t scene_hash = 0;  // of the scene's text, or HashSceneFiles()
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
   std::vector<double> seconds;      // of the repeats
@@ -86,13 +94,6 @@ struct StageGroup {
 /// Returns all groups, also those without stages, in the order of ProfileGroup.
 std::vector<StageGroup> StageGroups(const ThroughputRow& row);
 
-struct BenchProgress {
-  std::string scene;
-  std::size_t done = 0, scenes = 0;
-  int repeats = 0;
-  double worst = 0;  // largest RelativeHalfWidth()
-};
-
 /// Returns the largest RelativeHalfWidth(); 0 without rows.
 double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows);
 
@@ -100,12 +101,24 @@ double MaxRelativeHalfWidth(const std::vector<ThroughputRow>& rows);
 const ThroughputRow* OneThreadRow(const std::vector<ThroughputRow>& rows,
                                   const ThroughputRow& row);
 
+/// Returns the name of the scene file without folder and extension, or `scene` if another
+/// scene of the rows has that name.
+template <class Row>
+std::string SceneLabel(const std::string& scene, const std::vector<Row>& rows) {
+  const auto stem = [](const std::filesystem::path& path) { return path.stem(); };
+  for (const Row& row : rows) {
+    if (row.scene != scene && stem(row.scene) == stem(scene)) return scene;
+  }
+  return stem(scene);
+}
+
 /// Returns rows by scene, then target, then threads. Before timing, compares every image
 /// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
-/// ends it early and returns the rows measured so far.
+/// ends it early and returns the rows measured so far. Calls `on_scene` with the index of
+/// each scene before its first render.
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_progress);
+    const std::function<void(std::size_t)>& on_scene);
 
 /// Returns BusyReasons() of the machine (src/base/core/machine_info.h), for the row that
 /// waited longest.
@@ -123,8 +136,7 @@ struct TableStyle {
   std::size_t width = 80;
 };
 
-/// Returns the machine and two tables: rates, and nanoseconds per sample by kind of
-/// stage.
+/// Returns the machine and two tables: rates with intervals, and what they depend on.
 std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within,
                            const TableStyle& style);
 /// Returns one line per row, each with the machine.

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "src/base/core/text_layout.h"
+#include "src/base/stat/distributions.h"
 
 namespace lanelight {
 
@@ -18,7 +20,30 @@ Interval RateRatioOf(const Interval& now, const Interval& before) {
   return {ratio, ratio * std::exp(-below), ratio * std::exp(above)};
 }
 
+Interval GeometricMean(const std::vector<Interval>& values) {
+  double sum = 0, below = 0, above = 0;
+  for (const Interval& v : values) {
+    sum += std::log(v.value);
+    below = std::hypot(below, std::log(v.value / v.low));
+    above = std::hypot(above, std::log(v.high / v.value));
+  }
+  const double n = std::max<double>(1, double(values.size()));
+  const double mean = std::exp(sum / n);
+  return {mean, mean * std::exp(-below / n), mean * std::exp(above / n)};
+}
+
 namespace {
+
+// Widens the upper limits of single rows to limits that hold for all rows together.
+void SetUpperLimits(std::vector<RateRatio>& rows) {
+  if (rows.empty()) return;
+  const double wider = stat::NormalQuantile(1 - kFalseAlarms / double(rows.size())) /
+                       stat::NormalQuantile((1 + kBenchConfidence) / 2);
+  for (RateRatio& row : rows) {
+    const Interval& ratio = row.ratio;
+    row.high = ratio.value * std::pow(ratio.high / ratio.value, wider);
+  }
+}
 
 // Returns the keys of rows of `other` with the same scene; empty without one.
 std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
@@ -26,6 +51,7 @@ std::string OfSameScene(const KnownRow& row, const KnownThroughput& other) {
   for (const KnownRow& candidate : other.rows) {
     if (candidate.scene != row.scene) continue;
     keys += (keys.empty() ? "" : "; ") + candidate.Key();
+    if (candidate.Key() == row.Key()) keys += ", another scene file";
   }
   return keys;
 }
@@ -43,11 +69,13 @@ std::string IntervalText(const Interval& ratio) {
 }
 
 std::string VerdictText(const RateComparison& comparison, double tolerance) {
+  std::vector<Interval> ratios;
+  for (const RateRatio& row : comparison.rows) ratios.push_back(row.ratio);
   const std::string fast =
       comparison.rows.empty()
           ? ""
           : fmt::format("{:.3g} times as fast (geometric mean of {}); ",
-                        comparison.Mean(), comparison.rows.size());
+                        GeometricMean(ratios).value, comparison.rows.size());
   std::string slower;
   for (const RateRatio& row : comparison.rows) {
     if (row.Regresses(tolerance)) slower += (slower.empty() ? "" : "; ") + row.row;
@@ -65,7 +93,7 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
   if (why.empty()) {
     why = comparison.refused.empty()
               ? "no row is in both measurements"
-              : "rows differ in samples, size, threads, target or strategy";
+              : "rows differ in scene file, samples, size, threads, target or strategy";
   }
   return "not comparable; " + why + ".";
 }
@@ -80,10 +108,10 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
   AddBusy(now, "this run", comparison);
   for (const KnownRow& row : now.rows) {
     const auto found = old.find(row.Key());
-    if (found != old.end()) {
+    if (found != old.end() && found->second->scene_hash == row.scene_hash) {
       const KnownRow& other = *found->second;
       comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, other.rate),
-                                 RateRatioOf(row.cpu_rate, other.cpu_rate)});
+                                 RateRatioOf(row.cpu_rate, other.cpu_rate), 0});
       old.erase(found);
       continue;
     }
@@ -95,6 +123,7 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
     }
   }
   for (const auto& [key, unused] : old) comparison.only_in_one.push_back(key);
+  SetUpperLimits(comparison.rows);
   return comparison;
 }
 
@@ -104,12 +133,6 @@ RateComparison::Verdict RateComparison::Judge(double tolerance) const {
     if (row.Regresses(tolerance)) return Verdict::kSlower;
   }
   return refused.empty() && !rows.empty() ? Verdict::kNotSlower : Verdict::kNotComparable;
-}
-
-double RateComparison::Mean() const {
-  double sum = 0;
-  for (const RateRatio& row : rows) sum += std::log(row.ratio.value);
-  return rows.empty() ? 1 : std::exp(sum / double(rows.size()));
 }
 
 std::string ComparisonText(const RateComparison& comparison,
@@ -122,7 +145,7 @@ std::string ComparisonText(const RateComparison& comparison,
   };
   if (!comparison.rows.empty()) {
     std::vector<std::vector<std::string>> lines = {
-        {"ratio of rates", "per second", "per processor s"}};
+        {"ratio of rates", "per wall second", "per processor second"}};
     const bool slow = comparison.Judge(tolerance) == RateComparison::Verdict::kSlower;
     for (const RateRatio& row : comparison.rows) {
       lines.push_back({row.row, IntervalText(row.ratio), IntervalText(row.cpu_ratio)});

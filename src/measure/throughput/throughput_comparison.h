@@ -1,4 +1,4 @@
-// Writes measured throughput as JSON, and compares two measurements.
+// Writes measured throughput as JSON, compares two measurements, and lists many.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,12 @@ struct KnownRow {
   std::string scene, target, strategy;
   int threads = 0, width = 0, height = 0;
   std::uint64_t spp = 0;
-  Interval rate, cpu_rate;  // samples per second, and per second of processor time
+  Interval rate, cpu_rate;        // samples per second, and per second of processor time
+  std::string scene_hash, label;  // SceneLabel()
+
+  /// Returns whether both rows render the same scene file with the same size, samples per
+  /// pixel and strategy, on any machine.
+  bool SameWork(const KnownRow& other) const;
 
   /// Returns a text that is equal for rows that can be compared. It has those parts of
   /// the strategy that differ from the default.
@@ -32,20 +37,30 @@ struct KnownThroughput {
   std::string machine, program;
   std::vector<std::string> busy;  // BusyReasons()
   std::vector<KnownRow> rows;
+  std::string date, name;  // UTC; the file without folder and extension
 };
 
 /// Reads JSON written by ToJson(). Throws InputError.
 KnownThroughput ReadThroughput(const std::string& path);
 KnownThroughput ThroughputFromJson(const nlohmann::json& json);
+/// Returns the results in the folder, newest first; those that are part of the program if
+/// `folder` is empty. Throws InputError.
+std::vector<KnownThroughput> ListedResults(const std::string& folder);
+
+/// Probability that a comparison of equal programs reports any slower row.
+inline constexpr double kFalseAlarms = 0.001;
+/// Default of `bench --tolerance`.
+inline constexpr double kTolerance = 0.02;
 
 struct RateRatio {
   std::string row;     // KnownRow::Key()
   Interval ratio;      // new rate divided by old rate
   Interval cpu_ratio;  // the same for rates per second of processor time
+  double high = 0;     // upper limit of `ratio`; kFalseAlarms of it holds for all rows
 
   /// Returns whether the new rate is significantly lower, by more than `tolerance`.
   bool Regresses(double tolerance) const {
-    return ratio.value < 1 - tolerance && ratio.high < 1;
+    return ratio.value < 1 - tolerance && high < 1;
   }
 };
 
@@ -62,13 +77,15 @@ struct RateComparison {
   /// Returns kNotComparable if a machine was busy, or a row was refused and no other is
   /// slower.
   Verdict Judge(double tolerance) const;
-  /// Returns the geometric mean of the ratios; 1 without rows.
-  double Mean() const;
 };
 
 /// Returns the ratio of two independent rates: squares of half widths of their logarithms
 /// add.
 Interval RateRatioOf(const Interval& now, const Interval& before);
+
+/// Returns the geometric mean of independent values; 1 without values. Half widths of
+/// logarithms add as squares.
+Interval GeometricMean(const std::vector<Interval>& values);
 
 RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput& now);
 
@@ -77,5 +94,10 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
 std::string ComparisonText(const RateComparison& comparison,
                            const KnownThroughput& before, double tolerance,
                            std::size_t width);
+
+/// Returns a table of the results beside each other: rates by scene, and ratios to the
+/// result of that index, in lines of at most `width` columns.
+std::string ListText(const std::vector<KnownThroughput>& results, std::size_t reference,
+                     std::size_t width);
 
 }  // namespace lanelight

@@ -1,6 +1,12 @@
 #include "src/measure/throughput/throughput_comparison.h"
 
+#include <fmt/chrono.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
@@ -43,6 +49,7 @@ Json ToJson(const ThroughputRow& row, const std::vector<ThroughputRow>& rows) {
                       {"ns_per_sample", 1e9 * s.seconds / double(row.counts.samples)}});
   }
   return {{"scene", row.scene},
+          {"scene_hash", fmt::format("{:016x}", row.scene_hash)},
           {"target", row.target},
           {"strategy", row.strategy},
           {"threads", row.threads},
@@ -70,6 +77,7 @@ Json ToJson(const std::vector<ThroughputRow>& rows, double within) {
   Json out = {{"schema", kBenchSchema},
               {"machine", ToJson(ThisMachine())},
               {"program", FullVersion()},
+              {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
               {"confidence", kBenchConfidence},
               {"busy", BusyReasons(rows, ThisMachine())},
               {"warnings", ThroughputWarnings(rows, within)},
@@ -85,34 +93,60 @@ std::string KnownRow::Key() const {
                      changes.empty() ? "" : ", ", changes);
 }
 
+bool KnownRow::SameWork(const KnownRow& o) const {
+  const std::string usual = ToText(Strategy{});
+  return std::tie(scene_hash, width, height, spp) ==
+             std::tie(o.scene_hash, o.width, o.height, o.spp) &&
+         ChoicesNotIn(usual, strategy) == ChoicesNotIn(usual, o.strategy);
+}
+
 KnownThroughput ThroughputFromJson(const Json& json) {
   KnownThroughput known;
   known.machine = json.at("machine").at("text");
   known.program = json.at("program");
   known.busy = json.at("busy");
+  known.date = json.at("date");
   for (const Json& row : json.at("rows")) {
-    known.rows.push_back(
-        {row.at("scene"), row.at("target"), row.at("strategy"), row.at("threads"),
-         row.at("resolution").at(0), row.at("resolution").at(1), row.at("spp"),
-         row.at("samples_per_second"), row.at("samples_per_cpu_second")});
+    known.rows.push_back({row.at("scene"), row.at("target"), row.at("strategy"),
+                          row.at("threads"), row.at("resolution").at(0),
+                          row.at("resolution").at(1), row.at("spp"),
+                          row.at("samples_per_second"), row.at("samples_per_cpu_second"),
+                          row.at("scene_hash"), ""});
   }
+  for (KnownRow& row : known.rows) row.label = SceneLabel(row.scene, known.rows);
   return known;
 }
 
 KnownThroughput ReadThroughput(const std::string& path) {
-  return FromJsonOf(path, [&] {
+  KnownThroughput known = FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
-    if (!json.contains("rows") || !json.contains("program")) {
+    if (!json.contains("rows") || !json.contains("date")) {
       throw InputError("'{}' was not written by `lanelight bench --json`", path);
-    }
-    if (!json.contains("busy")) {
-      throw InputError(
-          "'{}' was written by an older version, whose samples per pixel depended on "
-          "time; measure again with `lanelight bench --json`",
-          path);
     }
     return ThroughputFromJson(json);
   });
+  known.name = std::filesystem::path(path).stem();
+  return known;
+}
+
+std::vector<KnownThroughput> ListedResults(const std::string& folder) {
+  std::vector<KnownThroughput> results;
+  if (folder.empty()) {
+    for (const StoredResult& stored : StoredResults()) {
+      results.push_back(ThroughputFromJson(Json::parse(stored.text)));
+      results.back().name = stored.name;
+    }
+  }
+  std::error_code error;  // a missing folder has no results
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() != ".json") continue;
+    results.push_back(ReadThroughput(entry.path()));
+  }
+  if (results.empty()) throw InputError("no bench result (.json) in '{}'", folder);
+  std::ranges::sort(results, [](const KnownThroughput& a, const KnownThroughput& b) {
+    return std::tie(b.date, a.name) < std::tie(a.date, b.name);  // newest first
+  });
+  return results;
 }
 
 }  // namespace lanelight

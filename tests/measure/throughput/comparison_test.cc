@@ -1,6 +1,7 @@
 // Rates of two measurements: ratios, their intervals, and what counts as slower.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <sstream>
 
 #include "src/base/core/text_layout.h"
@@ -12,10 +13,10 @@ namespace lanelight::test {
 namespace {
 
 KnownThroughput Known(std::vector<Interval> rates) {
-  KnownThroughput known = {"a machine", "a program", {}, {}};
+  KnownThroughput known = {"a machine", "a program", {}, {}, "", ""};
   for (std::size_t i = 0; i < rates.size(); ++i) {
     known.rows.push_back(
-        {"scene", "AVX2", "default", int(i) + 1, 64, 64, 16, rates[i], rates[i]});
+        {"scene", "AVX2", "default", int(i) + 1, 64, 64, 16, rates[i], rates[i], "", ""});
   }
   return known;
 }
@@ -26,7 +27,97 @@ void CheckFits(const std::string& text, std::size_t width) {
   for (std::string line; std::getline(in, line);) CHECK(TextWidth(line) <= width);
 }
 
+KnownRow& Hash(KnownRow& row, const std::string& scene) {
+  row.scene = row.label = row.scene_hash = scene;
+  return row;
+}
+
+// Simulates benchmarks: `--within 0.01`, at most 20 repeats.
+class SimulatedBench {
+ public:
+  enum Noise { kNormal, kHeavyTailed, kWide };
+  explicit SimulatedBench(Noise noise) : noise_(noise) {}
+
+  // `seconds`: of each render without noise. The machine's speed changes between runs by
+  // 0.3 %.
+  KnownThroughput Run(double seconds) {
+    seconds *= std::exp(0.003 * normal_(engine_));
+    KnownThroughput known = Known({});
+    for (int i = 0; i < 10; ++i) {
+      ThroughputRow row;
+      row.counts.samples = 1000;
+      while (row.seconds.size() < 20 && row.RelativeHalfWidth() > 0.01) {
+        row.seconds.push_back(seconds * std::exp(NoiseOfRender()));
+      }
+      known.rows.push_back({"scene", "AVX2", "default", i + 1, 64, 64, 16, row.Rate(),
+                            row.Rate(), "", ""});
+    }
+    return known;
+  }
+
+  // Returns how many of 100 comparisons with a program this much slower report it.
+  int Reports(double slower) {
+    int reports = 0;
+    for (int i = 0; i < 100; ++i) {
+      const RateComparison c = CompareRates(Run(1), Run(1 + slower));
+      reports += c.Judge(kTolerance) == RateComparison::Verdict::kSlower;
+    }
+    return reports;
+  }
+
+ private:
+  double NoiseOfRender() {
+    if (noise_ == kNormal) return 0.006 * normal_(engine_);
+    if (noise_ == kWide) return 0.02 * normal_(engine_);
+    const bool disturbed = std::uniform_real_distribution<double>()(engine_) < 0.1;
+    return 0.006 * student_(engine_) + (disturbed ? 0.05 * slow_(engine_) : 0);
+  }
+
+  Noise noise_;
+  std::mt19937_64 engine_{1};
+  std::normal_distribution<double> normal_;
+  std::student_t_distribution<double> student_{3};
+  std::exponential_distribution<double> slow_;
+};
+
 }  // namespace
+
+TEST_CASE(
+    "3 % slower is reported; 100 comparisons of equal programs raise one alarm at most",
+    "[throughput]") {
+  using S = SimulatedBench;
+  for (const auto noise : {S::kNormal, S::kHeavyTailed, S::kWide}) {
+    INFO(noise);
+    SimulatedBench bench(noise);
+    CHECK(bench.Reports(0) <= 1);
+    CHECK(bench.Reports(0.03) >= 95);
+  }
+}
+
+TEST_CASE("a list has ratios of equal work, and marks other work", "[throughput]") {
+  KnownThroughput reference = Known({{1e6, 9.9e5, 1.01e6}, {2e6, 1.9e6, 2.1e6}});
+  for (KnownRow& row : reference.rows) Hash(row, "box");
+  reference.name = "old";
+  KnownThroughput fast = Known({{3e6, 2.9e6, 3.1e6}, {8e6, 7.9e6, 8.1e6}});
+  for (KnownRow& row : fast.rows) Hash(row, "box");
+  fast.rows[1].threads = 64;  // both are all cores
+  fast.rows[1].target = "SVE2";
+  const auto text = [&] { return ListText({fast, reference}, 1, 200); };
+  CHECK_THAT(text(), Catch::Contains("3.00 [") && Catch::Contains("4.00 [") &&
+                         !Catch::Contains("not comparable"));
+  CheckFits(ListText({fast, reference}, 1, 60), 60);
+  for (const int kind : {0, 1, 2, 3}) {
+    KnownThroughput other = fast;
+    KnownRow& row = other.rows[0];
+    if (kind == 0) row.scene_hash = "another";
+    if (kind == 1) row.spp = 1;
+    if (kind == 2) row.height = 1;
+    if (kind == 3) row.strategy = "roulette=none";
+    const std::string marked = ListText({other, reference}, 1, 200);
+    CHECK_THAT(marked, Catch::Contains("3*") && !Catch::Contains("3.00 [") &&
+                           Catch::Contains("* not comparable"));
+  }
+}
 
 TEST_CASE("half widths of the logarithms of two rates add as squares", "[throughput]") {
   const RateComparison c = CompareRates(Known({{100, 90, 110}}), Known({{50, 45, 56}}));
@@ -57,17 +148,18 @@ TEST_CASE("rows that only one measurement has are listed, not compared", "[throu
   CHECK(c.rows.size() == 1);
   REQUIRE(c.only_in_one.size() == 1);
   CHECK(c.only_in_one[0] == "scene, AVX2, 2 threads, 64x64, 16 spp, default");
-  CHECK(c.Mean() == Approx(3));
+  CHECK(GeometricMean({c.rows[0].ratio, {12, 12, 12}}).value == Approx(6));
 }
 
-TEST_CASE("rows of other samples, sizes or threads are refused", "[throughput]") {
+TEST_CASE("rows of other scenes, samples, sizes or threads are refused", "[throughput]") {
   using Verdict = RateComparison::Verdict;
   const KnownThroughput before = Known({{100, 99, 101}});
-  for (const int kind : {0, 1, 2}) {
+  for (const int kind : {0, 1, 2, 3}) {
     KnownThroughput now = Known({{10, 9.9, 10.1}});
     if (kind == 0) now.rows[0].spp = 1;
     if (kind == 1) now.rows[0].width = 32;
     if (kind == 2) now.rows[0].threads = 2;
+    if (kind == 3) now.rows[0].scene_hash = "of another file";
     const RateComparison c = CompareRates(before, now);
     CHECK(c.rows.empty());
     CHECK(c.refused.size() == 1);

@@ -23,7 +23,7 @@ function benchHeadline() {
   const rateOn = (threads) => {
     const rows = study.rows.filter((r) => r.target === target && r.threads === threads);
     const mean = geometricMean(rows.map((row) => row.samples_per_second));
-    return `${joined(rateTexts(mean))} samples per second on ${threadsText(threads)}`;
+    return `${joined(rateTexts(mean))} samples per wall second on ${threadsText(threads)}`;
   };
   const least = Math.min(...threadCounts),
     most = Math.max(...threadCounts);
@@ -38,8 +38,8 @@ function benchTable() {
   const efficiency = ({ parallel_efficiency: interval }) =>
     twoLines(intervalTexts(interval || { value: null }));
   return plainTable("All rows",
-    ["Scene", "Target", "Threads", "Samples / s", "Samples / processor s",
-      "Parallel efficiency", "Rays / s", "Bytes / path", "Samples per pixel", "Repeats"],
+    ["Scene", "Target", "Threads", "Samples / wall s", "Samples / processor s",
+      "Parallel efficiency", "Rays / wall s", "Bytes / path", "Samples per pixel", "Repeats"],
     study.rows.map((row) => [
       row.scene,
       row.target,
@@ -62,13 +62,14 @@ function benchSections(lines) {
       ? [strategyLegend(view, "Lines shown"), efficiencyFigure(view, lines)]
       : el("p", "Needs rows with 1 thread and with more: use --threads 1,2,4,8.");
   return [
-    section("rates", "Samples per second", rateRows(lines),
+    section("rates", "Samples per wall second", rateRows(lines),
       el("p.hint", "Median of the repeats and its " +
         `${fmtShortPercent(study.confidence)} confidence interval (order statistics).`)),
     section("threads", "Parallel efficiency against thread count", parallel),
     section("groups", "Processor time per sample, by stage",
-      el("p.lead", "Sum over all threads in the last repeat. This is a single " +
-        "measurement, so it has no interval."),
+      el("p.lead", "Each bar shows the row with the fewest threads of a scene and target: " +
+        "the sum over its threads in the last repeat. This is a single measurement, so it " +
+        "has no interval."),
       groupBars(view)),
     section("rows", "All rows", benchTable()),
   ];

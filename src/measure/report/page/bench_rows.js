@@ -30,7 +30,7 @@ function rateRows(lines) {
   const scale = whiskerScale(rates, true);
   const name = (line, { threads }) => `${line.name}, ${threadsText(threads)}`;
   return el("div.plot-figure",
-    rateAxis(scale, "Samples per second", rateTick),
+    rateAxis(scale, "Samples per wall second", rateTick),
     lines.flatMap((line) =>
       line.rows.map((row) =>
         rateRow(line.style, name(line, row), row.samples_per_second, rateTexts, scale),
@@ -71,14 +71,14 @@ function efficiencyFigure(view, lines) {
   return figure;
 }
 
-// One bar for each line, of its fewest threads: where the time of a sample goes is the same
-// on several, but for the machine.
+// One bar for each line, of the row with the fewest threads: more threads hardly change how a
+// sample's time is divided.
 function groupBars(view) {
   const bars = view.ran.map((line) => {
     const stages = line.rows[0].groups.filter((group) => group.ns_per_sample > 0);
     const total = stages.reduce((sum, group) => sum + group.ns_per_sample, 0);
     return {
-      line, name: line.name, total, text: `${fmt(total)} ns per sample`,
+      line, name: line.name, total, text: `${fmt(total)} ns per sample, ${threadsText(line.rows[0].threads)}`,
       stages: stages.map(({ name, ns_per_sample: ns, lanes }) => ({
         name,
         share: ns / total,

@@ -1,4 +1,4 @@
-"""Writes the scenes of `lanelight bench` as C++: embed_scenes.py SCENES_FOLDER OUT.cc."""
+"""Writes scenes and results of `lanelight bench` as C++: embed_bench.py SCENES RESULTS OUT.cc."""
 import pathlib
 import re
 import sys
@@ -34,14 +34,19 @@ def literal(text):
 
 
 def main():
-    folder, out = map(pathlib.Path, sys.argv[1:])
+    folder, results, out = map(pathlib.Path, sys.argv[1:])
     rows = ",\n".join(f'{{"{name}", {spp}, "{stresses}",\n{literal(whole(folder / f"{name}.pbrt"))}}}'
                       for name, spp, stresses in SCENES)
-    out.write_text("// Written by src/measure/throughput/embed_scenes.py.\n"
+    stored = ",\n".join(f'{{"{path.stem}",\n{literal(path.read_text())}}}'
+                        for path in sorted(results.glob("*.json")))
+    out.write_text("// Written by src/measure/throughput/embed_bench.py.\n"
                    '#include "src/measure/throughput/throughput.h"\n\nnamespace lanelight {\n\n'
                    "const std::vector<BenchScene>& BenchScenes() {\n"
                    f"static const std::vector<BenchScene> scenes = {{\n{rows}}};\n"
-                   "return scenes;\n}\n\n}  // namespace lanelight\n")
+                   "return scenes;\n}\n\n"
+                   "const std::vector<StoredResult>& StoredResults() {\n"
+                   f"static const std::vector<StoredResult> results = {{\n{stored}}};\n"
+                   "return results;\n}\n\n}  // namespace lanelight\n")
 
 
 main()
