@@ -132,7 +132,8 @@ struct TriedOnTiles {
   void Judge(double must_gain);
 };
 
-/// Returns the efficient one with the largest joint gain; null if none is efficient.
+/// Returns the first efficient one, or a later one whose joint gain is clearly larger;
+/// null if none is efficient.
 const TriedOnTiles* BestOf(const std::vector<TriedOnTiles>& tried);
 
 class StrategyTrial {

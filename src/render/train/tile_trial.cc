@@ -37,6 +37,8 @@ constexpr std::size_t kOmittedTiles = 8;         // of so many one, with light s
 constexpr double kGainStandardErrors = 1;        // standard errors
 // Least gain after a filter, if there is one by pixels.
 constexpr double kMinFilteredGain = 0.95;
+// A later candidate replaces an earlier one if its joint gain is this much larger.
+constexpr double kClearlyBetter = 1.5;
 
 // Places of pixels in the work, by the square of the image that they are in.
 using Squares = std::vector<std::vector<std::size_t>>;
@@ -216,9 +218,12 @@ void TriedOnTiles::Judge(double must_gain) {
 }
 
 const TriedOnTiles* BestOf(const std::vector<TriedOnTiles>& tried) {
+  // Path reuse gains more per pixel, light subpaths more after a filter.
+  const double clear = std::log(kClearlyBetter);
   const TriedOnTiles* best = nullptr;
   for (const TriedOnTiles& t : tried) {
-    if (t.is_efficient && (best == nullptr || t.LogJointGain() > best->LogJointGain()))
+    if (t.is_efficient &&
+        (best == nullptr || t.LogJointGain() > best->LogJointGain() + clear))
       best = &t;
   }
   return best;
