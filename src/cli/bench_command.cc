@@ -156,8 +156,9 @@ void AddBenchOutputs(CLI::App& command, BenchCommandOptions& options) {
   AddOption(command, "--tolerance X", options.tolerance,
             WithDefault("Fraction by which a row may be slower", options.tolerance))
       ->transform(ValueFrom(0.0, 1.0));
-  AddOption(command, "--list [DIR]", options.folder,
-            "Print stored results beside each other; measure only if scenes or other "
+  AddOption(command, "--list [DIR|FILE]", options.folder,
+            "Print stored results beside each other, or those in DIR, or FILE beside the "
+            "stored ones; measure only if scenes or other "
             "options are given; default: the results in the program")
       ->expected(0, 1);
   command.add_flag("--quiet", options.quiet, "No progress");

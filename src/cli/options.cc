@@ -106,9 +106,9 @@ void AddCheckpointOptions(CLI::App& command, CheckpointFlags& flags) {
                    ? std::string()
                    : "'" + path + "' does not end in .exr or .png";
       });
-  AddOption(
-      command, "--part I/N", flags.part,
-      "Render only part I of N into --checkpoint; `lanelight merge` combines parts");
+  AddOption(command, "--part I/N", flags.part,
+            "Render only part I of N into --checkpoint, with --spp and without --output; "
+            "`lanelight merge` combines parts");
 }
 
 Part ParsePart(const std::string& text) {

@@ -101,6 +101,8 @@ TEST_CASE("bench lists stored results, alone and beside a measured one", "[cli]"
                                !Contains("this run"));
   CHECK(RunLanelight({"bench", "--list", results.path()}).exit_code == kExitBadInput);
   REQUIRE(Bench(directory, {"--json", results / "mine.json"}).exit_code == kExitGood);
+  const ProcessResult mine = RunLanelight({"bench", "--list", results / "mine.json"});
+  CHECK_THAT(mine.out, Contains("amd-epyc-2-cores") && Contains("mine"));
   const ProcessResult both = Bench(directory, {"--list", results.path()});
   CHECK(both.exit_code == kExitGood);
   CHECK_THAT(both.out, Contains("1  this run") && Contains("2  mine") &&

@@ -16,7 +16,9 @@ constexpr int kMinSeeds = 4;  // of a ranking
 std::string WhereText(const Json& values) {
   std::string text = values.at("scene").get<std::string>();
   for (const auto& [axis, value] : values.items()) {
-    if (axis != "scene") text += fmt::format(", {} {}", axis, value.get<std::string>());
+    if (axis == "scene") continue;
+    text += fmt::format(", {} {}{}", axis, value.get<std::string>(),
+                        axis == "time" ? " s" : "");
   }
   return text;
 }

@@ -29,12 +29,19 @@ double MeasureOf(const Json& cell, const char* name) {
   return value.is_number() ? value.get<double>() : std::nan("");
 }
 
+// Returns the cost of a cell. The error of one that renders for a time falls with the
+// processor time that it got, so that only the product of both tells its efficiency.
+stat::Cost CostOf(const Json& cell) {
+  const stat::Cost cost = {MeasureOf(cell, "relmse"), MeasureOf(cell, "cpu_seconds")};
+  const bool timed = cell.at("values").contains(Key(Axis::kTime));
+  return timed ? stat::Cost{cost.error * cost.seconds, 1} : cost;
+}
+
 // Returns the costs of cells with a known error.
 Costs CostsOf(const CellGroup& group, const std::vector<Json>& cells) {
   Costs costs;
   for (const std::size_t i : group.cells) {
-    const stat::Cost cost = {MeasureOf(cells[i], "relmse"),
-                             MeasureOf(cells[i], "cpu_seconds")};
+    const stat::Cost cost = CostOf(cells[i]);
     if (!std::isfinite(cost.error) || !std::isfinite(cost.seconds)) continue;
     costs[cells[i].at("values").value(Key(Axis::kSeed), "")] = cost;
   }

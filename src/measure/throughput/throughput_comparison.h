@@ -43,9 +43,9 @@ struct KnownThroughput {
 /// Reads JSON written by ToJson(). Throws InputError.
 KnownThroughput ReadThroughput(const std::string& path);
 KnownThroughput ThroughputFromJson(const nlohmann::json& json);
-/// Returns the results in the folder, newest first; those that are part of the program if
-/// `folder` is empty. Throws InputError.
-std::vector<KnownThroughput> ListedResults(const std::string& folder);
+/// Returns the results in a folder, newest first; or those that are part of the program,
+/// with that of a file. `place` may be empty: the latter alone. Throws InputError.
+std::vector<KnownThroughput> ListedResults(const std::string& place);
 
 /// Probability that a comparison of equal programs reports any slower row.
 inline constexpr double kFalseAlarms = 0.001;

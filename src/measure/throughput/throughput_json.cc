@@ -129,20 +129,22 @@ KnownThroughput ReadThroughput(const std::string& path) {
   return known;
 }
 
-std::vector<KnownThroughput> ListedResults(const std::string& folder) {
+std::vector<KnownThroughput> ListedResults(const std::string& place) {
   std::vector<KnownThroughput> results;
-  if (folder.empty()) {
+  const bool is_file = std::filesystem::is_regular_file(place);
+  if (is_file) results.push_back(ReadThroughput(place));
+  if (is_file || place.empty()) {
     for (const StoredResult& stored : StoredResults()) {
       results.push_back(ThroughputFromJson(Json::parse(stored.text)));
       results.back().name = stored.name;
     }
   }
   std::error_code error;  // a missing folder has no results
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(place, error)) {
     if (entry.path().extension() != ".json") continue;
     results.push_back(ReadThroughput(entry.path()));
   }
-  if (results.empty()) throw InputError("no bench result (.json) in '{}'", folder);
+  if (results.empty()) throw InputError("no bench result (.json) in '{}'", place);
   std::ranges::sort(results, [](const KnownThroughput& a, const KnownThroughput& b) {
     return std::tie(b.date, a.name) < std::tie(a.date, b.name);  // newest first
   });

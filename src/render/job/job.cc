@@ -1,5 +1,7 @@
 #include "src/render/job/job.h"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "src/base/core/error.h"
@@ -44,6 +46,18 @@ void SetTransport(LoadedScene& loaded, const RenderSettings& settings) {
       {choice.refused_at, "rendered in red, green and blue, since " + choice.why});
 }
 
+// Returns why light subpaths are not supported, without advice about a flag that was not
+// given.
+std::string WhyNoLightPaths(const InputError& error) {
+  const std::string text = error.what();
+  const std::string verb = "does not support ";
+  const std::size_t at = text.find(verb);
+  if (at == std::string::npos) return text;
+  const std::size_t begin = at + verb.size();
+  const std::size_t end = std::min(text.find(": use", begin), text.size());
+  return "light subpaths do not support " + text.substr(begin, end - begin);
+}
+
 // Plans the render. Where light subpaths are not supported that only the scene's
 // integrator asks for, the scene loses them.
 Plan PlanOf(const RenderSettings& settings, SceneDescription& description,
@@ -62,7 +76,7 @@ Plan PlanOf(const RenderSettings& settings, SceneDescription& description,
     strategy.light_paths = LightPaths::kNone;
     scene = WithStrategy(std::move(scene), strategy);
     description.notes.push_back(
-        {where, fmt::format("no path starts at a light: {}", error.what())});
+        {where, "no path starts at a light: " + WhyNoLightPaths(error)});
     return MakePlan(scene, options);
   }
 }

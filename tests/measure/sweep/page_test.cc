@@ -280,6 +280,32 @@ spp = 16
   CHECK(json["leaders"][0]["equals"] == 1);
 }
 
+TEST_CASE("sweep: cells that render for a time compare by error times processor time",
+          "[sweep][report]") {
+  const TemporaryFolder folder;
+  folder.Write("a.pbrt", "");
+  const Sweep sweep = ParseSweep(folder.File("s.toml"), R"([grid]
+scene = "a.pbrt"
+strategy = ["points=cmj", "points=halton"]
+time = 2
+seed = [1, 2, 3, 4]
+)");
+  // Other programs took a part of the time, another one in each cell.
+  const double got[] = {0.3, 2, 1, 0.1, 1.9, 0.2, 0.4, 1.5};
+  std::vector<Json> cells;
+  for (const SweepCell& cell : sweep.cells) {
+    cells.push_back(CellJson(cell, {CellState::kDone, SyntheticReport(cell), ""}));
+    const double work = cell.index < 4 ? 3 : 1;
+    cells.back()["measured"]["cpu_seconds"] = got[cell.index];
+    cells.back()["measured"]["relmse"] = work / got[cell.index];
+  }
+  const Json json = SweepJson(sweep, cells, GroupCells(sweep, cells));
+  CHECK(json["groups"][1]["efficiency"]["value"].get<double>() == Approx(3));
+  CHECK(json["leaders"][0]["efficiency"]["low"].get<double>() == Approx(3));
+  CHECK_THAT(AnswerText(json["leaders"]),
+             Catch::Contains("time 2 s: points=halton has 3 [3, 3] times"));
+}
+
 TEST_CASE("The synthetic sweep can be written", "[sweep][report]") {
   WriteIfAsked("LANELIGHT_SYNTHETIC_SWEEP", SyntheticPage(SyntheticSweep()));
 }
