@@ -191,4 +191,15 @@ GroupLimits LimitsOfGroup(const std::filesystem::path& top, const std::string& g
   return minimum;
 }
 
+double RunDelaySeconds() {
+  double ns = 0;
+  std::error_code error;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
+    std::istringstream times(FileText(task.path() / "schedstat"));
+    double running = 0, waiting = 0;
+    if (times >> running >> waiting) ns += waiting;
+  }
+  return 1e-9 * ns;
+}
+
 }  // namespace lanelight

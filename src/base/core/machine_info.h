@@ -42,6 +42,10 @@ bool IsOverloaded(const MachineInfo& machine);
 std::vector<std::string> BusyReasons(const MachineInfo& machine, double waiting);
 inline constexpr double kMaxWaiting = 0.1;
 
+/// Returns the seconds that threads of this process, also those without a task, have
+/// waited for a processor (Linux; otherwise 0).
+double RunDelaySeconds();
+
 /// Adds the machine, unless the list has one that differs in its load alone: that one
 /// then gets the higher load.
 void AddMachine(const MachineInfo& machine, std::vector<MachineInfo>& machines);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <utility>
 
 #include "kernels/simd/target.h"
@@ -41,19 +40,6 @@ double MeanOf(const FilmAccumulator& film) {
 std::uint64_t HashOf(const std::string& scene) {
   const BenchScene* const found = FindBenchScene(scene);
   return found == nullptr ? HashSceneFiles(scene) : Hash64(found->text);
-}
-
-// Returns the seconds that threads of this process, also those without a task, have
-// waited for a processor (Linux; otherwise 0).
-double RunDelaySeconds() {
-  double ns = 0;
-  std::error_code error;
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
-    std::ifstream file(task.path() / "schedstat");
-    double running = 0, waiting = 0;
-    if (file >> running >> waiting) ns += waiting;
-  }
-  return 1e-9 * ns;
 }
 
 // Renders the job once and returns the mean of its image.

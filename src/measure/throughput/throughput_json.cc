@@ -135,7 +135,7 @@ std::vector<KnownThroughput> ListedResults(const std::string& place) {
   if (is_file) results.push_back(ReadThroughput(place));
   if (is_file || place.empty()) {
     for (const StoredResult& stored : StoredResults()) {
-      results.push_back(ThroughputFromJson(Json::parse(stored.text)));
+      results.push_back(ThroughputFromJson(ParseJson(stored.text)));
       results.back().name = stored.name;
     }
   }
