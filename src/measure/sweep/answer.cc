@@ -1,4 +1,4 @@
-// What a sweep has found out, for the terminal.
+// Writes the best strategies of a sweep for the terminal.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

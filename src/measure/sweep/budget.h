@@ -9,7 +9,7 @@
 
 namespace lanelight {
 
-/// What a budget comes to, for each process that renders a part.
+/// The cells and times of each process that renders a part.
 struct BudgetPlan {
   std::size_t cells = 0;    // of a part
   double cell_seconds = 0;  // wall time of the render of each

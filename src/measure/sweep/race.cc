@@ -77,6 +77,15 @@ bool HaveSeeds(const std::vector<Racer>& racers, const std::vector<std::size_t>&
   });
 }
 
+// Enters a finished cell; an unknown cost is NaN, and ends the looks of its race.
+void EnterCell(Race& race, const SweepCell& cell, const nlohmann::json& json) {
+  const auto number = [&](const char* name) {
+    const nlohmann::json value = json.at("measured").value(name, nlohmann::json());
+    return value.is_number() ? value.get<double>() : NAN;
+  };
+  race.Enter(cell.index, number("relmse"), number("cpu_seconds"));
+}
+
 }  // namespace
 
 std::vector<std::size_t> StopsOf(const std::vector<Racer>& racers, std::size_t seeds) {
@@ -153,6 +162,29 @@ const std::vector<std::size_t>& Race::Rivals(std::size_t cell) const {
 
 bool Race::IsStopped(std::size_t cell) const {
   return rounds_[cell] >= contexts_[context_of_[cell]].stops[racer_of_[cell]];
+}
+
+void EnterIfDone(Race& race, SweepFolder& folder, const SweepCell& cell) {
+  const CellRecord record = folder.ReadCell(cell);
+  if (record.state == CellState::kDone) EnterCell(race, cell, CellJson(cell, record));
+}
+
+std::size_t MarkStopped(const Sweep& sweep, std::vector<nlohmann::json>& cells) {
+  Race race(sweep);
+  for (const SweepCell& cell : sweep.cells) {
+    const nlohmann::json& json = cells[cell.index];
+    if (json.at("status") == Name(CellState::kDone)) EnterCell(race, cell, json);
+  }
+  std::size_t stopped = 0;
+  for (const SweepCell& cell : sweep.cells) {
+    nlohmann::json& json = cells[cell.index];
+    if (json.at("status") != Name(CellState::kMissing)) continue;
+    if (!race.IsStopped(cell.index)) continue;
+    json["status"] = Name(CellState::kStopped);
+    json["message"] = "clearly less efficient than the best (--race)";
+    ++stopped;
+  }
+  return stopped;
 }
 
 }  // namespace lanelight

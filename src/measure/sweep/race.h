@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -65,5 +66,8 @@ class Race {
 
 /// Enters a cell if it is finished.
 void EnterIfDone(Race& race, SweepFolder& folder, const SweepCell& cell);
+/// Sets missing cells (of CellJson) that are not needed to kStopped; returns their
+/// number.
+std::size_t MarkStopped(const Sweep& sweep, std::vector<nlohmann::json>& cells);
 
 }  // namespace lanelight

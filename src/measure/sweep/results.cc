@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <optional>
 #include <set>
 
 #include "src/base/core/json_text.h"
@@ -152,31 +150,11 @@ std::string SweepCsv(const std::vector<Json>& cells) {
   return text;
 }
 
-void EnterIfDone(Race& race, SweepFolder& folder, const SweepCell& cell) {
-  const CellRecord record = folder.ReadCell(cell);
-  if (record.state != CellState::kDone) return;
-  const Json measured = CellJson(cell, record).at("measured");
-  const Json error = measured.value("relmse", Json());
-  const Json seconds = measured.value("cpu_seconds", Json());
-  const bool known = error.is_number() && seconds.is_number();
-  race.Enter(cell.index, known ? error.get<double>() : NAN,
-             known ? seconds.get<double>() : NAN);
-}
-
 void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
                   SweepOutcome& outcome) {
-  std::optional<Race> all;
-  if (race) {
-    all.emplace(sweep);
-    for (const SweepCell& cell : sweep.cells) EnterIfDone(*all, folder, cell);
-  }
   std::vector<Json> cells;
   for (const SweepCell& cell : sweep.cells) {
-    CellRecord record = folder.ReadCell(cell);
-    if (all && record.state == CellState::kMissing && all->IsStopped(cell.index)) {
-      record = {CellState::kStopped, {}, "clearly less efficient than the best (--race)"};
-      ++outcome.stopped;
-    }
+    const CellRecord record = folder.ReadCell(cell);
     FromJsonOf(folder.File(cell, "report.json"), [&] {
       cells.push_back(CellJson(cell, record));
       if (record.state != CellState::kDone) return;
@@ -190,6 +168,7 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
       outcome.failures.push_back({cell.name, record.message});
     }
   }
+  if (race) outcome.stopped = MarkStopped(sweep, cells);
   outcome.total = sweep.cells.size();
   outcome.other_cells = folder.OtherCells();
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));

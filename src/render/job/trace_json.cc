@@ -13,7 +13,7 @@
 namespace lanelight {
 namespace {
 
-// What TraceEvent::row stands for.
+// Returns the stages and parts by TraceEvent::row.
 std::vector<const StageProfile*> TraceRows(const RunResult& result) {
   std::vector<const StageProfile*> rows;
   for (const StageProfile& s : result.stages) rows.push_back(&s);

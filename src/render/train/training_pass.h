@@ -31,7 +31,7 @@ struct TrainingPass {
   const TaskWatcher* watcher = nullptr;
   /// Ranks that share the tasks, whose watcher then counts; may be null.
   RankPasses* ranks = nullptr;
-  /// With light-paths=splats: weighs the errors of subpaths.
+  /// Weighs the errors of subpaths; needed with light-paths=splats alone.
   const PilotImage* image = nullptr;
 };
 

@@ -20,8 +20,8 @@ struct TileSamples {
   int width = 0;
   float* values = nullptr;
   std::uint32_t count = 0;  // per pixel
-  /// What light subpaths have brought to pixels of the film, if it keeps that, and their
-  /// number.
+  /// The light of light subpaths in pixels of the film, if it keeps that, and the number
+  /// of these subpaths.
   std::vector<PixelSplat>* splats = nullptr;
   std::uint64_t light_paths = 0;
 };

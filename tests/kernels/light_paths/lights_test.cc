@@ -198,7 +198,7 @@ TEST_CASE("splats: lights that start subpaths, and those that do not", "[light_p
   starts({true, true});
   b.AddPoint({0, 0, 1}, Grey(1));
   starts({true, true, true});
-  // Of a ray that leaves the scene, subpaths would find a part only.
+  // Subpaths would find only a part of the light of a ray that leaves the scene.
   b.scene().lights.push_back(Sky("door.exr", 10));
   b.scene().lights.back().portal = {{-2, -3, 2}, {-2, 2, 2}, {2, 2, 2}, {2, -3, 2}};
   starts({true, false, true, false});

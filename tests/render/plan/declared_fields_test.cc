@@ -36,7 +36,7 @@ struct DeclaredCase {
   bool records = false;  // a training pass that records
 };
 
-// What light subpaths support: lights of all kinds, spheres, a lens and a filter.
+// A scene that light subpaths support: lights of all kinds, spheres, a lens, a filter.
 constexpr char kLampsScene[] = R"(
 LookAt 0 2 -6  0 0.8 0  0 1 0
 Camera "perspective" "float fov" 40 "float lensradius" 0.1 "float focaldistance" 6
