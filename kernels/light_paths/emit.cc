@@ -101,10 +101,11 @@ HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
 // The start of a light subpath.
 struct Start {
   V3 o, d;
-  V3 light;    // radiance, intensity or irradiance of the light
-  VF scale;    // factor that makes it the estimate; 0: no subpath starts
-  VF chain;    // column lp_chain
-  VF density;  // column lp_pdf
+  V3 light;                     // radiance, intensity or irradiance of the light
+  VF scale;                     // factor that makes it the estimate; 0: no subpath starts
+  VF chain;                     // column lp_chain
+  VF density;                   // column lp_pdf
+  VI cell = hn::Set(DI(), -1);  // of EmissionGuide, of lights at infinity
 
   HWY_INLINE void Take(MF mask, const Start& s) {
     o = IfThenElse(mask, s.o, o);
@@ -113,6 +114,7 @@ struct Start {
     scale = hn::IfThenElse(mask, s.scale, scale);
     chain = hn::IfThenElse(mask, s.chain, chain);
     density = hn::IfThenElse(mask, s.density, density);
+    cell = hn::IfThenElse(hn::RebindMask(DI(), mask), s.cell, cell);
   }
 };
 
@@ -120,6 +122,7 @@ struct Start {
 struct StartNumbers {
   VF select, alias, side;
   V2 place, direction;
+  VF guide, cell, cell_alias;  // whether EmissionGuide is used, and a cell of it
 
   HWY_INLINE StartNumbers(const Wave& wave, const Slots& slots) {
     const DU du;
@@ -135,10 +138,16 @@ struct StartNumbers {
     direction = {u[3], v[0]};
     alias = v[1];
     side = v[2];
+    if (GuideOf(wave) == nullptr) return;
+    VF w[4];
+    random.Next4(w);
+    guide = v[3];
+    cell = w[0];
+    cell_alias = w[1];
   }
 };
 
-HWY_INLINE VI SelectStart(const LightEmission& table, const StartNumbers& u) {
+HWY_INLINE VI SelectStart(const LightStarts& table, const StartNumbers& u) {
   const VF count = Splat(static_cast<float>(table.alias.size()));
   const VI last = hn::Set(DI(), static_cast<int32_t>(table.alias.size()) - 1);
   const VI bin = hn::Min(hn::ConvertTo(DI(), hn::Mul(u.select, count)), last);
@@ -209,21 +218,48 @@ HWY_INLINE Start StartAtPosition(const Wave& wave, const Lights& light, VF inver
   return start;
 }
 
+// Returns a place on the disk, or where the guide says.
+HWY_INLINE DiskPlace SamplePlace(const Wave& wave, const GuideSquare& square,
+                                 const StartNumbers& u) {
+  const V2 at = SampleDisk(u.place.x, u.place.y);
+  const EmissionGuide* guide = GuideOf(wave);
+  if (guide == nullptr) return {at.x, at.y};
+  const DI di;
+  const int32_t cells = static_cast<int32_t>(square.side * square.side);
+  const VF scaled = hn::Mul(u.cell, Splat(static_cast<float>(cells)));
+  VI local = hn::Min(hn::ConvertTo(di, scaled), hn::Set(di, cells - 1));
+  const VI entry = hn::Add(hn::Max(square.first, hn::Zero(di)), local);
+  const MF own = hn::Lt(u.cell_alias, Gather(guide->alias_q.data(), entry));
+  local =
+      hn::IfThenElse(hn::RebindMask(di, own), local, Gather(guide->alias.data(), entry));
+  const VF side = Splat(static_cast<float>(square.side)), one = Splat(1.0f);
+  const VF row =
+      hn::Floor(hn::Div(hn::Add(hn::ConvertTo(DF(), local), Splat(0.5f)), side));
+  const VF column = hn::NegMulAdd(row, side, hn::ConvertTo(DF(), local));
+  const VF unit = Splat(2 / static_cast<float>(square.side));
+  const VF x = hn::MulSub(hn::Add(column, u.place.x), unit, one);
+  const VF y = hn::MulSub(hn::Add(row, u.place.y), unit, one);
+  const MF guided = hn::And(hn::Ge(u.guide, Splat(EmissionGuide::kDefensive)),
+                            hn::RebindMask(DF(), hn::Gt(square.first, hn::Set(di, -1))));
+  return {hn::IfThenElse(guided, x, at.x), hn::IfThenElse(guided, y, at.y)};
+}
+
 // Returns the start for light from the direction `toward` it, whose density is 1 /
 // `inverse`. E never finds it, unless the caller sets `chain`.
 HWY_INLINE Start FromDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
-                          const StartNumbers& u) {
+                          const GuideSquare& square, const StartNumbers& u) {
   const LightTable& table = *wave.lights;
-  const VF radius = Splat(table.radius), disk = DiskDensity(wave);
-  const V2 at = SampleDisk(u.place.x, u.place.y);
+  const DiskPlace place = SamplePlace(wave, square, u);
+  const VF radius = Splat(table.radius), density = OriginDensity(wave, square, place);
   const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
-  const V3 local = {hn::Mul(at.x, radius), hn::Mul(at.y, radius), radius};
+  const V3 local = {hn::Mul(place.x, radius), hn::Mul(place.y, radius), radius};
   const V3 o = center + FrameFromNormal(toward).FromLocal(local);
-  VF scale = hn::Div(inverse, disk);
+  VF scale = hn::Div(inverse, density);
   if (HasPlanes(wave)) {
     scale = hn::IfThenZeroElse(IsBehindPlane(wave, o, toward), scale);
   }
-  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(disk)};
+  return {
+      o, -toward, light, scale, hn::Zero(DF()), hn::Neg(density), square.CellOf(place)};
 }
 
 // Takes the starts of infinite lights, one image after the other.
@@ -232,7 +268,7 @@ HWY_INLINE void TakeSky(const Wave& wave, const Lights& light, VF inverse_pmf,
   const LightTable& table = *wave.lights;
   const auto take = [&](MF mine, V3 toward, V3 radiance, VF pdf_sa) HWY_ATTR {
     const VF inverse = hn::Div(inverse_pmf, pdf_sa);
-    Start from = FromDisk(wave, toward, radiance, inverse, u);
+    Start from = FromDisk(wave, toward, radiance, inverse, SquareOfSky(wave, toward), u);
     // At the edges of texels the two may differ.
     const VF density = SkyDensity(wave, toward);
     from.chain = hn::Min(inverse, hn::Div(Splat(1.0f), density));
@@ -275,10 +311,21 @@ HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
     const MF mine = HasShape(light, LightShape::kDistant);
     const V3 toward =
         IfThenElse(mine, light.F3(offsetof(LightRecord, direction)), Splat3(0, 0, 1));
-    start.Take(mine, FromDisk(wave, toward, light.Radiance(), inverse_pmf, u));
+    start.Take(mine, FromDisk(wave, toward, light.Radiance(), inverse_pmf,
+                              SquareOfDistant(wave, index), u));
   }
   if (StartAtSky(emission)) TakeSky(wave, light, inverse_pmf, u, start);
   return start;
+}
+
+// Tells a training pass where subpaths start: by cell, or behind these by light.
+HWY_INLINE void StoreStart(const Wave& wave, const StoreSlots& slots, VI index, VI cell) {
+  if (wave.light_splats->starts == nullptr) return;
+  const VI behind = hn::Set(DI(), static_cast<int32_t>(GuideOf(wave)->num_cells));
+  const VI start =
+      hn::IfThenElse(hn::Lt(cell, hn::Zero(DI())), hn::Add(behind, index), cell);
+  Scatter(start, reinterpret_cast<int32_t*>(wave.light_splats->starts),
+          Gather(wave.path.output, slots));
 }
 
 void EmitLightPath(Wave& wave) {
@@ -287,7 +334,7 @@ void EmitLightPath(Wave& wave) {
                [&](const StoreSlots& slots, MF valid) HWY_ATTR {
                  StoreFirstValues(wave, slots);
                  const StartNumbers u(wave, slots);
-                 const VI index = SelectStart(wave.chances->emission, u);
+                 const VI index = SelectStart(StartsOf(wave), u);
                  const Lights light(wave, index);
                  const Start start = StartAt(wave, light, index, u);
                  const V3 leaves = AsCarried(wave, slots, index, start.light);
@@ -302,6 +349,7 @@ void EmitLightPath(Wave& wave) {
                  Scatter(start.chain, p.lp_chain, slots);
                  Scatter(start.density, p.lp_pdf, slots);
                  Scatter(light.Primitive(), p.prim, slots);
+                 StoreStart(wave, slots, index, start.cell);
                  Push(wave.queue(QueueId::kActive), slots, hn::And(valid, starts));
                  Push(wave.queue(QueueId::kDone), slots, hn::AndNot(starts, valid));
                });

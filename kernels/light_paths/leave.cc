@@ -21,6 +21,14 @@ HWY_INLINE VF ChainThrough(VF chain, VF back, MF specular, VI number) {
   return hn::IfThenElse(first, one, through);
 }
 
+// Returns the light subpaths that end here: E never finds their light, so that the
+// product is 0 (emit.cc), and N does not find it by way of a mirror.
+HWY_INLINE MF BeginsDeltaCaustic(const Wave& wave, VI number, MF specular, VF chain) {
+  const VF zero = hn::Zero(DF());
+  if (wave.chances->emission.delta_caustics) return hn::Lt(zero, zero);
+  return hn::And(hn::And(specular, IsNumber(number, 1)), hn::Eq(chain, zero));
+}
+
 template <class Bsdf, bool kLight>
 HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
   const PathColumns& p = wave.path;
@@ -46,7 +54,9 @@ HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
       const VF geometric = hn::Mul(hn::Abs(Dot(vertex.ng, in)), hn::Abs(wi.z));
       const VF factor = hn::Mul(hn::Div(shading, geometric), Gather(p.eta_scale, slots));
       const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
-      Scatter3(Mul(beta, factor), p.beta_r, p.beta_g, p.beta_b, slots);
+      const MF kept = hn::Not(BeginsDeltaCaustic(wave, number, specular, chain));
+      Scatter3(IfThenElseZero(kept, Mul(beta, factor)), p.beta_r, p.beta_g, p.beta_b,
+               slots);
       Scatter(Splat(1.0f), p.eta_scale, slots);
     } else {
       Scatter(next, p.lp_chain, slots);

@@ -11,14 +11,25 @@
 #include "kernels/lights/environment-inl.h"
 #include "kernels/lights/light_points-inl.h"
 #include "kernels/light_paths/chain-inl.h"
+#include "src/scene/prepare/tables.h"
 
 LANELIGHT_BEGIN_KERNELS
 
 HWY_INLINE bool HasPlanes(const Wave& wave) { return !wave.geometry->planes.empty(); }
 
+/// Returns what has been learned of subpaths from infinity; null if nothing has.
+HWY_INLINE const EmissionGuide* GuideOf(const Wave& wave) {
+  const StrategyTables* tables = wave.run->tables;
+  return tables != nullptr && tables->emission.has_learned() ? &tables->emission
+                                                             : nullptr;
+}
+HWY_INLINE const LightStarts& StartsOf(const Wave& wave) {
+  const EmissionGuide* guide = GuideOf(wave);
+  return guide == nullptr ? wave.chances->emission : guide->lights;
+}
 /// Returns the probability of each light to start subpaths; 0: none start there.
 HWY_INLINE VF StartPmf(const Wave& wave, VI index) {
-  return Gather(wave.chances->emission.pmf.data(), index);
+  return Gather(StartsOf(wave).pmf.data(), index);
 }
 
 /// Returns the density, by area, of the points of shapes; 0 for other lights.
@@ -78,16 +89,71 @@ HWY_INLINE bool StartAtPositions(const LightEmission& emission) {
          emission.Has(LightShape::kGoniometric) || emission.Has(LightShape::kProjection);
 }
 
-/// Returns whether rays from lights at infinity to these points start on the disk before
-/// them. Points of infinite planes lie beside it and beyond.
-HWY_INLINE MF PassDisk(const Wave& wave, V3 at, V3 toward) {
+/// A place on the disk before lights at infinity, in units of its radius.
+struct DiskPlace {
+  VF x, y;
+  MF on_disk, on_square;
+
+  HWY_INLINE DiskPlace(VF along_x, VF along_y) : x(along_x), y(along_y) {
+    const VF one = Splat(1.0f);
+    on_disk = hn::Lt(hn::MulAdd(x, x, hn::Mul(y, y)), one);
+    on_square = hn::Lt(hn::Max(hn::Abs(x), hn::Abs(y)), one);
+  }
+};
+
+/// Returns where rays from infinity to these points start. Points of infinite planes lie
+/// beside the disk, or beyond it: these have no place.
+HWY_INLINE DiskPlace PlaceOnDisk(const Wave& wave, V3 at, V3 toward) {
   const LightTable& table = *wave.lights;
-  const VF radius = Splat(table.radius);
-  const V3 from_center = at - Splat3(table.center[0], table.center[1], table.center[2]);
-  const VF along = Dot(from_center, toward);
-  const V3 aside = MulAdd(toward, hn::Neg(along), from_center);
-  const MF within = hn::Lt(Dot(aside, aside), hn::Mul(radius, radius));
-  return hn::And(within, hn::Lt(along, radius));
+  const VF inverse = Splat(1 / table.radius);
+  const V3 from =
+      Mul(at - Splat3(table.center[0], table.center[1], table.center[2]), inverse);
+  const ShadingFrame frame = FrameFromNormal(toward);
+  DiskPlace place(Dot(from, frame.s), Dot(from, frame.t));
+  const MF before = hn::Lt(Dot(from, toward), Splat(1.0f));
+  place.on_disk = hn::And(place.on_disk, before);
+  place.on_square = hn::And(place.on_square, before);
+  return place;
+}
+
+/// A square of cells for each lane; `first` < 0: none.
+struct GuideSquare {
+  VI first;
+  uint32_t side;
+
+  HWY_INLINE VI CellOf(const DiskPlace& place) const {
+    const VF half = Splat(0.5f * static_cast<float>(side));
+    const VI last = hn::Set(DI(), static_cast<int32_t>(side) - 1);
+    const auto along = [&](VF v) HWY_ATTR {
+      const VI cell = hn::ConvertTo(DI(), hn::MulAdd(v, half, half));
+      return hn::Max(hn::Zero(DI()), hn::Min(cell, last));
+    };
+    const VI row = hn::Mul(along(place.y), hn::Set(DI(), static_cast<int32_t>(side)));
+    return hn::Add(hn::Max(first, hn::Zero(DI())), hn::Add(row, along(place.x)));
+  }
+};
+
+HWY_INLINE GuideSquare SquareOfDistant(const Wave& wave, VI index) {
+  const EmissionGuide* guide = GuideOf(wave);
+  const VI none = hn::Set(DI(), -1);
+  const VI first = guide == nullptr ? none : Gather(guide->distant.data(), index);
+  return {first, EmissionGuide::kSunSide};
+}
+
+/// Returns the square of the direction's bin.
+HWY_INLINE GuideSquare SquareOfSky(const Wave& wave, V3 toward) {
+  const EmissionGuide* guide = GuideOf(wave);
+  const DI di;
+  constexpr uint32_t kSide = EmissionGuide::kSkySide, kBins = EmissionGuide::kSkyBins;
+  if (guide == nullptr || guide->sky < 0) return {hn::Set(di, -1), kSide};
+  const VF one = Splat(1.0f), inverse = hn::Div(one, SumAbs(toward));
+  const VF x = hn::Mul(toward.x, inverse), y = hn::Mul(toward.y, inverse);
+  const MF below = hn::Lt(toward.z, hn::Zero(DF()));
+  const VF u = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(y)), x), x);
+  const VF v = hn::IfThenElse(below, hn::CopySign(hn::Sub(one, hn::Abs(x)), y), y);
+  const VI bin = GuideSquare{hn::Zero(di), kBins}.CellOf(DiskPlace(u, v));
+  const VI cells = hn::Mul(bin, hn::Set(di, static_cast<int32_t>(kSide * kSide)));
+  return {hn::Add(hn::Set(di, guide->sky), cells), kSide};
 }
 /// Returns whether a plane lies between these points and infinity.
 HWY_INLINE MF IsBehindPlane(const Wave& wave, V3 at, V3 toward) {
@@ -102,10 +168,20 @@ HWY_INLINE MF IsBehindPlane(const Wave& wave, V3 at, V3 toward) {
   return behind;
 }
 
-/// Returns the density of origins on the disk before lights at infinity.
-HWY_INLINE VF DiskDensity(const Wave& wave) {
-  const float radius = wave.lights->radius;
-  return Splat(kInvPi / (radius * radius));
+/// Returns the density of origins, by area, before lights at infinity.
+HWY_INLINE VF OriginDensity(const Wave& wave, const GuideSquare& square,
+                            const DiskPlace& place) {
+  const float radius2 = wave.lights->radius * wave.lights->radius;
+  const VF disk = hn::IfThenElseZero(place.on_disk, Splat(kInvPi / radius2));
+  const EmissionGuide* guide = GuideOf(wave);
+  if (guide == nullptr) return disk;
+  const float cells = static_cast<float>(square.side * square.side);
+  const VF pmf = Gather(guide->pmf.data(), square.CellOf(place));
+  const VF per_area = Splat((1 - EmissionGuide::kDefensive) * cells / (4 * radius2));
+  const VF learned = hn::IfThenElseZero(place.on_square, hn::Mul(pmf, per_area));
+  const VF both = hn::MulAdd(disk, Splat(EmissionGuide::kDefensive), learned);
+  const MF none = hn::RebindMask(DF(), hn::Lt(square.first, hn::Zero(DI())));
+  return hn::IfThenElse(none, disk, both);
 }
 HWY_INLINE bool StartAtSky(const LightEmission& emission) {
   return emission.Has(LightShape::kInfiniteConstant) ||
@@ -124,7 +200,7 @@ HWY_INLINE VF SkyDensity(const Wave& wave, V3 toward) {
       const Environment& e = table.environments[static_cast<uint32_t>(light.environment)];
       pdf = LookUpEnvironment(e, *e.table, toward).pdf_sa;
     }
-    sum = hn::MulAdd(pdf, Splat(wave.chances->emission.pmf[index]), sum);
+    sum = hn::MulAdd(pdf, Splat(StartsOf(wave).pmf[index]), sum);
   }
   return sum;
 }
@@ -155,17 +231,20 @@ HWY_INLINE LastStep StepToShape(const Wave& wave, const Lights& light, VI index,
 
 /// Returns the density of subpaths from a light at infinity to points, over the cosine
 /// there and the density of their direction.
-HWY_INLINE VF DensityFromDisk(const Wave& wave, V3 at, V3 toward) {
-  const VF density = DiskDensity(wave);
-  if (!HasPlanes(wave)) return density;
-  return hn::IfThenElseZero(PassDisk(wave, at, toward), density);
+HWY_INLINE VF DensityFromDisk(const Wave& wave, V3 at, V3 toward,
+                              const GuideSquare& square) {
+  if (!HasPlanes(wave) && GuideOf(wave) == nullptr) {
+    const float radius = wave.lights->radius;
+    return Splat(kInvPi / (radius * radius));
+  }
+  return OriginDensity(wave, square, PlaceOnDisk(wave, at, toward));
 }
 
 /// Returns the step from points to infinite lights.
 HWY_INLINE LastStep StepToSky(const Wave& wave, V3 at, V3 toward) {
   const VF density = SkyDensity(wave, toward);
-  return {hn::Mul(density, DensityFromDisk(wave, at, toward)), density,
-          hn::Gt(density, hn::Zero(DF()))};
+  return {hn::Mul(density, DensityFromDisk(wave, at, toward, SquareOfSky(wave, toward))),
+          density, hn::Gt(density, hn::Zero(DF()))};
 }
 
 LANELIGHT_END_KERNELS

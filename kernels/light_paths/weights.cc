@@ -60,7 +60,8 @@ HWY_NOINLINE LastStep StepToSample(const Wave& wave, const Slots& slots) {
   }
   if (emission.Has(LightShape::kDistant)) {
     step.Take(hn::And(starts, HasShape(light, LightShape::kDistant)),
-              {DensityFromDisk(wave, from, to_light), one, hn::Lt(one, zero)});
+              {DensityFromDisk(wave, from, to_light, SquareOfDistant(wave, index)), one,
+               hn::Lt(one, zero)});
   }
   if (StartAtSky(emission)) {
     const MF sky = hn::Or(HasShape(light, LightShape::kInfiniteConstant),

@@ -50,6 +50,9 @@ void AddLightPaths(const PreparedScene& scene, const Strategy& strategy, Feature
   if (strategy.directions != Directions::kMis || !f.Has(Feature::kLights)) return;
   if (scene.chances->emission.empty() || !HasAnyOf(f, kSplattingKinds)) return;
   f.Add(TurnsOn(strategy.light_paths));
+  if (f.Has(Feature::kLightPaths) && scene.chances->emission.HasAny(kFarLight)) {
+    f.Add(Feature::kGuidedEmission);
+  }
 }
 
 bool HasDeltaLights(const FeatureSet& f) { return f.HasAny(LightsWith(kDeltaLight)); }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "src/base/core/error.h"
+#include "src/scene/prepare/emission_guide.h"
 
 namespace lanelight {
 namespace {
@@ -59,6 +61,10 @@ constexpr char kInverse[] = "path_values_inverse";
 // Left out of the state where nothing is known.
 constexpr char kShadowThresholdColumn[] = "shadow_worth_inverse";
 
+// Left out unless light subpaths come from infinity.
+constexpr char kEmissionCells[] = "emission_cells";
+constexpr char kEmissionLights[] = "emission_lights";
+
 constexpr std::uint64_t kHeadSize = 13;
 
 }  // namespace
@@ -86,6 +92,12 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
         {kShadowThresholdColumn,
          "inverse weight of shadow rays, by pixel of the full image and channel",
          {shadow.begin(), shadow.end()}});
+  }
+  if (tables.emission.has_learned()) {
+    trained.push_back({kEmissionCells, "weights of where subpaths from infinity start",
+                       tables.emission.cell_weights});
+    trained.push_back({kEmissionLights, "weights of the lights where subpaths start",
+                       tables.emission.light_weights});
   }
   return trained;
 }
@@ -160,11 +172,28 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
   }
 }
 
+void PutEmission(const std::vector<TrainedTable>& trained, EmissionGuide& guide) {
+  EmissionWeights weights = {TableOf(trained, kEmissionCells),
+                             TableOf(trained, kEmissionLights)};
+  CheckSize(kEmissionCells, weights.cells.size(), guide.num_cells,
+            "that of the scene's lights at infinity");
+  CheckSize(kEmissionLights, weights.lights.size(), guide.distant.size(),
+            "one for each light");
+  if (!AreUsable(weights, guide)) {
+    throw InputError(fmt::format(
+        "the state's tables '{}' and '{}' must have finite values of at least 0, and "
+        "some above 0 for each light",
+        kEmissionCells, kEmissionLights));
+  }
+  Learn(std::move(weights), guide);
+}
+
 }  // namespace
 
 void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
                     StrategyTables& tables) {
   PutPathValues(trained, pixels, tables.path_values);
+  if (HasTable(trained, kEmissionCells)) PutEmission(trained, tables.emission);
   if (!HasTable(trained, kShadowThresholdColumn)) return;
   const std::vector<double>& shadow = TableOf(trained, kShadowThresholdColumn);
   CheckPixels(kShadowThresholdColumn, shadow.size(), pixels);
@@ -178,6 +207,7 @@ void CheckTrained(const Plan& plan, const StrategyTables& tables) {
         "the state's table '{}' is empty or missing: its strategy needs it", table));
   };
   check(Feature::kPathValues, tables.path_values.survive.empty(), kSurvive);
+  check(Feature::kGuidedEmission, !tables.emission.has_learned(), kEmissionCells);
   check(Feature::kEfficiencyRoulette, tables.path_values.split.empty(), kSplit);
 }
 

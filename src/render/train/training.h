@@ -51,6 +51,7 @@ struct TrainingContext {
 // trains what it compares, and what it has chosen.
 #define LANELIGHT_TRAININGS(X) \
   X(PathValues, kPathValues)   \
+  X(Emission, kGuidedEmission) \
   X(ShadowThreshold, kContributionShadowRoulette)
 
 #define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);

@@ -144,20 +144,24 @@ void LightSubpaths::Trace(const TileWork& work, Wave& paths, StageClock* clock,
   light.together = 1;
   light.next_pixel = light.next_sample = 0;
   if (light.samples == 0) return;
+  TraceVertices(light, paths, clock);
   const std::size_t count = std::size_t{light.num_pixels} * light.samples;
-  MakeRoom(count);
+  for (std::size_t path = 0; path < count; ++path) Filter(path, out);
+  for (PixelSplat& splat : out) CheckSplat(splat, paths.health);
+}
+
+void LightSubpaths::TraceVertices(const TileWork& work, Wave& paths, StageClock* clock) {
+  MakeRoom(std::size_t{work.num_pixels} * work.samples);
   const Phase& phase = *plan_.Find(PhaseId::kLightPaths);
   run_ = *paths.run;
   run_.seed ^= kLightSeed;
   run_.features = phase.features;
   run_.max_depth = std::min(run_.max_depth, kMaxLightVertices);
   light_.rays_closest = light_.rays_shadow = 0;
-  light_.Begin(light, {});
+  light_.Begin(work, {});
   RunPhase(light_, phase, clock);
   paths.rays_closest += light_.rays_closest;
   paths.rays_shadow += light_.rays_shadow;
-  for (std::size_t path = 0; path < count; ++path) Filter(path, out);
-  for (PixelSplat& splat : out) CheckSplat(splat, paths.health);
 }
 
 // Adds what a subpath brings, once for each pixel.

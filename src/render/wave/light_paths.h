@@ -33,6 +33,24 @@ class LightSubpaths {
   /// to the counts of `paths`.
   void Trace(const TileWork& work, Wave& paths, StageClock* clock,
              std::vector<PixelSplat>& out);
+  /// Traces one subpath for each sample, and keeps where it starts (LightSplats::starts):
+  /// visit(start, light) is called for each, with the sum of what it brings to the film.
+  template <class Visit>
+  void TraceStarts(const TileWork& work, Wave& paths, const Visit& visit) {
+    const std::size_t count = std::size_t{work.num_pixels} * work.samples;
+    starts_.assign(count, 0);
+    splats_.starts = starts_.data();
+    TraceVertices(work, paths, nullptr);
+    for (std::size_t path = 0; path < count; ++path) {
+      double light = 0;
+      for (std::size_t v = 0; v < kMaxLightVertices; ++v) {
+        const std::size_t entry = path * kMaxLightVertices + v;
+        if (splats_.present[entry] == 0) continue;
+        for (const float* c : splats_.light) light += double(c[entry]);
+      }
+      visit(starts_[path], light);
+    }
+  }
   /// Calls visit(subpath, share, splats) for each vertex of the last task that the camera
   /// sees: the MIS weight of camera paths there, and what it brings to pixels. Subpaths
   /// of a pixel are consecutive.
@@ -48,6 +66,7 @@ class LightSubpaths {
   }
 
  private:
+  void TraceVertices(const TileWork& work, Wave& paths, StageClock* clock);
   void MakeRoom(std::size_t paths);
   void Filter(std::size_t path, std::vector<PixelSplat>& out);
   bool IsApart(std::size_t entry, std::size_t path) const;
@@ -63,6 +82,7 @@ class LightSubpaths {
   std::size_t room_ = 0;
   UntouchedVector<std::uint32_t> entries_;
   std::vector<float> column_, row_;  // values of the filter
+  std::vector<std::uint32_t> starts_;
 };
 
 }  // namespace lanelight

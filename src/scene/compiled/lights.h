@@ -144,14 +144,21 @@ struct LightAnchor {
 };
 static_assert(sizeof(LightAnchor) == 16);
 
-/// Lights at which light subpaths start (light-paths=splats), selected by power. Walker's
-/// alias table as in LightChances.
-struct LightEmission {
+/// Probabilities of the lights at which light subpaths start. Walker's alias table as in
+/// LightChances.
+struct LightStarts {
   AlignedVector<float> pmf;  // per light; 0: none start there
   AlignedVector<float> alias_q;
   AlignedVector<std::uint32_t> alias;
+};
+
+/// Lights at which light subpaths start (light-paths=splats), selected by power.
+struct LightEmission : LightStarts {
   std::uint32_t shapes = 0;  // of those lights: a bit for each LightShape
   bool has_images = false;   // emitting shapes with an image
+  /// Subpaths from lights without extent may begin with a mirror: caustics that camera
+  /// paths never find.
+  bool delta_caustics = true;
 
   bool empty() const { return pmf.empty(); }
   bool Has(LightShape shape) const {

@@ -71,7 +71,7 @@ double ShareOfPower(const CompiledScene& scene, const LightRecord& light) {
 
 }  // namespace
 
-LightEmission MakeLightEmission(const CompiledScene& scene, bool shapes_alone) {
+LightEmission MakeLightEmission(const CompiledScene& scene) {
   const LightTable& table = scene.lights;
   const bool has_disk = table.radius > 0 && PlanesAreWhole(scene);
   LightEmission emission;
@@ -79,9 +79,6 @@ LightEmission MakeLightEmission(const CompiledScene& scene, bool shapes_alone) {
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const LightRecord& light = table.lights[i];
     if (!StartsSubpaths(table, has_disk, light)) continue;
-    if (shapes_alone && !HasTrait(static_cast<LightShape>(light.shape), kEmittingShape)) {
-      continue;
-    }
     weights[i] = table.power[i] * ShareOfPower(scene, light);
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;

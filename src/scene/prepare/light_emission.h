@@ -6,9 +6,8 @@
 namespace lanelight {
 
 /// Returns the table of lights that start light subpaths; an empty one if there are none.
-/// `shapes_alone`: only emitting shapes, whose light camera paths find as well.
 /// Excluded: portals, and infinite lights beside one; distant and infinite lights in
 /// scenes with alpha on an infinite plane.
-LightEmission MakeLightEmission(const CompiledScene& scene, bool shapes_alone);
+LightEmission MakeLightEmission(const CompiledScene& scene);
 
 }  // namespace lanelight

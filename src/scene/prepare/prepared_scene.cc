@@ -108,11 +108,11 @@ LightChances MakeLightChances(const CompiledScene& scene, const Strategy& strate
                                        : environment.table);
   }
   if (HasAnchors(strategy, scene)) SetAnchors(scene, chances);
-  // A trial run does not change what the image converges to, and subpaths from the sky
-  // seldom reach what the camera sees.
   const bool asked = strategy.light_paths != LightPaths::kNone;
   if (asked || strategy.decide == Decide::kPilot) {
-    chances.emission = MakeLightEmission(scene, !asked);
+    chances.emission = MakeLightEmission(scene);
+    // A trial run does not change what the image converges to.
+    chances.emission.delta_caustics = asked;
   }
   const std::vector<double> weights = SelectionWeights(strategy, scene);
   chances.pmf.resize(weights.size());

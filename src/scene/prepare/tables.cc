@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "src/scene/compiled/scene.h"
+#include "src/scene/prepare/emission_guide.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 
@@ -10,6 +12,9 @@ namespace lanelight {
 StrategyTables MakeStrategyTables(const PreparedScene& scene) {
   StrategyTables tables;
   tables.shadow_threshold.floor = static_cast<float>(scene.strategy.ShadowFloor());
+  if (scene.chances->emission.HasAny(kFarLight)) {
+    tables.emission = MakeEmissionGuide(scene.compiled->lights);
+  }
   return tables;
 }
 

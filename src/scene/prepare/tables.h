@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "src/base/core/aligned.h"
+#include "src/scene/compiled/lights.h"
 
 namespace lanelight {
 
@@ -56,9 +58,33 @@ struct ShadowThreshold {
 AlignedVector<float> InverseShadowThreshold(const PilotImage& image, std::uint32_t pixels,
                                             double relative, double exposure);
 
+/// Where light subpaths from infinity start, learned from what they bring to the image.
+/// Across its direction, each distant light has a square of cells around the scene; the
+/// infinite lights together have one for each of kSkyBins^2 directions of the octahedral
+/// map.
+struct EmissionGuide {
+  static constexpr std::uint32_t kSunSide = 64, kSkySide = 16, kSkyBins = 8;
+  /// Probability of starting on the whole disk, whatever has been learned.
+  static constexpr float kDefensive = 0.1f;
+
+  // Of the scene:
+  AlignedVector<std::int32_t> distant;  // per light: its first cell; -1: none
+  std::int32_t sky = -1;                // first cell of all infinite lights; -1: none
+  std::uint32_t num_cells = 0;
+  // Once it has learned; weights are what the tables are made of.
+  std::vector<double> cell_weights, light_weights;
+  LightStarts lights;
+  // Per cell; an alias table of each square, with places in it.
+  AlignedVector<float> pmf, alias_q;
+  AlignedVector<std::uint32_t> alias;
+
+  bool has_learned() const { return !pmf.empty(); }
+};
+
 struct StrategyTables {
   PathValues path_values;            // adjoint, efficiency: set by the training passes
   ShadowThreshold shadow_threshold;  // shadow-roulette=contribution: by a training pass
+  EmissionGuide emission;            // light-paths=splats: by a training pass
 };
 
 /// Returns the tables that the scene's strategy needs, before training.

@@ -100,6 +100,7 @@ namespace lanelight {
   X(kReuse, "path reuse in pixel blocks (reuse=block)")                       \
   X(kReuseGlossy, "path reuse on glossy surfaces")                            \
   X(kLightPaths, "light subpaths (light-paths=splats)")                       \
+  X(kGuidedEmission, "light subpaths from lights at infinity")                \
   X(kLightSubpath, "paths that start at lights")                              \
   X(kDecides, "a strategy chosen by a trial run")                             \
   X(kRecordsSinglePaths,                                                      \

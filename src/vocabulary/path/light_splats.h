@@ -25,7 +25,10 @@ struct LightSplats {
   std::uint32_t* present = nullptr;  // 1: the vertex is visible to the camera
   float* x = nullptr;                // film position in pixels
   float* y = nullptr;
-  float* light[3] = {};    // radiance times pixels^2 per subpath, before the pixel filter
+  float* light[3] = {};  // radiance times pixels^2 per subpath, before the pixel filter
+  /// By subpath, in a training pass: where it has started (StartId,
+  /// kernels/light_paths/starts-inl.h).
+  std::uint32_t* starts = nullptr;
   float* share = nullptr;  // MIS weight of camera paths there: 1 less that of the subpath
 };
 

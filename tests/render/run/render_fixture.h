@@ -4,6 +4,7 @@
 #include <string>
 
 #include "src/base/core/parallel.h"
+#include "src/render/plan/plan_features.h"
 #include "src/render/run/run.h"
 #include "src/scene/accel/build.h"
 #include "src/scene/compile/compile.h"
@@ -22,6 +23,7 @@ struct TestRender {
   std::uint32_t wavefront = 0;
   SampleSequence sampler = SampleSequence::kIndependent;
   std::string strategy;  // on top of the scene's and `sampler`
+  std::string chosen;    // on top of that, as a trial run changes the plan alone
   Auxiliary auxiliary = Auxiliary::kNone;
   bool keep_roulette = false;         // RunOptions
   std::uint64_t planned_samples = 0;  // RunOptions
@@ -50,6 +52,7 @@ inline Rendered RenderDescription(const SceneDescription& description,
       static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
   plan_options.auxiliary = t.auxiliary;
   plan_options.wavefront = t.wavefront;
+  if (!t.chosen.empty()) plan_options = WithChanges(scene, plan_options, t.chosen);
   const Plan plan = MakePlan(scene, plan_options);
   Rendered out{FilmAccumulator(0, 0, scene.view->film.width, scene.view->film.height,
                                GroupsOf(scene.strategy), t.auxiliary),

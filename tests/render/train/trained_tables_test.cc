@@ -1,9 +1,13 @@
 // Trained tables are restored; tables that kernels must not read are refused.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
 #include <functional>
 
 #include "src/base/core/error.h"
 #include "src/render/train/training.h"
+#include "src/scene/prepare/emission_guide.h"
 
 namespace lanelight {
 namespace {
@@ -40,7 +44,64 @@ std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixe
   return "";
 }
 
+// A guide of one sun and one lamp.
+EmissionGuide SmallGuide() {
+  LightTable table;
+  for (const LightShape shape : {LightShape::kDistant, LightShape::kRectangle}) {
+    LightRecord light;
+    std::memset(&light, 0, sizeof(light));
+    light.shape = std::uint32_t(shape);
+    table.lights.push_back(light);
+  }
+  return MakeEmissionGuide(table);
+}
+
 }  // namespace
+
+TEST_CASE("the guide of light subpaths round-trips bit-identically", "[state]") {
+  StrategyTables tables = SmallTables(), back;
+  tables.emission = back.emission = SmallGuide();
+  EmissionWeights weights = {std::vector<double>(tables.emission.num_cells, 0.1),
+                             {0.3, 0.7}};
+  weights.cells[17] = 1.0 / 3;
+  Learn(weights, tables.emission);
+  const std::vector<TrainedTable> trained = ExportTraining(tables);
+  ImportTraining(trained, kPixels, back);
+  CHECK(back.emission.pmf == tables.emission.pmf);
+  CHECK(back.emission.alias_q == tables.emission.alias_q);
+  CHECK(back.emission.alias == tables.emission.alias);
+  CHECK(back.emission.lights.pmf == tables.emission.lights.pmf);
+
+  const auto error_of = [&](const std::string& name, double value, bool longer) {
+    std::vector<TrainedTable> bad = trained;
+    for (TrainedTable& table : bad) {
+      if (table.name != name) continue;
+      table.values[0] = value;
+      if (longer) table.values.push_back(1);
+    }
+    StrategyTables other;
+    other.emission = SmallGuide();
+    try {
+      ImportTraining(bad, kPixels, other);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(error_of("emission_cells", 1, true), Contains("expected 4096"));
+  CHECK_THAT(error_of("emission_lights", 1, true), Contains("expected 2"));
+  CHECK_THAT(error_of("emission_lights", -1, false), Contains("at least 0"));
+  CHECK_THAT(error_of("emission_cells", NAN, false), Contains("at least 0"));
+  CHECK(error_of("emission_cells", 0, false) == "");
+  // Nothing is above 0.
+  for (std::size_t i : {trained.size() - 2, trained.size() - 1}) {
+    std::vector<TrainedTable> bad = trained;
+    std::ranges::fill(bad[i].values, 0.0);
+    StrategyTables other;
+    other.emission = SmallGuide();
+    CHECK_THROWS_AS(ImportTraining(bad, kPixels, other), InputError);
+  }
+}
 
 TEST_CASE("trained tables round-trip bit-identically", "[state]") {
   const StrategyTables tables = SmallTables();
