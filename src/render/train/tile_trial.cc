@@ -39,6 +39,7 @@ constexpr double kGainStandardErrors = 1;        // standard errors
 constexpr double kMinFilteredGain = 0.95;
 // A later candidate replaces an earlier one if its joint gain is this much larger.
 constexpr double kClearlyBetter = 1.5;
+constexpr double kSlightlyBetter = 1.1;  // of candidates with light subpaths
 
 // Places of pixels in the work, by the square of the image that they are in.
 using Squares = std::vector<std::vector<std::size_t>>;
@@ -204,6 +205,23 @@ class TileTrial {
   Squares tiles_, squares_, all_tiles_;
 };
 
+bool IsOfLightPaths(const DecisionCandidate& candidate) {
+  return std::strncmp(candidate.changes, "light-paths", 11) == 0;
+}
+
+// Returns whether a variant of what has just been tried is worth a try.
+bool IsWorthTrying(const DecisionCandidate& candidate, const TriedOnTiles& before) {
+  // Smaller blocks gain less by pixels and more after a filter.
+  if (std::strcmp(candidate.changes, "reuse=block:32") == 0) {
+    return before.has_gain_per_pixel && !before.is_efficient;
+  }
+  // More subpaths gain where camera paths are expensive.
+  if (std::strcmp(candidate.changes, "light-paths=splats:1") == 0) {
+    return before.has_gain_per_pixel;
+  }
+  return true;
+}
+
 }  // namespace
 
 double TriedOnTiles::LogJointGain() const {
@@ -218,13 +236,14 @@ void TriedOnTiles::Judge(double must_gain) {
 }
 
 const TriedOnTiles* BestOf(const std::vector<TriedOnTiles>& tried) {
-  // Path reuse gains more per pixel, light subpaths more after a filter.
-  const double clear = std::log(kClearlyBetter);
+  // Path reuse gains more per pixel, light subpaths more after a filter. Errors of more
+  // and of fewer subpaths have much in common.
   const TriedOnTiles* best = nullptr;
   for (const TriedOnTiles& t : tried) {
-    if (t.is_efficient &&
-        (best == nullptr || t.LogJointGain() > best->LogJointGain() + clear))
-      best = &t;
+    if (!t.is_efficient) continue;
+    const bool alike = best != nullptr && IsOfLightPaths(best->candidate);
+    const double clear = std::log(alike ? kSlightlyBetter : kClearlyBetter);
+    if (best == nullptr || t.LogJointGain() > best->LogJointGain() + clear) best = &t;
   }
   return best;
 }
@@ -237,6 +256,18 @@ bool StrategyTrial::MayUse(const TriedStrategy& beside, const char* changes) con
          IsPlanned(beside.scene, options, Feature::kLightPaths);
 }
 
+void StrategyTrial::LearnEmission(const PlanOptions& options, TriedStrategy& tried) {
+  const Plan plan = MakePlan(tried.scene, options);
+  if (!plan.features.Has(Feature::kGuidedEmission) ||
+      tried.tables.emission.has_learned()) {
+    return;
+  }
+  const TrainingOutcome outcome =
+      TrainEmission({tried.scene, plan, seed_, training_, tried.tables});
+  spent_.samples += outcome.samples;
+  spent_.rays += outcome.rays;
+}
+
 std::vector<TriedOnTiles> StrategyTrial::TryOnTiles(const TriedStrategy& baseline,
                                                     const TriedStrategy& chosen,
                                                     double gain, std::uint64_t samples) {
@@ -245,20 +276,19 @@ std::vector<TriedOnTiles> StrategyTrial::TryOnTiles(const TriedStrategy& baselin
   if (beside.splits) return tried;
   const double must_gain = chosen.splits ? gain : kMinChangeGain;
   std::optional<TileTrial> trial;
+  TriedStrategy learned = beside;
   for (const DecisionCandidate& candidate : kTileCandidates) {
     if (!MayUse(beside, candidate.changes)) continue;
-    // Smaller blocks gain less by pixels and more after a filter.
-    const bool smaller = std::strcmp(candidate.changes, "reuse=block:32") == 0;
-    if (smaller && (tried.back().is_efficient || !tried.back().has_gain_per_pixel)) {
-      continue;
-    }
+    if (!tried.empty() && !IsWorthTrying(candidate, tried.back())) continue;
     if (!trial) {
       const TrainingWork work = MakeTileWork(scene_, samples, kTileSpp);
       trial.emplace(beside, work, Render(beside, beside.options, work));
     }
     const PlanOptions options =
         WithChanges(beside.scene, beside.options, candidate.changes);
-    const TrainingSamples found = Render(beside, options, trial->work(), &trial->image());
+    LearnEmission(options, learned);
+    const TrainingSamples found =
+        Render(learned, options, trial->work(), &trial->image());
     if (watcher_.IsStopped()) break;
     tried.emplace_back().candidate = candidate;
     trial->Compare(found, tried.back());
