@@ -90,10 +90,11 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
   if (!comparison.problems.empty()) {
     return fmt::format("not comparable; {}.", fmt::join(comparison.problems, "; "));
   }
-  std::string judged, slower;
+  std::string judged = ".", slower;
   if (!comparison.busy.empty()) {
     judged = fmt::format(
-        "judged by processor time, to which other programs can add {:.0f} % ({}); ",
+        ". Judged by processor time, to which other programs can add {:.0f} %, since the "
+        "machine was busy ({}).",
         100 * comparison.margin, fmt::join(comparison.busy, "; "));
   }
   for (const StageChange& change : comparison.changes) {
@@ -101,9 +102,9 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
     slower +=
         (slower.empty() ? "slower: " : ", ") + change.name + " " + GrowthText(change);
   }
-  if (!slower.empty()) return judged + slower + ".";
-  return judged + fmt::format("no stage is significantly slower by more than {:.3g} %.",
-                              100 * (comparison.margin + tolerance));
+  if (!slower.empty()) return slower + judged;
+  return fmt::format("no stage is significantly slower by more than {:.3g} %{}",
+                     100 * (comparison.margin + tolerance), judged);
 }
 
 ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {

@@ -90,10 +90,10 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
                         comparison.rows.size());
   const std::string judged =
       busy ? fmt::format(
-                 "judged per processor second, since wall times say little ({}); "
-                 "other programs explain a slowdown by {:.0f} %; ",
-                 reasons, 100 * kBusySlowdown)
-           : "";
+                 ". Judged per processor second, of which other programs explain "
+                 "a loss of {:.0f} %, since the machine was busy ({}).",
+                 100 * kBusySlowdown, reasons)
+           : ".";
   const double detectable = 100 * comparison.Detectable(tolerance);
   std::string slower;
   for (const RateRatio& row : comparison.rows) {
@@ -101,11 +101,10 @@ std::string VerdictText(const RateComparison& comparison, double tolerance) {
   }
   switch (comparison.Judge(tolerance)) {
     case RateComparison::Verdict::kSlower:
-      return judged + fast + "slower: " + slower + ".";
+      return fast + "slower: " + slower + judged;
     case RateComparison::Verdict::kNotSlower:
-      return judged + fast +
-             fmt::format("no row is slower by more than {:.3g} %.",
-                         busy ? detectable : 100 * tolerance);
+      return fast + fmt::format("no row is slower by more than {:.3g} %{}",
+                                busy ? detectable : 100 * tolerance, judged);
     case RateComparison::Verdict::kNotComparable:
       break;
   }

@@ -36,9 +36,9 @@ function summarySection() {
   const { target, threads, repeats, resolution, spp, samples, rays_per_sample: rays } = study;
   const wide = { class: "wide" };
   return firstSection(page.scene,
-    el("p.lead.headline", page.answer),
+    el("p.verdict", page.answer),
     warningBox(null, [
-      ...study.busy.map((reason) => `The machine was busy: ${reason}.`),
+      ...(study.busy.length > 0 ? [`The machine was busy: ${study.busy.join("; ")}.`] : []),
       ...(study.stopped_early ? ["The render was stopped early."] : []),
     ]),
     el("dl.facts",
@@ -50,10 +50,10 @@ function summarySection() {
       fact("Threads", fmtCount(threads), `${instructionSet(target.name)}, ${target.lanes} lanes`),
       fact("Repeats", fmtCount(repeats),
         repeats > 5 ? `${fmtShortPercent(study.confidence)} intervals` : "6 give intervals"),
-      fact("Strategy", study.strategy_in_force, null, wide),
       fact("Machine", study.machine.text, null, wide),
       fact("Program", study.program, null, wide),
     ),
+    el("p.hint", `Strategy: ${study.strategy_in_force.replaceAll(",", ", ")}`),
   );
 }
 

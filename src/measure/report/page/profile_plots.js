@@ -24,15 +24,15 @@ function rooflineLines() {
 // Speeds at which a level of memory would be busy with the columns alone.
 function peakGuides(frame) {
   const { from, to } = frame.scales.x;
-  return study.peaks.levels.map(({ name, bytes_per_second: peak }, i) => {
-    const at = valueAt(frame.scales.x, 0.04 + 0.12 * i);
+  return study.peaks.levels.map(({ name, bytes_per_second: peak }) => {
+    const at = valueAt(frame.scales.x, 0.98);
     const [x0, x1] = [from, to].map(frame.x),
       [y0, y1] = [from, to].map((x) => frame.y(peak / x));
     const angle = (Math.atan2(y1 - y0, x1 - x0) * 180) / Math.PI;
     return [
       svg("path.guide", { d: `M${x0} ${y0}L${x1} ${y1}` }),
       svg("text.guide-name",
-        { transform: `translate(${frame.x(at)} ${frame.y(peak / at)}) rotate(${angle})` },
+        { "text-anchor": "end", transform: `translate(${frame.x(at)} ${frame.y(peak / at)}) rotate(${angle})` },
         svg("tspan", { dy: -4 }, `${name} ${fmtShort(peak * 1e-9)} GB/s`),
       ),
     ];
@@ -50,16 +50,17 @@ function describeRoofline(line, { x, y, row }) {
 
 function rooflineFigure(view, lines) {
   const { host, figure } = plotFigure("roofline", "Speed of stages against bytes per path");
-  const peaks = study.peaks.levels.map((level) => level.bytes_per_second);
+  const { name: level, bytes_per_second: peak } = study.peaks.levels.find(
+    ({ name }) => name === study.wavefront.level);
   const xs = lines.flatMap((line) => line.points.map((p) => p.x));
   whenVisible(view, figure, () =>
     logPlot(view, host, {
       lines,
       kind: "scatter",
-      label: "Speed of stages against bytes per path",
+      label: `Speed of stages against bytes per path, which are in ${level}`,
       xAxis: { label: "bytes of columns per path", ticks: binaryTicks, format: fmtShort },
       yAxis: { label: "paths per processor second", ticks: decadeTicks, format: rateTick },
-      include: [Math.max(...peaks) / Math.min(...xs) / 2],
+      include: [peak / Math.min(...xs)],
       guides: peakGuides,
       describe: describeRoofline,
     }),
@@ -83,10 +84,11 @@ function memorySection() {
   return section("memory", "Memory",
     el("p.lead",
       "Bytes are those of the path columns that a stage declares: an upper bound. They exclude " +
-        "BVH, triangles, textures and tables. Lines show the measured read bandwidth of one " +
-        "thread; a stage near the line of a level is limited by it."),
-    strategyLegend(view, "Groups shown"),
-    el("div.plots",
+        "BVH, triangles, textures and tables. Lines show measured read bandwidths of one " +
+        `thread. The paths of a wavefront fit in ${study.wavefront.level}: stages near its line ` +
+        "are limited by memory."),
+    strategyLegend(view, "Groups shown", false),
+    el("div.plots.bar-columns",
       rooflineFigure(view, lines),
       el("div", el("h3", `Bytes of columns per sample: ${fmtCount(total)} B in all`),
         valueBars(moved.slice(0, MOST_STAGES).map(bar))),
@@ -127,9 +129,12 @@ function queuesSection() {
   );
   return section("queues", "Queue lengths over time",
     el("p.lead",
-      `Mean over the calls of all threads in ${fmtSeconds(queues.seconds / lines[0].points.length)}` +
-        " or so, for the stages that take most of the time." +
-        (queues.complete ? "" : " The record ends early: --trace-events makes it longer.")),
+      "Mean over the calls of all threads in " +
+        `${fmtSeconds(queues.seconds / queues.lines[0].paths.length)}, for the stages that take ` +
+        "most of the time." +
+        (queues.complete
+          ? ""
+          : ` Shows the first ${fmtSeconds(queues.seconds)}; --trace-events N records more.`)),
     strategyLegend(view, "Stages shown"),
     figure,
   );

@@ -30,9 +30,8 @@ function valueBars(rows, most = Math.max(...rows.map((row) => row.value))) {
   );
 }
 
-function nanoseconds(interval) {
-  const { value, bounds } = intervalTexts(interval, 1, " ns");
-  return { value, bounds };
+function nanoseconds(interval, signed = false) {
+  return intervalTexts(interval, 1, " ns", signed);
 }
 
 // Of groups, stages or materials: processor time per sample.
@@ -56,7 +55,7 @@ function costsSection() {
   const share = rest.reduce((sum, row) => sum + row.share, 0);
   const meanings = study.groups.filter((group) => group.meaning);
   return section("costs", "Processor time per sample",
-    el("div.plots",
+    el("div.plots.bar-columns",
       el("div", el("h3", "By group"), costBars(study.groups)),
       el("div", el("h3", "By stage, in the colour of its group"),
         costBars(rows.slice(0, MOST_STAGES)),
@@ -73,17 +72,16 @@ function materialsSection() {
     section("materials", "Shading cost by material", costBars(rows, (row) => row.material));
 }
 
-// Later bounces hold so little that their rows say nothing.
 function bouncesSection() {
   const { bounces, seconds } = study;
   if (bounces.length === 0) return null;
   const last = bounces.length === 16 ? 15 : -1; // it holds all later ones
   const name = ({ depth }) => `Bounce ${depth}${depth === last ? " and later" : ""}`;
   const color = "var(--s2)";
-  const rays = (b) => fmtCount(b.rays_closest + b.rays_shadow);
+  const rays = (b) => rateTick(Math.round(b.rays_closest + b.rays_shadow));
   const cost = (b) => ({
     name: name(b), value: b.seconds, color,
-    texts: { value: fmtPercent(b.seconds / seconds.threads), bounds: `${rays(b)} rays` },
+    texts: { value: `${fmtPercent(b.seconds / seconds.threads)}, ${rays(b)} rays`, bounds: "" },
   });
   const lanes = (b) => ({
     name: name(b), value: b.occupancy, color: "var(--s5)",
@@ -93,7 +91,7 @@ function bouncesSection() {
     el("p.lead",
       "Bounce 0 is the camera ray. A wave with paths of several depths counts for each " +
         "depth by its number of paths."),
-    el("div.plots",
+    el("div.plots.bar-columns",
       el("div", el("h3", "Fraction of all processor time"), valueBars(bounces.map(cost))),
       el("div", el("h3", "Lanes filled"),
         valueBars(bounces.filter((b) => known(b.occupancy)).map(lanes), 1)),
@@ -111,16 +109,13 @@ function changesSection() {
     before > 0 ? `${fmt(before)} to ${fmt(now)} ns, ${fmtSignedPercent(now / before - 1)}` : "new";
   const row = (change) => {
     const style = { ...strategyStyle(0), variable: change.slower ? "--c6" : "--c7" };
-    const texts = () => ({
-      ...intervalTexts(change.difference, 1, " ns", true),
-      bounds: growth(change),
-    });
+    const texts = (x) => ({ value: joined(nanoseconds(x, true)), bounds: growth(change) });
     const name = change.slower ? `${change.name}: slower` : change.name;
     return rateRow(style, name, change.difference, texts, scale, [0]);
   };
   const fewer = changes.length - MOST_CHANGES;
   return section("against", `Difference from ${against}`,
-    el("p.lead", capitalised(verdict)),
+    el("p.verdict", capitalised(verdict)),
     changes.length > 0 && el("div.plot-figure.differences",
       rateAxis(scale, "ns per sample, now − before", fmtShort),
       changes.slice(0, MOST_CHANGES).map(row)),
