@@ -84,6 +84,12 @@ std::string GrowthText(const StageChange& change) {
   return fmt::format("{:+.1f}%", 100 * (change.now / change.before - 1));
 }
 
+// Returns the growth of the total, or of a stage, that other programs explain.
+double MarginOf(const ProfileComparison& comparison, bool total) {
+  if (comparison.busy.empty()) return 0;
+  return total ? kBusySlowdown : kBusyStageSlowdown;
+}
+
 }  // namespace
 
 std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
@@ -93,9 +99,9 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
   std::string judged = ".", slower;
   if (!comparison.busy.empty()) {
     judged = fmt::format(
-        ". Judged by processor time, to which other programs can add {:.0f} %, since the "
-        "machine was busy ({}).",
-        100 * comparison.margin, fmt::join(comparison.busy, "; "));
+        ". Judged by processor time, to which other programs can add {:.0f} % (one "
+        "stage: {:.0f} %), since the machine was busy ({}).",
+        100 * kBusySlowdown, 100 * kBusyStageSlowdown, fmt::join(comparison.busy, "; "));
   }
   for (const StageChange& change : comparison.changes) {
     if (!change.slower) continue;
@@ -103,14 +109,18 @@ std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
         (slower.empty() ? "slower: " : ", ") + change.name + " " + GrowthText(change);
   }
   if (!slower.empty()) return slower + judged;
-  return fmt::format("no stage is significantly slower by more than {:.3g} %{}",
-                     100 * (comparison.margin + tolerance), judged);
+  const auto limit = [&](bool total) {
+    return 100 * (MarginOf(comparison, total) + tolerance);
+  };
+  return fmt::format(
+      "the total is not slower by more than {:.3g} %, and no stage by more than {:.3g} "
+      "%{}",
+      limit(true), limit(false), judged);
 }
 
 ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {
   ProfileComparison comparison;
   if (!FindProblems(before, now, comparison)) return comparison;
-  if (!comparison.busy.empty()) comparison.margin = kBusySlowdown;
   // A stage has no time in a profile that lacks it.
   std::map<std::string, std::array<std::vector<double>, 2>> stages;
   const std::array profiles = {&before, &now};
@@ -125,7 +135,7 @@ ProfileComparison CompareProfiles(const Json& before, const Json& now, double to
   const auto add = [&](const std::string& name, std::array<std::vector<double>, 2> ns) {
     for (const std::size_t i : {0, 1}) ns[i].resize(profiles[i]->at(kRepeats).size());
     changes.push_back(ChangeOf(name, ns[0], ns[1]));
-    for (double& x : ns[0]) x *= 1 + comparison.margin;
+    for (double& x : ns[0]) x *= 1 + MarginOf(comparison, p.empty());
     p.push_back(stat::WelchPValue(MeanOf(ns[0]), MeanOf(ns[1])));
   };
   add("total", {before.at(kRepeats).get<std::vector<double>>(),
@@ -133,7 +143,7 @@ ProfileComparison CompareProfiles(const Json& before, const Json& now, double to
   for (const auto& [name, ns] : stages) add(name, ns);
   const StageChange& total = changes[0];
   comparison.detectable =
-      comparison.margin +
+      MarginOf(comparison, true) +
       std::max(tolerance,
                (total.difference.high - total.difference.value) / total.before);
   if (!comparison.busy.empty() && comparison.detectable > kMaxDetectable) {
@@ -144,7 +154,7 @@ ProfileComparison CompareProfiles(const Json& before, const Json& now, double to
   if (!comparison.problems.empty()) p.clear();  // nothing is judged
   for (const std::size_t i : stat::HolmRejections(p, kFalseAlarms)) {
     StageChange& c = changes[i];
-    c.slower = c.difference.value - comparison.margin * c.before >
+    c.slower = c.difference.value - MarginOf(comparison, i == 0) * c.before >
                std::max(kMinChange * total.before, tolerance * c.before);
   }
   std::sort(changes.begin() + 1, changes.end(), [](const auto& a, const auto& b) {

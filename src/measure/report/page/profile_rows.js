@@ -115,7 +115,8 @@ function changesSection() {
   };
   const fewer = changes.length - MOST_CHANGES;
   return section("against", `Difference from ${against}`,
-    el("p.verdict", capitalised(verdict)),
+    verdict.split(/\. (?=Judged)/).map((text, i) =>
+      el(i === 0 ? "p.verdict" : "p.lead", capitalised(text))),
     changes.length > 0 && el("div.plot-figure.differences",
       rateAxis(scale, "ns per sample, now − before", fmtShort),
       changes.slice(0, MOST_CHANGES).map(row)),
