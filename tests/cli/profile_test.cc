@@ -162,7 +162,12 @@ TEST_CASE("repeats add intervals, and a profile is compared with an earlier one"
     CHECK(result.exit_code == (busy ? kExitNotComparable : code));
     CHECK_THAT(result.out, Contains(busy ? "not comparable" : words));
   };
-  check(compare(1e-3, {}), kExitSlower, "slower: ");
+  const std::string html = directory / "p.html";
+  check(compare(1e-3, {"--html", html}), kExitSlower, "slower: ");
+  std::ifstream page(html);
+  const std::string text((std::istreambuf_iterator<char>(page)), {});
+  CHECK_THAT(text, Contains("\"against\":\"old.json\"") && Contains("\"queues\""));
+  CHECK(compare(1, {"--html", path}).exit_code == kExitUsage);  // ends in .json
   check(compare(1e3, {}), kExitGood, "the total is not slower");
   const ProcessResult other = compare(1, {"--strategy", "points=halton"});
   CHECK(other.exit_code == kExitNotComparable);
