@@ -1,5 +1,6 @@
 // `lanelight bench [SCENE...]`: how fast this machine renders, and whether another
 // program or machine is faster.
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,6 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/interrupt.h"
 #include "src/cli/options.h"
-#include "src/base/core/text_layout.h"
 #include "src/cli/render_outputs.h"
 #include "src/measure/report/page.h"
 #include "src/measure/throughput/throughput.h"
@@ -50,9 +50,9 @@ std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
     const bool exceeds = p.scene == 0 && p.minimum > options.bench.seconds;
     PrintError(fmt::format(
         "measuring {} ({} of {}), {} left{}", scenes[p.scene], p.scene + 1, scenes.size(),
-        p.maximum < 1.2 * p.minimum
-            ? "about " + DurationText(p.maximum)
-            : fmt::format("{} to {}", DurationText(p.minimum), DurationText(p.maximum)),
+        p.maximum < 1.2 * p.minimum + 1
+            ? fmt::format("about {:.0f} s", std::ceil(p.maximum))
+            : fmt::format("{:.0f} to {:.0f} s", p.minimum, p.maximum),
         exceeds ? fmt::format("; {} renders of each row exceed --time", kMinRepeats)
                 : ""));
   });

@@ -47,6 +47,7 @@ TEST_CASE("bench prints rates and writes JSON", "[cli]") {
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out,
              Contains("Msamples/CPU s") && Contains("machine") && Contains("lanes"));
+  CHECK_THAT(r.err, Contains("(1 of 1), about ") && Contains(" s left"));
   const Json json = ReadJson(directory / "b.json");
   CHECK(json.at("schema") == 1);
   CHECK(json.at("machine").contains("processor"));
