@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kBins = 240;           // of the time line
+constexpr std::size_t kBins = 120;           // of the time line
 constexpr std::size_t kMaxLines = 6;         // that an eye can follow
 constexpr std::size_t kMaxValues = 600'000;  // of both images
 
