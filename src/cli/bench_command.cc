@@ -1,5 +1,6 @@
 // `lanelight bench [SCENE...]`: how fast this machine renders, and whether another
 // program or machine is faster.
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -43,10 +44,17 @@ void Complete(BenchCommandOptions& options) {
 std::vector<ThroughputRow> MeasureRows(const BenchCommandOptions& options) {
   const InterruptGuard interrupt(
       "\nstopping: what was measured so far is printed (press Ctrl-C again to abort)\n");
-  return MeasureThroughput(options.bench, interrupt.stop(), [&](std::size_t i) {
+  return MeasureThroughput(options.bench, interrupt.stop(), [&](const BenchProgress& p) {
     const std::vector<std::string>& scenes = options.bench.scenes;
     if (options.quiet) return;
-    PrintError(fmt::format("measuring {} ({} of {})", scenes[i], i + 1, scenes.size()));
+    const bool exceeds = p.scene == 0 && p.minimum > options.bench.seconds;
+    PrintError(fmt::format(
+        "measuring {} ({} of {}), {} left{}", scenes[p.scene], p.scene + 1, scenes.size(),
+        p.maximum < 1.2 * p.minimum + 1
+            ? fmt::format("about {:.0f} s", std::ceil(p.maximum))
+            : fmt::format("{:.0f} to {:.0f} s", p.minimum, p.maximum),
+        exceeds ? fmt::format("; {} renders of each row exceed --time", kMinRepeats)
+                : ""));
   });
 }
 
@@ -137,7 +145,8 @@ void AddBenchOptions(CLI::App& command, BenchCommandOptions& options) {
                         bench.within))
       ->transform(ValueFrom(1e-4, 1.0));
   AddOption(command, "--time TIME", bench.seconds,
-            WithDefault("Maximum wall time of each row, unless six repeats take longer",
+            WithDefault("Maximum wall time of all rows together; at least six renders of "
+                        "each row, which take about 40 s for the built-in scenes",
                         bench.seconds))
       ->transform(ValueOf(SecondsType{0.01, 1e6}));
 }

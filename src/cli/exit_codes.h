@@ -14,7 +14,7 @@ enum ExitCode : int {
   kExitStressFailed = 7,    // stress: a case failed
   kExitImageDiffers = 8,    // render: the image is not what the scene file asks for
   kExitSlower = 9,          // bench, profile: slower than what it was compared with
-  kExitNotComparable = 10,  // bench, profile: busy machine, or other renders
+  kExitNotComparable = 10,  // bench, profile: other renders, or a very busy machine
 };
 
 }  // namespace lanelight

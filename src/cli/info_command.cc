@@ -32,17 +32,11 @@ std::vector<std::pair<std::string, std::string>> Versions() {
   return versions;
 }
 
-// Returns the instruction set of a target that Highway names otherwise; else nothing.
-std::string InstructionSet(const std::string& target) {
-  return target.starts_with("AVX3") ? " (AVX-512)" : "";
-}
-
 std::string Text(const RenderSettings& settings) {
   const SimdTarget target(settings.target);
   std::string text =
       fmt::format("{:<14} {}\n", "machine", MachineText(ThisMachine())) +
-      fmt::format("{:<14} {}{}\n", "target", target.name(),
-                  InstructionSet(target.name())) +
+      fmt::format("{:<14} {}\n", "target", TargetText(target.name())) +
       fmt::format("{:<14} {}\n", "lanes", target.lanes()) +
       fmt::format("{:<14} {}\n", "available", fmt::join(AvailableTargets(), ", ")) +
       fmt::format("{:<14} {}\n", "threads", ThreadCount(settings.threads)) +

@@ -13,6 +13,7 @@
 #include "src/cli/console.h"
 #include "src/cli/progress.h"
 #include "src/base/stat/values.h"
+#include "src/render/job/machine_json.h"
 #include "src/vocabulary/strategy/strategy_text.h"
 
 namespace lanelight {
@@ -53,19 +54,20 @@ const char* ItemOf(const ProfileRow& row) {
   return row.intersect ? "ray" : "path";
 }
 
-// Says what ran, which row takes most of the time, and the cost of a sample.
-std::string AnswerText(const ProfileReport& report, const Job& job,
-                       const RunResult& result) {
+}  // namespace
+
+std::string ProfileAnswer(const ProfileReport& report, const Job& job,
+                          const RunResult& result) {
   const int threads = ThreadCount(job.settings.threads);
   const std::size_t repeats = report.ns_per_sample.size();
   const ProfileRow& most = report.rows.front();
-  std::string text = fmt::format("{}, {:.4g} spp{}, {} thread{}, {}{}: {} takes {:.0f} %",
-                                 StrategyWords(job, result),
-                                 double(result.samples) / double(job.window.pixels()),
-                                 result.stopped_early ? " (stopped early)" : "", threads,
-                                 threads == 1 ? "" : "s", job.plan.options.target.name(),
-                                 repeats > 1 ? fmt::format(", {} repeats", repeats) : "",
-                                 most.counts.name, 100 * most.fraction);
+  std::string text = fmt::format(
+      "{}, {:.4g} spp{}, {} thread{}, {}{}: {} takes {:.0f} %",
+      StrategyWords(job, result), double(result.samples) / double(job.window.pixels()),
+      result.stopped_early ? " (stopped early)" : "", threads, threads == 1 ? "" : "s",
+      TargetText(job.plan.options.target.name()),
+      repeats > 1 ? fmt::format(", {} repeats", repeats) : "", most.counts.name,
+      100 * most.fraction);
   if (most.counts.items > 0) {
     text += fmt::format(" ({:.3g} ns per {}", most.NsPerItem(), ItemOf(most));
     if (most.kind == RowKind::kStage) {
@@ -73,12 +75,12 @@ std::string AnswerText(const ProfileReport& report, const Job& job,
     }
     text += ")";
   }
-  return Wrapped(text + fmt::format("; {:.3g} us per sample, {:.3g} rays.",
-                                    1e-3 * MedianOf(report.ns_per_sample).value,
-                                    report.rays_per_sample),
-                 TerminalColumns(Stream::kOutput)) +
-         "\n";
+  return text + fmt::format("; {:.3g} us per sample, {:.3g} rays.",
+                            1e-3 * MedianOf(report.ns_per_sample).value,
+                            report.rays_per_sample);
 }
+
+namespace {
 
 using CellLines = std::vector<std::vector<std::string>>;  // cells, below a header
 
@@ -246,7 +248,8 @@ std::string StageCostText(const RunResult& result) {
 std::string ProfileText(const ProfileReport& report, const Job& job,
                         const RunResult& result, const std::string& scene, bool verbose) {
   const std::string begin =
-      AnswerText(report, job, result) + "\n" + BarTable("group", report.groups) + "\n";
+      Wrapped(ProfileAnswer(report, job, result), TerminalColumns(Stream::kOutput)) +
+      "\n\n" + BarTable("group", report.groups) + "\n";
   const std::string notes = "\n" + GroupNotes(report);
   if (!verbose) return begin + StageTable(report) + notes;
   return begin + DetailRows(report, job, result, scene) +

@@ -64,6 +64,11 @@ std::string ImageInfoText(const nlohmann::json& info);
 /// Returns the cost of each stage of a render.
 std::string StageCostText(const RunResult& result);
 
+/// Returns what was rendered, the row that takes most of the time, and the cost of a
+/// sample, in one line.
+std::string ProfileAnswer(const ProfileReport& report, const Job& job,
+                          const RunResult& result);
+
 /// Returns what was rendered, the most expensive stage, and bars of groups and stages: at
 /// most kProfileLines lines that fit the terminal, as far as names allow. `verbose`: all
 /// stages and columns, peaks, bounces and materials instead.

@@ -17,6 +17,7 @@ MODULES = {
     "sweep": "sweep_checks sweep_page_checks",
     "parameters": "parameters_checks",
     "bench": "bench_checks",
+    "profile": "profile_checks",
     "stress": "stress_checks stress_page_checks",
     "paper": "paper_checks",
 }

@@ -67,6 +67,7 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   const std::string scene = WriteSceneOfFiles(directory), exr = directory / "out.exr";
   fs::create_symlink(directory / "color.exr", directory / "link.exr");
   fs::create_symlink(directory / "color.exr", directory / "link.png");
+  fs::create_symlink(directory / "color.exr", directory / "link.html");
   fs::create_hard_link(directory / "sky.exr", directory / "hard.exr");
   const auto refused = [&](std::vector<std::string> arguments, const std::string& file) {
     INFO(arguments.back());
@@ -87,6 +88,7 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   refused({"render", scene, "-o", exr, "--watch", directory / "color.exr"}, "color.exr");
   refused({"profile", scene, "--trace", directory / "mesh.ply"}, "mesh.ply");
   refused({"render", scene, "-o", exr, "--png", directory / "link.png"}, "color.exr");
+  refused({"profile", scene, "--html", directory / "link.html"}, "color.exr");
   refused({"profile", scene, "--json", directory / "part.pbrt"}, "part.pbrt");
   refused({"advise", scene, "--time", "1", "-o", directory / "sky.exr"}, "sky.exr");
   refused({"advise", scene, "--time", "1", "--json", directory / "mesh.ply"}, "mesh.ply");

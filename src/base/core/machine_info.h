@@ -42,6 +42,14 @@ bool IsOverloaded(const MachineInfo& machine);
 std::vector<std::string> BusyReasons(const MachineInfo& machine, double waiting);
 inline constexpr double kMaxWaiting = 0.1;
 
+/// Other programs can add this fraction to the processor time of a render, and to that of
+/// one of its stages, since they use the same caches and memory (measured:
+/// docs/bench.md).
+inline constexpr double kBusySlowdown = 0.15, kBusyStageSlowdown = 0.5;
+/// Comparisons of times measured on a busy machine have no verdict if they could not find
+/// a change by this fraction.
+inline constexpr double kMaxDetectable = 0.3;
+
 /// Returns the seconds that threads of this process, also those without a task, have
 /// waited for a processor (Linux; otherwise 0).
 double RunDelaySeconds();

@@ -11,6 +11,7 @@
 #include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
 #include "src/base/core/json_text.h"
+#include "src/base/core/machine_info.h"
 #include "src/base/core/text_layout.h"
 #include "src/base/stat/hypothesis.h"
 #include "src/base/stat/values.h"
@@ -48,7 +49,8 @@ StageChange ChangeOf(const std::string& name, const std::vector<double>& before,
 }
 
 // Returns whether both are of the same render.
-bool FindProblems(const Json& before, const Json& now, std::vector<std::string>& out) {
+bool FindProblems(const Json& before, const Json& now, ProfileComparison& comparison) {
+  std::vector<std::string>& out = comparison.problems;
   const std::string strategy = now.at("strategy_in_force");
   const std::string old_strategy = before.at("strategy_in_force");
   const auto check = [&](const char* what, const Json& a, const Json& b) {
@@ -66,7 +68,7 @@ bool FindProblems(const Json& before, const Json& now, std::vector<std::string>&
   for (const Json* profile : {&before, &now}) {
     const char* when = profile == &now ? "this run" : "earlier run";
     for (const std::string reason : profile->at("busy")) {
-      out.push_back(fmt::format("{}: {}", when, reason));
+      comparison.busy.push_back(fmt::format("{}: {}", when, reason));
     }
     if (const auto repeats = int(profile->at(kRepeats).size());
         repeats < kProfileRepeats) {
@@ -82,26 +84,43 @@ std::string GrowthText(const StageChange& change) {
   return fmt::format("{:+.1f}%", 100 * (change.now / change.before - 1));
 }
 
+// Returns the growth of the total, or of a stage, that other programs explain.
+double MarginOf(const ProfileComparison& comparison, bool total) {
+  if (comparison.busy.empty()) return 0;
+  return total ? kBusySlowdown : kBusyStageSlowdown;
+}
+
+}  // namespace
+
 std::string VerdictText(const ProfileComparison& comparison, double tolerance) {
   if (!comparison.problems.empty()) {
     return fmt::format("not comparable; {}.", fmt::join(comparison.problems, "; "));
   }
-  std::string slower;
+  std::string judged = ".", slower;
+  if (!comparison.busy.empty()) {
+    judged = fmt::format(
+        ". Judged by processor time, to which other programs can add {:.0f} % (one "
+        "stage: {:.0f} %), since the machine was busy ({}).",
+        100 * kBusySlowdown, 100 * kBusyStageSlowdown, fmt::join(comparison.busy, "; "));
+  }
   for (const StageChange& change : comparison.changes) {
     if (!change.slower) continue;
     slower +=
         (slower.empty() ? "slower: " : ", ") + change.name + " " + GrowthText(change);
   }
-  if (!slower.empty()) return slower + ".";
-  return fmt::format("no stage is significantly slower by more than {:.3g} %.",
-                     100 * tolerance);
+  if (!slower.empty()) return slower + judged;
+  const auto limit = [&](bool total) {
+    return 100 * (MarginOf(comparison, total) + tolerance);
+  };
+  return fmt::format(
+      "the total is not slower by more than {:.3g} %, and no stage by more than {:.3g} "
+      "%{}",
+      limit(true), limit(false), judged);
 }
-
-}  // namespace
 
 ProfileComparison CompareProfiles(const Json& before, const Json& now, double tolerance) {
   ProfileComparison comparison;
-  if (!FindProblems(before, now, comparison.problems)) return comparison;
+  if (!FindProblems(before, now, comparison)) return comparison;
   // A stage has no time in a profile that lacks it.
   std::map<std::string, std::array<std::vector<double>, 2>> stages;
   const std::array profiles = {&before, &now};
@@ -116,16 +135,27 @@ ProfileComparison CompareProfiles(const Json& before, const Json& now, double to
   const auto add = [&](const std::string& name, std::array<std::vector<double>, 2> ns) {
     for (const std::size_t i : {0, 1}) ns[i].resize(profiles[i]->at(kRepeats).size());
     changes.push_back(ChangeOf(name, ns[0], ns[1]));
+    for (double& x : ns[0]) x *= 1 + MarginOf(comparison, p.empty());
     p.push_back(stat::WelchPValue(MeanOf(ns[0]), MeanOf(ns[1])));
   };
   add("total", {before.at(kRepeats).get<std::vector<double>>(),
                 now.at(kRepeats).get<std::vector<double>>()});
   for (const auto& [name, ns] : stages) add(name, ns);
+  const StageChange& total = changes[0];
+  comparison.detectable =
+      MarginOf(comparison, true) +
+      std::max(tolerance,
+               (total.difference.high - total.difference.value) / total.before);
+  if (!comparison.busy.empty() && comparison.detectable > kMaxDetectable) {
+    comparison.problems.push_back(
+        fmt::format("{}; only a total longer by more than {:.0f} % could have been found",
+                    fmt::join(comparison.busy, "; "), 100 * comparison.detectable));
+  }
   if (!comparison.problems.empty()) p.clear();  // nothing is judged
   for (const std::size_t i : stat::HolmRejections(p, kFalseAlarms)) {
     StageChange& c = changes[i];
-    c.slower = c.difference.value >
-               std::max(kMinChange * changes[0].before, tolerance * c.before);
+    c.slower = c.difference.value - MarginOf(comparison, i == 0) * c.before >
+               std::max(kMinChange * total.before, tolerance * c.before);
   }
   std::sort(changes.begin() + 1, changes.end(), [](const auto& a, const auto& b) {
     return std::abs(a.difference.value) > std::abs(b.difference.value);

@@ -25,6 +25,8 @@ struct ProfileComparison {
   /// The total, then all stages by falling absolute difference. Empty for other renders.
   std::vector<StageChange> changes;
   std::vector<std::string> problems;  // why the profiles are not comparable
+  std::vector<std::string> busy;      // why other programs may have changed the times
+  double detectable = 0;              // growth of the total above which it is reported
 
   bool IsSlower() const { return std::ranges::any_of(changes, &StageChange::slower); }
 };
@@ -32,10 +34,15 @@ struct ProfileComparison {
 /// Compares processor times per sample in two outputs of `profile --json`. A stage, or
 /// the total, is slower if all of this holds: Welch's t-test says so at 5 % for all of
 /// them together (Holm). Its median has grown by more than the fraction `tolerance`; and
-/// by 1 % of all time. Intervals of differences: half widths of the medians'
+/// by 1 % of all time. If a machine was busy, earlier times count as longer by what other
+/// programs can add, and the profiles are not comparable if `detectable` exceeds
+/// kMaxDetectable. Intervals of differences: half widths of the medians'
 /// intervals add as squares. Throws nlohmann::json::exception for other JSON.
 ProfileComparison CompareProfiles(const nlohmann::json& before, const nlohmann::json& now,
                                   double tolerance);
+
+/// Returns what was judged, and the result.
+std::string VerdictText(const ProfileComparison& comparison, double tolerance);
 
 /// Returns a table of at most `max_changes` differences and the verdict, in lines of at
 /// most `width` columns.

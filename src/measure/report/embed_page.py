@@ -51,6 +51,9 @@ PAGES = {
     "Bench": ({"NAME": "bench", "TABS": "Scenes",
                "FILES": also("the output of bench --json")},
                   "sweep", f"{CURVES} stages rates bench_rows bench_main"),
+    "Profile": ({"NAME": "profile", "TABS": "Scene",
+               "FILES": also("the output of profile --json")}, "images sweep profile",
+                  f"{CURVES} tone picture rates profile_rows profile_plots profile_main"),
     "Stress": ({"NAME": "stress", "TABS": "Targets",
                "FILES": also("stress.json in the same directory")}, "stress",
                    f"""{REPORT} {PLOTS} stress_data stress_scale stress_plot stress_tiles

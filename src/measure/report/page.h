@@ -1,5 +1,5 @@
-// HTML reports of studies, comparisons, sweeps and stress cases, each in one file with
-// styles, scripts, numbers and images; and the page of `lanelight live`.
+// HTML reports of studies, comparisons, sweeps, profiles and stress cases, each in one
+// file with styles, scripts, numbers and images; and the page of `lanelight live`.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,22 @@ struct ReportImage {
 
 /// The pages, whose texts embed_page.py assembles. kPaper has the founding paper's
 /// figures on the first scene of a study, with predicted and measured values.
-enum class PageKind { kStudy, kPaper, kComparison, kSweep, kBench, kStress, kLive };
+enum class PageKind {
+  kStudy,
+  kPaper,
+  kComparison,
+  kSweep,
+  kBench,
+  kProfile,
+  kStress,
+  kLive
+};
 
 /// Returns a page with the JSON of a command (docs/study.md, docs/compare.md,
-/// docs/sweep.md, docs/bench.md, docs/stress.md). Replaces invalid UTF-8 in texts. The
-/// page shows images that `images` lacks as missing. Its content security policy forbids
-/// network access and other files. Equal arguments give equal bytes. Images take 2 bytes
-/// per value, and a third more by base64.
+/// docs/sweep.md, docs/bench.md, docs/profile.md, docs/stress.md). Replaces invalid UTF-8
+/// in texts. The page shows images that `images` lacks as missing. Its content security
+/// policy forbids network access and other files. Equal arguments give equal bytes.
+/// Images take 2 bytes per value, and a third more by base64.
 std::string ReportPage(PageKind kind, const nlohmann::json& data,
                        const std::vector<ReportImage>& images = {});
 

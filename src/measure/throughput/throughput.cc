@@ -131,14 +131,18 @@ SceneDescription ReadBenchScene(const std::string& scene) {
 
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t)>& on_scene) {
+    const std::function<void(const BenchProgress&)>& on_scene) {
   std::vector<ThroughputRow> rows;
+  const Stopwatch all;
   for (std::size_t i = 0; i < options.scenes.size() && !stop; ++i) {
-    on_scene(i);
     SceneBench bench(options, options.scenes[i]);
-    bench.Begin(stop);
     const Stopwatch watch;
-    const double max_seconds = options.seconds * double(bench.rows().size());
+    bench.Begin(stop);
+    const double round = watch.Seconds(), left = options.seconds - all.Seconds();
+    const auto scenes = double(options.scenes.size() - i);
+    const double minimum = round * ((kMinRepeats + 1) * scenes - 1);
+    on_scene({i, minimum, std::max(minimum, left)});
+    const double max_seconds = round + left / scenes;
     for (int repeats = 0; !stop; ++repeats) {
       const bool enough = repeats >= kMinRepeats;
       if (enough && (MaxRelativeHalfWidth(bench.rows()) <= options.within ||

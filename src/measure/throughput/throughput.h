@@ -55,7 +55,7 @@ struct ThroughputOptions {
   std::vector<int> threads;          // one row each
   std::vector<std::string> targets;  // one row each
   double within = 0.01;  // ends when RelativeHalfWidth() of all rows is at most this
-  double seconds = 10;   // upper limit for each row
+  double seconds = 60;   // of all rows together, unless kMinRepeats take longer
 };
 
 /// One scene, on one SIMD target, with one number of threads.
@@ -112,13 +112,18 @@ std::string SceneLabel(const std::string& scene, const std::vector<Row>& rows) {
   return stem(scene);
 }
 
+struct BenchProgress {
+  std::size_t scene = 0;            // its index
+  double minimum = 0, maximum = 0;  // seconds left, if later scenes are like this one
+};
+
 /// Returns rows by scene, then target, then threads. Before timing, compares every image
 /// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
-/// ends it early and returns the rows measured so far. Calls `on_scene` with the index of
-/// each scene before its first render.
+/// ends it early and returns the rows measured so far. Calls `on_scene` for each scene
+/// after its first renders, which are a warm-up.
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(std::size_t)>& on_scene);
+    const std::function<void(const BenchProgress&)>& on_scene);
 
 /// Returns BusyReasons() of the machine (src/base/core/machine_info.h), for the row that
 /// waited longest.

@@ -34,13 +34,27 @@ Interval GeometricMean(const std::vector<Interval>& values) {
 
 namespace {
 
+// Returns the ratio of rates per processor second without the slowdown that other
+// programs explain.
+Interval WithoutOthers(const Interval& cpu_ratio) {
+  const double margin = 1 + kBusySlowdown;
+  return {margin * cpu_ratio.value, margin * cpu_ratio.low, margin * cpu_ratio.high};
+}
+
+// Half widths of medians of 6 to 20 repeats scatter. Simulated comparisons of equal
+// programs need about the quantiles of so many degrees of freedom.
+constexpr double kDegreesOfFreedom = 12;
+
 // Widens the upper limits of single rows to limits that hold for all rows together.
 void SetUpperLimits(std::vector<RateRatio>& rows) {
   if (rows.empty()) return;
-  const double wider = stat::NormalQuantile(1 - kFalseAlarms / double(rows.size())) /
-                       stat::NormalQuantile((1 + kBenchConfidence) / 2);
+  const auto quantile = [](double one_sided) {
+    return stat::StudentTwoSidedQuantile(2 * one_sided, kDegreesOfFreedom);
+  };
+  const double wider =
+      quantile(kFalseAlarms / double(rows.size())) / quantile((1 - kBenchConfidence) / 2);
   for (RateRatio& row : rows) {
-    const Interval& ratio = row.ratio;
+    const Interval& ratio = row.judged;
     row.high = ratio.value * std::pow(ratio.high / ratio.value, wider);
   }
 }
@@ -70,30 +84,45 @@ std::string IntervalText(const Interval& ratio) {
 
 std::string VerdictText(const RateComparison& comparison, double tolerance) {
   std::vector<Interval> ratios;
-  for (const RateRatio& row : comparison.rows) ratios.push_back(row.ratio);
+  const bool busy = !comparison.busy.empty();
+  const std::string reasons = fmt::format("{}", fmt::join(comparison.busy, "; "));
+  for (const RateRatio& row : comparison.rows) {
+    ratios.push_back(busy ? row.cpu_ratio : row.ratio);
+  }
   const std::string fast =
       comparison.rows.empty()
           ? ""
-          : fmt::format("{:.3g} times as fast (geometric mean of {}); ",
-                        GeometricMean(ratios).value, comparison.rows.size());
+          : fmt::format("{:.3g} times as fast{} (geometric mean of {}); ",
+                        GeometricMean(ratios).value, busy ? " per processor second" : "",
+                        comparison.rows.size());
+  const std::string judged =
+      busy ? fmt::format(
+                 ". Judged per processor second, of which other programs explain "
+                 "a loss of {:.0f} %, since the machine was busy ({}).",
+                 100 * kBusySlowdown, reasons)
+           : ".";
+  const double detectable = 100 * comparison.Detectable(tolerance);
   std::string slower;
   for (const RateRatio& row : comparison.rows) {
     if (row.Regresses(tolerance)) slower += (slower.empty() ? "" : "; ") + row.row;
   }
   switch (comparison.Judge(tolerance)) {
     case RateComparison::Verdict::kSlower:
-      return fast + "slower: " + slower + ".";
+      return fast + "slower: " + slower + judged;
     case RateComparison::Verdict::kNotSlower:
-      return fast +
-             fmt::format("no row is slower by more than {:.3g} %.", 100 * tolerance);
+      return fast + fmt::format("no row is slower by more than {:.3g} %{}",
+                                busy ? detectable : 100 * tolerance, judged);
     case RateComparison::Verdict::kNotComparable:
       break;
   }
-  std::string why = fmt::format("{}", fmt::join(comparison.busy, "; "));
-  if (why.empty()) {
-    why = comparison.refused.empty()
-              ? "no row is in both measurements"
-              : "rows differ in scene file, samples, size, threads, target or strategy";
+  std::string why;
+  if (!comparison.refused.empty()) {
+    why = "rows differ in scene file, samples, size, threads, target or strategy";
+  } else if (comparison.rows.empty()) {
+    why = "no row is in both measurements";
+  } else {
+    why = fmt::format("{}; only a slowdown by more than {:.0f} % could have been found",
+                      reasons, detectable);
   }
   return "not comparable; " + why + ".";
 }
@@ -110,8 +139,14 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
     const auto found = old.find(row.Key());
     if (found != old.end() && found->second->scene_hash == row.scene_hash) {
       const KnownRow& other = *found->second;
-      comparison.rows.push_back({row.Key(), RateRatioOf(row.rate, other.rate),
-                                 RateRatioOf(row.cpu_rate, other.cpu_rate), 0});
+      comparison.rows.push_back({row.Key(),
+                                 RateRatioOf(row.rate, other.rate),
+                                 RateRatioOf(row.cpu_rate, other.cpu_rate),
+                                 {},
+                                 0});
+      RateRatio& ratio = comparison.rows.back();
+      ratio.judged =
+          comparison.busy.empty() ? ratio.ratio : WithoutOthers(ratio.cpu_ratio);
       old.erase(found);
       continue;
     }
@@ -128,11 +163,23 @@ RateComparison CompareRates(const KnownThroughput& before, const KnownThroughput
 }
 
 RateComparison::Verdict RateComparison::Judge(double tolerance) const {
-  if (!busy.empty()) return Verdict::kNotComparable;
   for (const RateRatio& row : rows) {
     if (row.Regresses(tolerance)) return Verdict::kSlower;
   }
-  return refused.empty() && !rows.empty() ? Verdict::kNotSlower : Verdict::kNotComparable;
+  if (!refused.empty() || rows.empty()) return Verdict::kNotComparable;
+  return busy.empty() || Detectable(tolerance) <= kMaxDetectable
+             ? Verdict::kNotSlower
+             : Verdict::kNotComparable;
+}
+
+double RateComparison::Detectable(double tolerance) const {
+  const double margin = busy.empty() ? 0 : kBusySlowdown;
+  double most = 0;
+  for (const RateRatio& row : rows) {
+    const double found = std::min(1 - tolerance, row.judged.value / row.high);
+    most = std::max(most, 1 - found / (1 + margin));
+  }
+  return most;
 }
 
 std::string ComparisonText(const RateComparison& comparison,

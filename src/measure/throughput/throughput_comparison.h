@@ -56,11 +56,14 @@ struct RateRatio {
   std::string row;     // KnownRow::Key()
   Interval ratio;      // new rate divided by old rate
   Interval cpu_ratio;  // the same for rates per second of processor time
-  double high = 0;     // upper limit of `ratio`; kFalseAlarms of it holds for all rows
+  /// The ratio that is judged: `ratio`. If a machine was busy, cpu_ratio without the
+  /// slowdown that other programs explain, kBusySlowdown.
+  Interval judged;
+  double high = 0;  // upper limit of `judged`; kFalseAlarms of it holds for all rows
 
   /// Returns whether the new rate is significantly lower, by more than `tolerance`.
   bool Regresses(double tolerance) const {
-    return ratio.value < 1 - tolerance && high < 1;
+    return judged.value < 1 - tolerance && high < 1;
   }
 };
 
@@ -70,13 +73,15 @@ struct RateComparison {
   /// Rows whose scene is in both measurements, but not with the same samples, size,
   /// threads, target and strategy; one sentence each.
   std::vector<std::string> refused;
-  /// Reasons why a machine was too busy for a comparison.
+  /// Reasons why other programs may have changed the rates.
   std::vector<std::string> busy;
 
   enum class Verdict { kNotSlower, kSlower, kNotComparable };
-  /// Returns kNotComparable if a machine was busy, or a row was refused and no other is
-  /// slower.
+  /// Returns kNotComparable if no row is slower, and a row was refused, or a machine was
+  /// so busy that Detectable() exceeds kMaxDetectable.
   Verdict Judge(double tolerance) const;
+  /// Returns the fraction by which all rows must lose speed to be reported.
+  double Detectable(double tolerance) const;
 };
 
 /// Returns the ratio of two independent rates: squares of half widths of their logarithms

@@ -97,7 +97,7 @@ std::string ListText(const std::vector<KnownThroughput>& results, std::size_t re
   }
   const std::string note = fmt::format(
       "Millions of samples per wall second. Ratios to result {}: geometric means with "
-      "95 % intervals, per wall and per processor second.",
+      "95 % intervals, per wall and per processor second. AVX3 is AVX-512.",
       reference + 1);
   const char* const mark =
       "* not comparable: another scene file, size, samples per pixel or strategy.";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "src/base/core/machine_info.h"
 #include "src/base/core/text_layout.h"
@@ -106,9 +107,13 @@ std::string ThroughputText(const std::vector<ThroughputRow>& rows, double within
   if (rows.empty()) return "Nothing was measured.\n";
   const std::string gap = style.markdown ? "\n" : "";
   const std::size_t width = style.markdown ? std::string::npos : style.width;
+  std::set<std::string> targets;
+  for (const ThroughputRow& row : rows) targets.insert(TargetText(row.target));
   return LabelledRow("machine", MachineText(ThisMachine()), width, kLabel) + gap +
-         LabelledRow("program", FullVersion(), width, kLabel) + "\n" +
-         RateTable(rows, style) + "\n" + WorkTable(rows, style) + "\n" +
+         LabelledRow("program", FullVersion(), width, kLabel) + gap +
+         LabelledRow("target", fmt::format("{}", fmt::join(targets, ", ")), width,
+                     kLabel) +
+         "\n" + RateTable(rows, style) + "\n" + WorkTable(rows, style) + "\n" +
          WarningLines(rows, within, width);
 }
 

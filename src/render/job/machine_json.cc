@@ -38,6 +38,10 @@ MachineInfo MachineFromJson(const nlohmann::json& json) {
   return machine;
 }
 
+std::string TargetText(const std::string& target) {
+  return target + (target.starts_with("AVX3") ? " (AVX-512)" : "");
+}
+
 std::string MachineCsvHeader() {
   std::string text;
 #define X(type, name) \

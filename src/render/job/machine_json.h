@@ -22,6 +22,10 @@ MachineInfo MachineFromJson(const nlohmann::json& json);
 std::string MachineCsvHeader();
 std::string MachineCsvRow(const MachineInfo& machine);
 
+/// Returns the name of a SIMD target, with the instruction set where Highway names that
+/// differently: "AVX3 (AVX-512)".
+std::string TargetText(const std::string& target);
+
 /// Name and version of the libraries in use, and of the compiler.
 std::vector<std::pair<std::string, std::string>> LibraryVersions();
 

@@ -54,6 +54,7 @@ Json RowJson(const ProfileRow& row, double flops) {
   const bool stage = row.kind == RowKind::kStage;
   const auto of_stage = [&](double value) { return stage ? Json(value) : Json(); };
   out["intersect"] = row.intersect;
+  out["material"] = c.material.empty() ? Json() : Json(c.material);
   out["occupancy"] = c.lane_slots > 0 ? Json(c.Occupancy()) : Json();
   out["bytes_read_per_item"] = of_stage(c.bytes_read);
   out["bytes_written_per_item"] = of_stage(c.bytes_written);

@@ -86,7 +86,10 @@ void ThreadWork::Merge(std::size_t tile, TaskSamples& task) {
   if (options_.on_tile) options_.on_tile(films_.film(), place);
   const std::lock_guard lock(counts_mutex_);
   counts_.Add(task.counts);
-  if (options_.on_task) options_.on_task(tiles[tile], task.counts);
+  if (!options_.on_task) return;
+  RunCounts counts = task.counts;
+  counts.cpu_seconds = task.cpu_seconds;
+  options_.on_task(tiles[tile], counts);
 }
 
 void ThreadWork::AddProfile(RunResult& result) { runner_.AddCounts(result); }

@@ -57,7 +57,8 @@ struct RunOptions {
   /// Receives the pixels that have new samples, on the thread that has added them; it may
   /// read these pixels only.
   std::function<void(const FilmAccumulator& film, const PixelRect& place)> on_tile;
-  /// Receives the counts of each finished task; one call at a time.
+  /// Receives the counts of each finished task, with its processor seconds if `profile`;
+  /// one call at a time.
   std::function<void(const PixelRect& tile, const RunCounts&)> on_task;
   /// Set to end the render: samples in flight are finished, unless they take too long.
   const std::atomic<bool>* stop = nullptr;

@@ -37,6 +37,7 @@ struct TaskSamples {
   std::vector<PixelSplat> splats;  // of light subpaths, with kLightPaths
   std::uint64_t light_paths = 0;   // number of these
   RunCounts counts;
+  double cpu_seconds = 0;  // if the run has a profile; not part of `counts`
 };
 
 /// Numbers that a training has learned, by name.

@@ -37,7 +37,7 @@ void StageClock::StartTask() {
   task_start_ = last_ = Ticks();
 }
 
-void StageClock::EndTask() {
+double StageClock::EndTask() {
   const std::uint64_t ticks = std::max<std::uint64_t>(Ticks() - task_start_, 1);
   const double cpu = ThreadCpuSeconds() - task_cpu_;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -50,6 +50,7 @@ void StageClock::EndTask() {
   }
   ticks_ += ticks;
   cpu_seconds_ += cpu;
+  return cpu;
 }
 
 BounceProfile StageClock::CostsSoFar(const Wave& wave) const {

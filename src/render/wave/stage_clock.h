@@ -41,8 +41,8 @@ class StageClock {
 
   /// Begins a task; the time before it is not counted.
   void StartTask();
-  /// Ends the task and shares its processor time among its pieces.
-  void EndTask();
+  /// Ends the task, shares its processor time among its pieces, and returns it.
+  double EndTask();
   /// Begins a wave. One of 32, chosen without a pattern, reads the processor's counters;
   /// they take about 0.5 us per stage call, which no stage is charged with.
   void StartWave();

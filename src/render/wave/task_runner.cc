@@ -107,7 +107,7 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
     }
     if (visible_lights_) AddVisibleLights(range, rect, out, space);
   }
-  if (clock) clock->EndTask();
+  if (clock) out.cpu_seconds = clock->EndTask();
   return ended;
 }
 

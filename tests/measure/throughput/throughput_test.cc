@@ -30,7 +30,7 @@ ThroughputOptions SmallBench() {
 
 std::vector<ThroughputRow> Measure(const ThroughputOptions& options) {
   const std::atomic<bool> stop{false};
-  return MeasureThroughput(options, stop, [](std::size_t) {});
+  return MeasureThroughput(options, stop, [](const BenchProgress&) {});
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ function fmtSeconds(seconds, digits = 3) {
 
 // Highway names AVX-512 differently.
 function instructionSet(target) {
-  return target.startsWith("AVX3") ? `AVX-512 (${target})` : target;
+  return target.startsWith("AVX3") ? `${target} (AVX-512)` : target;
 }
 
 // Value and bounds with a common power of ten or unit: {value, bounds}; bounds may be "".

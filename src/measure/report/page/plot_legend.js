@@ -1,7 +1,7 @@
 "use strict";
 // What stands around plots: their frames, and the legend that chooses what they show.
 
-function strategyLegend(view, label = "Strategies shown") {
+function strategyLegend(view, label = "Strategies shown", filter = true) {
   const listed = view.ranked;
   const buttons = listed.map((s) =>
     el("button.button.legend-item",
@@ -28,7 +28,7 @@ function strategyLegend(view, label = "Strategies shown") {
   view.shown.listen(show);
   show(view.shown.value);
   const legend = el("div.legend", { role: "group", "aria-label": label }, buttons);
-  if (listed.length > MOST_CURVES) legend.prepend(filterBox(view, listed, buttons));
+  if (filter && listed.length > MOST_CURVES) legend.prepend(filterBox(view, listed, buttons));
   return legend;
 }
 
