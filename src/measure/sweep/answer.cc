@@ -13,16 +13,6 @@ using Json = nlohmann::json;
 
 constexpr int kMinSeeds = 4;  // of a ranking
 
-std::string WhereText(const Json& values) {
-  std::string text = values.at("scene").get<std::string>();
-  for (const auto& [axis, value] : values.items()) {
-    if (axis == "scene") continue;
-    text += fmt::format(", {} {}{}", axis, value.get<std::string>(),
-                        axis == "time" ? " s" : "");
-  }
-  return text;
-}
-
 // Returns e.g. "reuse=block has 2.31 [2.10, 2.55] times the efficiency of default".
 std::string BestText(const Json& leader) {
   const std::string best = leader.at("best"), baseline = leader.at("baseline");
@@ -52,7 +42,7 @@ std::string OpenText(const Json& leader) {
 
 std::string LineText(const Json& leader) {
   const auto seeds = leader.at("seeds").get<int>();
-  const std::string where = WhereText(leader.at("values"));
+  const std::string where = ValuesText(leader.at("values"));
   if (seeds < kMinSeeds) {
     return fmt::format(
         "{}: {} {} not rank strategies; give at least {}: seed = [1, 2, 3, 4]", where,
@@ -64,6 +54,16 @@ std::string LineText(const Json& leader) {
 }
 
 }  // namespace
+
+std::string ValuesText(const Json& values) {
+  std::string text = values.at("scene").get<std::string>();
+  for (const auto& [axis, value] : values.items()) {
+    if (axis == "scene") continue;
+    text += fmt::format(", {} {}{}", axis, value.get<std::string>(),
+                        axis == "time" ? " s" : "");
+  }
+  return text;
+}
 
 std::string AnswerText(const Json& leaders) {
   std::string text;

@@ -11,6 +11,7 @@
 #include "src/base/image/atomic_file.h"
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
+#include "src/measure/sweep/convergence.h"
 #include "src/measure/sweep/race.h"
 #include "src/render/job/machine_json.h"
 
@@ -173,8 +174,10 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
   outcome.other_cells = folder.OtherCells();
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
-  const Json json = SweepJson(sweep, cells, groups);
-  outcome.answer = AnswerText(json.at("leaders"));
+  Json json = SweepJson(sweep, cells, groups);
+  json["convergence"] = ConvergenceJson(sweep, folder, groups);
+  outcome.answer =
+      AnswerText(json.at("leaders")) + ConvergenceText(json.at("convergence"));
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
   WriteFileAtomically(
       folder.File("report.html"),

@@ -66,7 +66,10 @@ nlohmann::json LeadersJson(const std::vector<CellGroup>& groups,
                            const std::vector<nlohmann::json>& cells,
                            const std::string& baseline);
 
-/// Returns the same as text, a line for each scene; with fewer than four seeds, what a
+/// Returns values as text: "box, spp 64".
+std::string ValuesText(const nlohmann::json& values);
+
+/// Returns the leaders as text, a line for each scene; with fewer than four seeds, what a
 /// ranking needs. Empty without leaders.
 std::string AnswerText(const nlohmann::json& leaders);
 
