@@ -39,3 +39,11 @@ def the_table_sorts(page):
     last = page.find("#cells tbody tr:last-child").text
     require("failed" in last or "missing" in last, "what is not known is not last:", last)
     require("out of <i>memory</i>" in page.find("#cells").text, "no message")
+
+
+@check
+def the_pixels_to_blame_are_named(page):
+    page.show("#convergence")
+    text = page.find("#convergence").text
+    require("stops falling as 1/N at 16 spp" in text, text)
+    require("(7, 4) 45 %" in text and "heavy-tails" in text, text)

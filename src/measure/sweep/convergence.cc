@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <set>
 
 #include "src/base/core/check.h"
 #include "src/base/stat/convergence.h"
@@ -20,7 +19,7 @@ constexpr double kConfidence = 0.95;  // of all tests of a curve together
 // Lowest end of the interval of an order that counts as 1 / N.
 constexpr double kDecided = 0.75;
 constexpr double kRoundingShare = 0.25;
-constexpr double kPercent = 0.01;
+constexpr double kPercent = 0.01, kTiny = 1e-300;
 // Heavy tails are a property of few among many pixels.
 constexpr std::size_t kMinPixels = 100;
 
@@ -244,17 +243,18 @@ void FindFall(std::span<const stat::Level> levels, double confidence, Convergenc
 // Returns the worst pixels, and sets what is known of them.
 WorstPixels FindPixels(const Reference& reference, Convergence& out) {
   const std::vector<double> errors = reference.Variances(0, 1);
-  const std::size_t few = CountOf(kWorstFraction, errors.size());
-  WorstPixels worst = {LargestOf(errors, few), {}};
-  out.worst_share = ShareOf(errors, worst.pixels);
-  out.percent_share =
-      ShareOf(errors, LargestOf(errors, CountOf(kPercent, errors.size())));
-  const std::vector<std::size_t> even = LargestOf(reference.Variances(0, 2), few),
-                                 odd = LargestOf(reference.Variances(1, 2), few);
-  const std::set<std::size_t> in_odd(odd.begin(), odd.end());
-  out.repeated = double(std::ranges::count_if(
-                     even, [&](std::size_t i) { return in_odd.count(i) > 0; })) /
-                 double(few);
+  const std::size_t percent = CountOf(kPercent, errors.size());
+  WorstPixels worst = {LargestOf(errors, percent), {}};
+  out.worst_share =
+      ShareOf(errors, LargestOf(errors, CountOf(kWorstFraction, errors.size())));
+  out.percent_share = ShareOf(errors, worst.pixels);
+  const std::vector<std::size_t> even = LargestOf(reference.Variances(0, 2), percent),
+                                 odd = LargestOf(reference.Variances(1, 2), percent);
+  std::vector<std::size_t> both;  // of the worst in either half
+  for (const std::size_t i : worst.pixels) {
+    if (std::ranges::count(even, i) + std::ranges::count(odd, i) == 2) both.push_back(i);
+  }
+  out.repeated = ShareOf(errors, both) / std::max(out.percent_share, kTiny);
   const auto width = std::size_t(reference.width());
   for (const std::size_t i : worst.pixels) {
     worst.shares.push_back(errors[i]);
@@ -287,7 +287,8 @@ Convergence AnalyseCurve(const ErrorCurve& curve) {
   FindFall(measured.levels, 1 - stat::SidakLevel(level, orders), out);
   const double skewed = FindSkewness(measured, worst, out);
   if (out.fall == Fall::kSlower) out.cause = FallCause::kUnknown;
-  if (reference.pixels() >= kMinPixels && out.worst_share > kHeavyTail &&
+  const bool doubtful = out.fall != Fall::kAsExpected || out.worst_share > kHeavyTail;
+  if (doubtful && reference.pixels() >= kMinPixels &&
       skewed > stat::NormalQuantile(1 - level)) {
     out.cause = FallCause::kHeavyTails;
   }

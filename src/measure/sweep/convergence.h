@@ -46,10 +46,11 @@ struct Convergence {
   /// Shares of the squared error at the largest count, in the worst 0.1 % of the pixels
   /// (at least one) and in the worst 1 %.
   double worst_share = 0, percent_share = 0;
-  /// Skewness of the worst 0.1 % over the seeds: 0 for normal means, positive if rare
+  /// Skewness of the worst 1 % over the seeds: 0 for normal means, positive if rare
   /// samples are bright. Weighted by error; mean over the counts.
   double skewness = 0;
-  /// The fraction of the worst 0.1 % in one half of the seeds that is in the other's.
+  /// Fraction of the error of the worst 1 % in pixels that are among the worst 1 % in
+  /// both halves of the seeds.
   double repeated = 0;
   std::vector<BlamedPixel> pixels;  // the worst, at most kMaxBlamed
 };
@@ -65,11 +66,11 @@ inline constexpr std::size_t kMinCurveSeeds = 4;
 /// count to the last, is significantly below kMinOrder. Rounding is the cause if it makes
 /// up a quarter of the last error.
 ///
-/// The worst 0.1 % of the pixels have heavy tails if they carry more than kHeavyTail of
-/// the error and their means are significantly skewed: too few samples for a normal
-/// distribution. They may do so before the error of all pixels falls slowly. Selection by
-/// variance does not affect the test, since the skewness of normal samples is independent
-/// of their variance.
+/// The worst 1 % of the pixels have heavy tails if their means are significantly skewed:
+/// too few samples for a normal distribution. These are the cause if the fall is slower
+/// or not decided, and are named as well if 0.1 % of the pixels carry more than
+/// kHeavyTail of the error. Selection by variance does not affect the test, since the
+/// skewness of normal samples is independent of their variance.
 ///
 /// At most 5 % of curves of normal errors that fall as 1 / N are blamed: half of that for
 /// orders (Sidak's correction), half for skewness.

@@ -110,11 +110,12 @@ std::string CauseText(const Convergence& c, bool half) {
   }
   if (c.cause == FallCause::kHeavyTails) {
     return fmt::format(
-        "heavy tails: the worst 0.1 % of the pixels carry {} of the squared error, the "
-        "worst 1 % {}; {} of the worst are so in both halves of the seeds; worst pixels "
-        "(x, y): {}",
-        PercentText(c.worst_share), PercentText(c.percent_share), PercentText(c.repeated),
-        PixelsText(c.pixels));
+        "heavy tails (the means of the worst 1 % of the pixels have a skewness of "
+        "{:.2g}): 0.1 % of the pixels carry {} of the squared error, 1 % {} ({} of that "
+        "in "
+        "the same pixels in both halves of the seeds); the worst (x, y): {}",
+        c.skewness, PercentText(c.worst_share), PercentText(c.percent_share),
+        PercentText(c.repeated), PixelsText(c.pixels));
   }
   return fmt::format(
       "neither rounding ({:.2g}) nor few pixels (the worst 0.1 % carry {}) explain it",

@@ -130,7 +130,20 @@ std::string SyntheticPage(const Sweep& sweep) {
   }
   std::vector<ReportImage> images;
   for (const auto& [name, image] : pictures) images.push_back(image);
-  return ReportPage(PageKind::kSweep, SweepJson(sweep, cells, groups), images);
+  Json json = SweepJson(sweep, cells, groups);
+  const Json order = {{"value", 0.4}, {"low", 0.2}, {"high", 0.6}};
+  json["convergence"] = {{{"values", {{"scene", "box"}, {"strategy", "default"}}},
+                          {"order", order},
+                          {"fall", "slower"},
+                          {"from", 16},
+                          {"cause", "heavy-tails"},
+                          {"rounding", 1e-16},
+                          {"worst_share", 0.5},
+                          {"percent_share", 0.7},
+                          {"repeated", 0.9},
+                          {"pixels", {{{"x", 7}, {"y", 4}, {"share", 0.45}}}},
+                          {"text", "the error stops falling as 1/N at 16 spp"}}};
+  return ReportPage(PageKind::kSweep, json, images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {

@@ -30,7 +30,7 @@ function convergenceColumns() {
     numberColumn("percent", "Worst 1 %", (c) => c.percent_share, fmtPercent,
       { unit: "of the error", descendingFirst: true }),
     numberColumn("repeated", "Repeated", (c) => c.repeated, fmtPercent,
-      { hint: "Fraction of the worst 0.1 % of the pixels that both halves of the seeds share" }),
+      { hint: "Fraction of the error of the worst 1 % of the pixels that both halves of the seeds have in common" }),
     textColumn("pixels", "Worst pixels (x, y)", pixelTexts),
   ];
 }
@@ -43,7 +43,7 @@ function convergenceSection() {
     el("p.lead",
       blamed.length === 0
         ? "No error falls significantly more slowly than 1/N. "
-        : `Of ${curves.length} errors, ${blamed.length} fall more slowly than 1/N or have heavy tails. `,
+        : `Of ${curves.length} errors, ${blamed.length} fall more slowly than 1/N, or may because of heavy tails. `,
       "Errors are distances between the images of different seeds; shares are those at the " +
         "largest count.",
     ),
