@@ -151,23 +151,33 @@ std::string SweepCsv(const std::vector<Json>& cells) {
   return text;
 }
 
+CellResult CellResultOf(const SweepCell& cell, const SweepFolder& folder,
+                        const CellRecord& record) {
+  return FromJsonOf(folder.File(cell, "report.json"), [&] {
+    const bool done = record.state == CellState::kDone;
+    return CellResult{CellJson(cell, record),
+                      done && record.report.value("differs", false)};
+  });
+}
+
 void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
-                  SweepOutcome& outcome) {
+                  CellResults finished, SweepOutcome& outcome) {
   std::vector<Json> cells;
   for (const SweepCell& cell : sweep.cells) {
-    const CellRecord record = folder.ReadCell(cell);
-    FromJsonOf(folder.File(cell, "report.json"), [&] {
-      cells.push_back(CellJson(cell, record));
-      if (record.state != CellState::kDone) return;
-      ++outcome.done;
-      outcome.cpu_seconds += cells.back()["measured"].value("cpu_seconds", 0.0);
-      outcome.invalid_samples +=
-          cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
-      outcome.differing += record.report.value("differs", false);
-    });
+    auto known = finished.extract(cell.index);
+    const CellRecord record = known ? CellRecord() : folder.ReadCell(cell);
+    CellResult now =
+        known ? std::move(known.mapped()) : CellResultOf(cell, folder, record);
+    cells.push_back(std::move(now.json));
     if (record.state == CellState::kFailed) {
       outcome.failures.push_back({cell.name, record.message});
     }
+    if (cells.back()["status"] != Name(CellState::kDone)) continue;
+    ++outcome.done;
+    outcome.cpu_seconds += cells.back()["measured"].value("cpu_seconds", 0.0);
+    outcome.invalid_samples +=
+        cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
+    outcome.differing += now.differs;
   }
   if (race) outcome.stopped = MarkStopped(sweep, cells);
   outcome.total = sweep.cells.size();
@@ -179,9 +189,9 @@ void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
   outcome.answer =
       AnswerText(json.at("leaders")) + ConvergenceText(json.at("convergence"));
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
-  WriteFileAtomically(
-      folder.File("report.html"),
-      ReportPage(PageKind::kSweep, json, Thumbnails(sweep, folder, groups)));
+  WriteFileAtomically(folder.File("report.html"),
+                      ReportPage(PageKind::kSweep, PageJson(std::move(json)),
+                                 Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

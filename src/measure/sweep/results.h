@@ -17,10 +17,22 @@ namespace lanelight {
 /// Returns the report of a render with processor seconds, machine and program.
 nlohmann::json CellReport(const Rendering& rendering);
 
-/// Reads all cells, writes the table and the page, and adds the state of the whole sweep
-/// to `outcome`. `race`: missing cells of strategies that have lost are kStopped.
+/// A cell as its files have it.
+struct CellResult {
+  nlohmann::json json;  // by CellJson()
+  bool differs = false;
+};
+using CellResults = std::map<std::size_t, CellResult>;  // by index
+
+/// Returns a cell; throws InputError if its report lacks something.
+CellResult CellResultOf(const SweepCell& cell, const SweepFolder& folder,
+                        const CellRecord& record);
+
+/// Reads all cells but those in `finished`, writes the table and the page, and adds the
+/// state of the whole sweep to `outcome`. `race`: missing cells of strategies that have
+/// lost are kStopped.
 void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
-                  SweepOutcome& outcome);
+                  CellResults finished, SweepOutcome& outcome);
 
 /// Returns the names of stages of all cells, ascending.
 std::vector<std::string> StageNames(const std::vector<nlohmann::json>& cells);
@@ -79,6 +91,10 @@ std::string BaselineOf(const Sweep& sweep);
 /// Writes sweep.json (docs/sweep.md); `cells` by CellJson().
 nlohmann::json SweepJson(const Sweep& sweep, const std::vector<nlohmann::json>& cells,
                          const std::vector<CellGroup>& groups);
+
+/// Returns sweep.json as the page has it: "packed" instead of "cells", with a column for
+/// each member and numbers of six digits, so that a page can have 100 000 cells.
+nlohmann::json PageJson(nlohmann::json sweep_json);
 
 /// Returns a small image of the first finished cell of each of the first 1000 groups,
 /// named like the cell; at most about 8 MB of text. Omits images that cannot be read.

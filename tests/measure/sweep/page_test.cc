@@ -143,7 +143,7 @@ std::string SyntheticPage(const Sweep& sweep) {
                           {"repeated", 0.9},
                           {"pixels", {{{"x", 7}, {"y", 4}, {"share", 0.45}}}},
                           {"text", "the error stops falling as 1/N at 16 spp"}}};
-  return ReportPage(PageKind::kSweep, json, images);
+  return ReportPage(PageKind::kSweep, PageJson(json), images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {
