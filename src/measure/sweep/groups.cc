@@ -86,15 +86,46 @@ struct StrategyCosts {
   Costs costs;
 };
 
-// The strategies of a context: those that are ranked, and how many have stopped.
+// The strategies of a context. Those that stopped (--race) have fewer seeds.
 struct Contest {
-  std::vector<StrategyCosts> ranked;
-  std::set<std::string> stopped;
+  std::vector<StrategyCosts> ranked, stopped;
   const CellGroup* sample = nullptr;
+
+  bool Has(const std::string& strategy) const {
+    const auto is = [&](const StrategyCosts& c) { return c.strategy == strategy; };
+    return std::ranges::any_of(ranked, is) || std::ranges::any_of(stopped, is);
+  }
 };
 
-Json LeaderJson(const std::vector<StrategyCosts>& strategies,
-                const std::string& baseline) {
+// A strategy and its efficiency relative to the baseline.
+struct Placed {
+  std::string strategy;
+  Interval efficiency = WithoutBounds(0);
+};
+
+// Returns the most efficient strategy but `best`; an empty name without any. Those that
+// stopped have the seeds that they share with the baseline.
+Placed RunnerUp(const Contest& contest, const std::vector<Interval>& ratios,
+                std::size_t best, const Costs& baseline, double confidence) {
+  Placed next;
+  const auto enter = [&](const std::string& strategy, const Interval& efficiency) {
+    if (next.strategy.empty() || efficiency.value > next.efficiency.value) {
+      next = {strategy, efficiency};
+    }
+  };
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    if (i != best) enter(contest.ranked[i].strategy, ratios[i]);
+  }
+  for (const StrategyCosts& c : contest.stopped) {
+    const auto paired = PairedCosts({baseline, c.costs});
+    if (paired[0].empty()) continue;
+    enter(c.strategy, stat::EfficiencyRatio(paired[0], paired[1], confidence));
+  }
+  return next;
+}
+
+Json LeaderJson(const Contest& contest, const std::string& baseline) {
+  const std::vector<StrategyCosts>& strategies = contest.ranked;
   std::vector<Costs> all;
   for (const StrategyCosts& c : strategies) all.push_back(c.costs);
   const auto paired = PairedCosts(all);
@@ -103,18 +134,22 @@ Json LeaderJson(const std::vector<StrategyCosts>& strategies,
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (strategies[i].strategy == baseline) base = i;
   }
-  const int others = std::max(1, int(all.size()) - 1);
+  const int others = std::max(1, int(all.size() + contest.stopped.size()) - 1);
   const double confidence = 1 - stat::SidakLevel(1 - kSweepConfidence, others);
   std::vector<Interval> ratios;
   for (const auto& costs : paired) {
     ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
     if (ratios.back().value > ratios[best].value) best = ratios.size() - 1;
   }
+  const Placed next = RunnerUp(contest, ratios, best, all[base], confidence);
   Json json = {{"best", strategies[best].strategy},
                {"baseline", strategies[base].strategy},
                {"efficiency", best == base ? IntervalJson(WithoutBounds(1))
                                            : IntervalJson(ratios[best])},
+               {"next", next.strategy.empty() ? Json() : Json(next.strategy)},
+               {"next_efficiency", IntervalJson(next.efficiency)},
                {"strategies", all.size()},
+               {"stopped", contest.stopped.size()},
                {"seeds", paired[0].size()},
                {"equals", nullptr}};
   if (all.size() > kMaxRanked) return json;
@@ -208,19 +243,14 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   std::map<std::size_t, Contest> contexts;
   for (const CellGroup& group : groups) {
     Contest& contest = contexts[group.context];
-    if (group.stopped) {
-      contest.stopped.insert(group.strategy);
-      continue;
-    }
     Costs costs = CostsOf(group, cells);
-    std::vector<StrategyCosts>& in = contest.ranked;
-    if (costs.empty() || std::ranges::any_of(in, [&](const StrategyCosts& c) {
-          return c.strategy == group.strategy;
-        })) {
-      continue;
+    if (contest.Has(group.strategy)) continue;
+    if (group.stopped) {
+      contest.stopped.push_back({group.strategy, std::move(costs)});
+    } else if (!costs.empty()) {
+      contest.ranked.push_back({group.strategy, std::move(costs)});
+      contest.sample = &group;
     }
-    in.push_back({group.strategy, std::move(costs)});
-    contest.sample = &group;
   }
   std::map<std::string, Json> last;  // by scene
   std::vector<std::string> order;
@@ -228,9 +258,8 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
     if (contest.ranked.size() + contest.stopped.size() < 2 || contest.ranked.empty()) {
       continue;
     }
-    Json leader = LeaderJson(contest.ranked, baseline);
+    Json leader = LeaderJson(contest, baseline);
     if (leader.is_null()) continue;
-    leader["stopped"] = contest.stopped.size();
     leader["values"] = ContextOf(*contest.sample);
     const std::string scene = leader["values"].at(Key(Axis::kScene));
     if (last.count(scene) == 0) order.push_back(scene);

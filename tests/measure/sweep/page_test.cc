@@ -269,6 +269,8 @@ TEST_CASE("sweep: efficiencies are ratios over pairs of equal seeds", "[sweep][r
   }
   CHECK(json["leaders"][1]["best"] == best);
   CHECK(json["leaders"][1]["strategies"] == 10);
+  CHECK(json["leaders"][1]["next"] != best);
+  CHECK(json["leaders"][1]["next_efficiency"]["value"] <= maximum);
   CHECK(json["leaders"][1]["seeds"] == 10);
 }
 
@@ -317,6 +319,35 @@ seed = [1, 2, 3, 4]
   CHECK(json["leaders"][0]["efficiency"]["low"].get<double>() == Approx(3));
   CHECK_THAT(AnswerText(json["leaders"]),
              Catch::Contains("time 2 s: points=halton has 3 [3, 3] times"));
+}
+
+TEST_CASE("sweep: a race that the baseline wins names the runner-up", "[sweep][report]") {
+  const TemporaryFolder folder;
+  folder.Write("a.pbrt", "");
+  const Sweep sweep = ParseSweep(folder.File("s.toml"), R"([grid]
+scene = "a.pbrt"
+strategy = ["points=cmj", "points=halton"]
+spp = 16
+seed = [1, 2, 3, 4, 5]
+)");
+  std::vector<Json> cells;
+  for (const SweepCell& cell : sweep.cells) {
+    const bool stopped = cell.index >= 8;
+    cells.push_back(CellJson(
+        cell, stopped ? CellRecord()
+                      : CellRecord{CellState::kDone, SyntheticReport(cell), ""}));
+    if (stopped) {
+      cells.back()["status"] = Name(CellState::kStopped);
+      continue;
+    }
+    cells.back()["measured"]["cpu_seconds"] = 1;
+    cells.back()["measured"]["relmse"] = cell.index < 5 ? 1 : 2;
+  }
+  const Json json = SweepJson(sweep, cells, GroupCells(sweep, cells));
+  CHECK_THAT(AnswerText(json["leaders"]),
+             Catch::Contains("points=cmj, the baseline, is the most efficient; the next, "
+                             "points=halton, has 0.5 [0.5, 0.5] times its efficiency; 1 "
+                             "stopped early (5 seeds)"));
 }
 
 TEST_CASE("The synthetic sweep can be written", "[sweep][report]") {
