@@ -11,8 +11,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kMinSeeds = 4;  // of a ranking
-
 // Returns e.g. "2.31 [2.10, 2.55]".
 std::string RatioText(const Json& interval) {
   if (!interval.at("low").is_number()) {
@@ -52,11 +50,11 @@ std::string OpenText(const Json& leader) {
 std::string LineText(const Json& leader) {
   const auto seeds = leader.at("seeds").get<int>();
   const std::string where = ValuesText(leader.at("values"));
-  if (seeds < kMinSeeds) {
+  if (seeds < kMinRankedSeeds) {
     return fmt::format(
         "{}: {} {} not rank strategies; give at least {}: seed = [1, 2, 3, 4]", where,
         seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds),
-        seeds == 1 ? "does" : "do", kMinSeeds);
+        seeds == 1 ? "does" : "do", kMinRankedSeeds);
   }
   return fmt::format("{}: {}{} ({} seeds)", where, BestText(leader), OpenText(leader),
                      seeds);

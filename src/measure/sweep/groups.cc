@@ -91,9 +91,14 @@ struct Contest {
   std::vector<StrategyCosts> ranked, stopped;
   const CellGroup* sample = nullptr;
 
-  bool Has(const std::string& strategy) const {
-    const auto is = [&](const StrategyCosts& c) { return c.strategy == strategy; };
-    return std::ranges::any_of(ranked, is) || std::ranges::any_of(stopped, is);
+  // Returns null if no group has entered it.
+  const StrategyCosts* Find(const std::string& strategy) const {
+    for (const auto* strategies : {&ranked, &stopped}) {
+      for (const StrategyCosts& c : *strategies) {
+        if (c.strategy == strategy) return &c;
+      }
+    }
+    return nullptr;
   }
 };
 
@@ -103,23 +108,27 @@ struct Placed {
   Interval efficiency = WithoutBounds(0);
 };
 
+// Returns an efficiency relative to the baseline, by the seeds that both have; without
+// any, the value is NaN.
+Interval RatioOf(const Costs& baseline, const Costs& costs, double confidence) {
+  const auto paired = PairedCosts({baseline, costs});
+  if (paired[0].empty()) return WithoutBounds(std::nan(""));
+  return stat::EfficiencyRatio(paired[0], paired[1], confidence);
+}
+
 // Returns the most efficient strategy but `best`; an empty name without any. Those that
-// stopped have the seeds that they share with the baseline.
-Placed RunnerUp(const Contest& contest, const std::vector<Interval>& ratios,
-                std::size_t best, const Costs& baseline, double confidence) {
+// stopped have fewer seeds.
+Placed RunnerUp(const Contest& contest, const StrategyCosts& best, const Costs& baseline,
+                double confidence) {
   Placed next;
-  const auto enter = [&](const std::string& strategy, const Interval& efficiency) {
-    if (next.strategy.empty() || efficiency.value > next.efficiency.value) {
-      next = {strategy, efficiency};
+  for (const auto* strategies : {&contest.ranked, &contest.stopped}) {
+    for (const StrategyCosts& c : *strategies) {
+      const Interval efficiency = RatioOf(baseline, c.costs, confidence);
+      if (&c == &best || std::isnan(efficiency.value)) continue;
+      if (next.strategy.empty() || efficiency.value > next.efficiency.value) {
+        next = {c.strategy, efficiency};
+      }
     }
-  };
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    if (i != best) enter(contest.ranked[i].strategy, ratios[i]);
-  }
-  for (const StrategyCosts& c : contest.stopped) {
-    const auto paired = PairedCosts({baseline, c.costs});
-    if (paired[0].empty()) continue;
-    enter(c.strategy, stat::EfficiencyRatio(paired[0], paired[1], confidence));
   }
   return next;
 }
@@ -130,22 +139,23 @@ Json LeaderJson(const Contest& contest, const std::string& baseline) {
   for (const StrategyCosts& c : strategies) all.push_back(c.costs);
   const auto paired = PairedCosts(all);
   if (paired[0].empty()) return nullptr;
-  std::size_t base = 0, best = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (strategies[i].strategy == baseline) base = i;
-  }
+  const StrategyCosts* base = contest.Find(baseline);
+  if (base == nullptr) base = &strategies[0];
   const int others = std::max(1, int(all.size() + contest.stopped.size()) - 1);
   const double confidence = 1 - stat::SidakLevel(1 - kSweepConfidence, others);
-  std::vector<Interval> ratios;
-  for (const auto& costs : paired) {
-    ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
-    if (ratios.back().value > ratios[best].value) best = ratios.size() - 1;
+  std::size_t at = 0;
+  double highest = 0;
+  for (std::size_t i = 0; i < paired.size(); ++i) {
+    const double ratio = stat::EfficiencyRatio(paired[0], paired[i], confidence).value;
+    if (ratio > highest) at = i, highest = ratio;
   }
-  const Placed next = RunnerUp(contest, ratios, best, all[base], confidence);
-  Json json = {{"best", strategies[best].strategy},
-               {"baseline", strategies[base].strategy},
-               {"efficiency", best == base ? IntervalJson(WithoutBounds(1))
-                                           : IntervalJson(ratios[best])},
+  const StrategyCosts& best = strategies[at];
+  const Placed next = RunnerUp(contest, best, base->costs, confidence);
+  const Interval efficiency =
+      &best == base ? WithoutBounds(1) : RatioOf(base->costs, best.costs, confidence);
+  Json json = {{"best", best.strategy},
+               {"baseline", base->strategy},
+               {"efficiency", IntervalJson(efficiency)},
                {"next", next.strategy.empty() ? Json() : Json(next.strategy)},
                {"next_efficiency", IntervalJson(next.efficiency)},
                {"strategies", all.size()},
@@ -156,7 +166,7 @@ Json LeaderJson(const Contest& contest, const std::string& baseline) {
   const auto ranks = stat::RankByEfficiency(paired, kSweepConfidence);
   json["equals"] =
       std::ranges::count_if(ranks, [](const stat::RankRange& r) { return r.best == 1; }) -
-      (ranks[best].best == 1);
+      (ranks[at].best == 1);
   return json;
 }
 
@@ -207,7 +217,7 @@ std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& c
       const Json& status = cells[cell.index].at("status");
       CellGroup& all = groups[entry->second];
       if (status == Name(CellState::kDone)) all.cells.push_back(cell.index);
-      all.stopped |= status == Name(CellState::kStopped);
+      all.lost |= cells[cell.index].value("lost", false);
     }
   }
   return groups;
@@ -244,8 +254,8 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   for (const CellGroup& group : groups) {
     Contest& contest = contexts[group.context];
     Costs costs = CostsOf(group, cells);
-    if (contest.Has(group.strategy)) continue;
-    if (group.stopped) {
+    if (contest.Find(group.strategy) != nullptr) continue;
+    if (group.lost) {
       contest.stopped.push_back({group.strategy, std::move(costs)});
     } else if (!costs.empty()) {
       contest.ranked.push_back({group.strategy, std::move(costs)});

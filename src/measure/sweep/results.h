@@ -46,6 +46,9 @@ nlohmann::json CellJson(const SweepCell& cell, const CellRecord& record);
 /// Returns sweep.csv of cells by CellJson().
 std::string SweepCsv(const std::vector<nlohmann::json>& cells);
 
+/// Fewest seeds of a ranking.
+inline constexpr int kMinRankedSeeds = 4;
+
 /// Cells that differ in their seed only: repetitions of one render.
 struct CellGroup {
   /// Texts by axis, without the seed. Open parts of a strategy are axes, and the strategy
@@ -54,7 +57,7 @@ struct CellGroup {
   std::string strategy;            // empty if the sweep has no such axis
   std::size_t context = 0;         // equal for groups that differ in strategy only
   std::vector<std::size_t> cells;  // finished ones, by index
-  bool stopped = false;            // by --race: it is not among the best
+  bool lost = false;               // by --race: it is not among the best
 };
 
 /// Returns all groups in the order of the grid, with or without finished cells. A

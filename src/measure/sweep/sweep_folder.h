@@ -11,7 +11,7 @@
 
 namespace lanelight {
 
-/// kStopped: missing, since its strategy has lost a race (sweep --race).
+/// kStopped: missing, since its race is decided without it (sweep --race).
 enum class CellState { kMissing, kFailed, kDone, kStopped };
 /// "missing", "failed", "done", "stopped".
 const char* Name(CellState state);

@@ -338,6 +338,7 @@ seed = [1, 2, 3, 4, 5]
                       : CellRecord{CellState::kDone, SyntheticReport(cell), ""}));
     if (stopped) {
       cells.back()["status"] = Name(CellState::kStopped);
+      cells.back()["lost"] = true;
       continue;
     }
     cells.back()["measured"]["cpu_seconds"] = 1;
