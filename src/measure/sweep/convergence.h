@@ -60,8 +60,8 @@ inline constexpr std::size_t kMaxBlamed = 5;
 inline constexpr std::size_t kMinCurveSeeds = 4;
 
 /// Analyses a curve. The error of a seed's image is its relative squared distance from
-/// the mean of the other seeds at the largest count, less what that mean's own error
-/// adds, and at least what rounding in the file costs. Orders are means over seeds
+/// the mean of the other seeds at the largest count, less that mean's own error. It is at
+/// least what rounding in the file costs. Orders are means over seeds
 /// (stat::FitOrder). The fall is slower than 1 / N if the order of a step, or that from a
 /// count to the last, is significantly below kMinOrder. Rounding is the cause if it makes
 /// up a quarter of the last error.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
 #include "src/base/core/version.h"
 #include "src/base/image/atomic_file.h"
 #include "src/base/stat/values.h"
@@ -151,33 +152,36 @@ std::string SweepCsv(const std::vector<Json>& cells) {
   return text;
 }
 
-CellResult CellResultOf(const SweepCell& cell, const SweepFolder& folder,
-                        const CellRecord& record) {
-  return FromJsonOf(folder.File(cell, "report.json"), [&] {
+void ReadMissing(const Sweep& sweep, SweepFolder& folder, CellResults& results) {
+  results.resize(sweep.cells.size());
+  ParallelFor(results.size(), [&](std::size_t i) {
+    if (!results[i].json.is_null()) return;
+    const SweepCell& cell = sweep.cells[i];
+    const CellRecord record = folder.ReadCell(cell);
     const bool done = record.state == CellState::kDone;
-    return CellResult{CellJson(cell, record),
-                      done && record.report.value("differs", false)};
+    results[i] = FromJsonOf(folder.File(cell, "report.json"), [&] {
+      return CellResult{CellJson(cell, record),
+                        done && record.report.value("differs", false)};
+    });
   });
 }
 
-void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
-                  CellResults finished, SweepOutcome& outcome) {
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race, CellResults results,
+                  SweepOutcome& outcome) {
+  ReadMissing(sweep, folder, results);
   std::vector<Json> cells;
-  for (const SweepCell& cell : sweep.cells) {
-    auto known = finished.extract(cell.index);
-    const CellRecord record = known ? CellRecord() : folder.ReadCell(cell);
-    CellResult now =
-        known ? std::move(known.mapped()) : CellResultOf(cell, folder, record);
-    cells.push_back(std::move(now.json));
-    if (record.state == CellState::kFailed) {
-      outcome.failures.push_back({cell.name, record.message});
+  for (CellResult& result : results) {
+    const Json& json = cells.emplace_back(std::move(result.json));
+    if (json.at("status") == Name(CellState::kFailed)) {
+      const Json& message = json.at("message");
+      outcome.failures.push_back({json.at("name"), message.is_null() ? "" : message});
     }
-    if (cells.back()["status"] != Name(CellState::kDone)) continue;
+    if (json.at("status") != Name(CellState::kDone)) continue;
     ++outcome.done;
-    outcome.cpu_seconds += cells.back()["measured"].value("cpu_seconds", 0.0);
+    outcome.cpu_seconds += json.at("measured").value("cpu_seconds", 0.0);
     outcome.invalid_samples +=
-        cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
-    outcome.differing += now.differs;
+        json.at("measured").at(kInvalidSamples).get<std::uint64_t>();
+    outcome.differing += result.differs;
   }
   if (race) outcome.stopped = MarkStopped(sweep, cells);
   outcome.total = sweep.cells.size();

@@ -19,20 +19,19 @@ nlohmann::json CellReport(const Rendering& rendering);
 
 /// A cell as its files have it.
 struct CellResult {
-  nlohmann::json json;  // by CellJson()
+  nlohmann::json json;  // by CellJson(); null: not read
   bool differs = false;
 };
-using CellResults = std::map<std::size_t, CellResult>;  // by index
+using CellResults = std::vector<CellResult>;  // of all cells, by index
 
-/// Returns a cell; throws InputError if its report lacks something.
-CellResult CellResultOf(const SweepCell& cell, const SweepFolder& folder,
-                        const CellRecord& record);
+/// Reads the cells that `results` lacks, in parallel. Throws InputError (ReadCell).
+void ReadMissing(const Sweep& sweep, SweepFolder& folder, CellResults& results);
 
-/// Reads all cells but those in `finished`, writes the table and the page, and adds the
+/// Reads the cells that `results` lacks, writes the table and the page, and adds the
 /// state of the whole sweep to `outcome`. `race`: missing cells of strategies that have
 /// lost are kStopped.
-void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
-                  CellResults finished, SweepOutcome& outcome);
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race, CellResults results,
+                  SweepOutcome& outcome);
 
 /// Returns the names of stages of all cells, ascending.
 std::vector<std::string> StageNames(const std::vector<nlohmann::json>& cells);

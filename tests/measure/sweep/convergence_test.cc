@@ -70,7 +70,7 @@ Convergence Analyse(const Known& known, unsigned seed) {
   return AnalyseCurve(curve);
 }
 
-// How many of 100 curves are blamed.
+// Counts the curves of 100 that are blamed.
 int Blamed(const Known& known) {
   int blamed = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
