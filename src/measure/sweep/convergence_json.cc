@@ -73,12 +73,20 @@ std::optional<Convergence> Analyse(const Sweep& sweep, const SweepFolder& folder
   for (const auto& [count, unused] : of.by_count) curve.samples.push_back(count);
   curve.seeds = cells[0].size();
   curve.half = sweep.settings.render.image.half;
+  const auto path = [&](std::size_t count, std::size_t seed) {
+    return folder.File(sweep.cells[cells[count][seed]], "image.exr");
+  };
   curve.image = [&](std::size_t count, std::size_t seed) {
-    return LinearOf(ReadExr(folder.File(sweep.cells[cells[count][seed]], "image.exr"),
-                            {"R", "G", "B"}));
+    return LinearOf(ReadExr(path(count, seed), {"R", "G", "B"}));
   };
   try {
-    return AnalyseCurve(curve);
+    Convergence convergence = AnalyseCurve(curve);
+    const auto window = ReadExrHeader(path(0, 0)).at(0).data_window;
+    for (BlamedPixel& pixel : convergence.pixels) {
+      pixel.x += window[0];  // of the full image
+      pixel.y += window[1];
+    }
+    return convergence;
   } catch (const InputError&) {  // the page says that the image is missing
     return std::nullopt;
   }

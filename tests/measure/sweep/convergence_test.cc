@@ -13,12 +13,13 @@ constexpr int kWidth = 20, kHeight = 15;
 constexpr std::size_t kPixel = 4 * kWidth + 7;
 
 struct Known {
-  double noise = 0.3;  // of one sample, over the mean
-  double floor = 0;    // noise of a seed that no number of samples removes
-  double odd = 0;      // of one sample of the pixel (7, 4); 0: like others
-  double pareto = 0;   // exponent of samples of that pixel; 0: normal ones
-  bool half = false;   // images are rounded to 11 significant bits
-  double decay = 1;    // variances fall as N^-decay
+  double noise = 0.3;   // of one sample, over the mean
+  double floor = 0;     // noise of a seed that no number of samples removes
+  double odd = 0;       // of one sample of the pixel (7, 4); 0: like others
+  double pareto = 0;    // exponent of samples of that pixel; 0: normal ones
+  bool half = false;    // images are rounded to 11 significant bits
+  double decay = 1;     // variances fall as N^-decay
+  bool nested = false;  // images of a seed share the samples of smaller counts
   std::size_t seeds = 4;
   std::vector<double> samples = {4, 16, 64, 256, 1024};
 };
@@ -57,13 +58,26 @@ LinearImage ImageOf(const Known& known, double samples, std::mt19937& random) {
   return image;
 }
 
+// Replaces a fraction of an image by another one.
+void Mix(const LinearImage& other, float fraction, LinearImage& image) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+      float& x = image.planes[c][i];
+      x += fraction * (other.planes[c][i] - x);
+    }
+  }
+}
+
 Convergence Analyse(const Known& known, unsigned seed) {
   std::mt19937 random(seed);
   ErrorCurve curve = {known.samples, known.seeds, known.half, {}};
   std::map<std::pair<std::size_t, std::size_t>, LinearImage> images;
   for (std::size_t i = 0; i < known.samples.size(); ++i) {
+    const double before = known.nested && i > 0 ? known.samples[i - 1] : 0;
     for (std::size_t s = 0; s < known.seeds; ++s) {
-      images[{i, s}] = ImageOf(known, known.samples[i], random);
+      LinearImage& image = images[{i, s}];
+      image = ImageOf(known, known.samples[i] - before, random);
+      if (before > 0) Mix(images[{i - 1, s}], float(before / known.samples[i]), image);
     }
   }
   curve.image = [&](std::size_t i, std::size_t s) { return images.at({i, s}); };
@@ -86,6 +100,8 @@ TEST_CASE("sweep convergence: curves that fall as 1/N or faster are not blamed",
           "[sweep]") {
   CHECK(Blamed({}) <= 5);
   CHECK(Blamed({.seeds = 8}) <= 5);
+  CHECK(Blamed({.nested = true}) <= 5);
+  CHECK(Blamed({.odd = 8, .nested = true, .seeds = 8}) <= 5);
   CHECK(Blamed({.decay = 1.5}) == 0);
   CHECK(Blamed({.odd = 8}) <= 5);  // carries most of the error, but has no heavy tails
   CHECK(Blamed({.odd = 8, .seeds = 8}) <= 5);
