@@ -13,6 +13,7 @@ using Json = nlohmann::json;
 
 // Returns e.g. "2.31 [2.10, 2.55]".
 std::string RatioText(const Json& interval) {
+  if (interval.at("value").is_null()) return "infinitely many";  // without any error
   if (!interval.at("low").is_number()) {
     return fmt::format("{:.3g}", interval.at("value").get<double>());
   }

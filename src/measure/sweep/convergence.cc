@@ -292,8 +292,7 @@ Convergence AnalyseCurve(const ErrorCurve& curve) {
       skewed > stat::NormalQuantile(1 - level)) {
     out.cause = FallCause::kHeavyTails;
   }
-  if (out.fall == Fall::kSlower &&
-      out.rounding > kRoundingShare * out.relmse.back().value) {
+  if (out.rounding > kRoundingShare * out.relmse.back().value) {
     out.cause = FallCause::kRounding;
   }
   return out;

@@ -63,8 +63,8 @@ inline constexpr std::size_t kMinCurveSeeds = 4;
 /// the mean of the other seeds at the largest count, less that mean's own error. It is at
 /// least what rounding in the file costs. Orders are means over seeds
 /// (stat::FitOrder). The fall is slower than 1 / N if the order of a step, or that from a
-/// count to the last, is significantly below kMinOrder. Rounding is the cause if it makes
-/// up a quarter of the last error.
+/// count to the last, is significantly below kMinOrder. Rounding is named if it makes up
+/// a quarter of the last error, however that falls.
 ///
 /// The worst 1 % of the pixels have heavy tails if their means are significantly skewed:
 /// too few samples for a normal distribution. These are the cause if the fall is slower

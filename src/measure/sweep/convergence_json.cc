@@ -113,8 +113,9 @@ std::string PixelsText(const std::vector<BlamedPixel>& pixels) {
 
 std::string CauseText(const Convergence& c, bool half) {
   if (c.cause == FallCause::kRounding) {
-    return fmt::format("rounding of the image file to {} bits costs {:.2g}{}",
-                       half ? 16 : 32, c.rounding, half ? "; use depth = \"float\"" : "");
+    return fmt::format("rounding of the image file to {} bits is {} of the error{}",
+                       half ? 16 : 32, PercentText(c.rounding / c.relmse.back().value),
+                       half ? "; use depth = \"float\"" : "");
   }
   if (c.cause == FallCause::kHeavyTails) {
     return fmt::format(
@@ -136,8 +137,8 @@ std::string FallText(const Convergence& c, bool half) {
     const char* head = c.fall == Fall::kAsExpected
                            ? "the error falls as "
                            : "it is not decided how the error falls: ";
-    const bool heavy = c.cause == FallCause::kHeavyTails;
-    return head + OrderText(c.order) + (heavy ? ", with " + CauseText(c, half) : "");
+    const bool named = c.cause != FallCause::kNone;
+    return head + OrderText(c.order) + (named ? "; " + CauseText(c, half) : "");
   }
   const bool step = c.orders[c.from].high < kMinOrder;
   return fmt::format(

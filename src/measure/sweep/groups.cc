@@ -153,6 +153,7 @@ Json LeaderJson(const Contest& contest, const std::string& baseline) {
   const Placed next = RunnerUp(contest, best, base->costs, confidence);
   const Interval efficiency =
       &best == base ? WithoutBounds(1) : RatioOf(base->costs, best.costs, confidence);
+  if (std::isnan(efficiency.value)) return nullptr;
   Json json = {{"best", best.strategy},
                {"baseline", base->strategy},
                {"efficiency", IntervalJson(efficiency)},

@@ -131,6 +131,10 @@ TEST_CASE("sweep convergence: rounding of half floats is found", "[sweep]") {
   CHECK(c.fall == Fall::kSlower);
   CHECK(c.cause == FallCause::kRounding);
   CHECK(c.samples[c.from] >= 256);
+  // Where rounding dominates already, no slower fall is needed.
+  const Convergence early =
+      Analyse({.noise = 0.01, .half = true, .samples = {64, 256, 1024}}, 3);
+  CHECK(early.cause == FallCause::kRounding);
   // Spacings of 2^-10 to 2^-11 of a value, less for the weight of dark pixels.
   CHECK(c.rounding > 1e-8);
   CHECK(c.rounding < 8e-8);
