@@ -284,7 +284,8 @@ Convergence AnalyseCurve(const ErrorCurve& curve) {
   // Half of the level for orders, half for skewness.
   const double level = (1 - kConfidence) / 2;
   const int orders = 2 * int(curve.samples.size() - 1) - 1;
-  FindFall(measured.levels, 1 - stat::SidakLevel(level, orders), out);
+  // One-sided: only low orders are blamed.
+  FindFall(measured.levels, 1 - 2 * stat::SidakLevel(level, orders), out);
   const double skewed = FindSkewness(measured, worst, out);
   if (out.fall == Fall::kSlower) out.cause = FallCause::kUnknown;
   const bool doubtful = out.fall != Fall::kAsExpected || out.worst_share > kHeavyTail;
