@@ -99,9 +99,18 @@ std::string NextRow(const RenderReport& report, const Job& job,
   const std::string amount = job.seconds > 0 || missed
                                  ? "--time " + TimeArgument(times * SecondsOf(r))
                                  : fmt::format("--spp {:.0f}", std::ceil(times * spp));
-  std::string text = fmt::format("{} takes about {:.2g} times as long: {} ({})",
-                                 missed ? "the target" : "half the error", times, amount,
-                                 DurationText(times * SecondsOf(r)));
+  const std::string cost =
+      fmt::format("{} ({})", amount, DurationText(times * SecondsOf(r)));
+  // Squared errors of a wide interval may fall by any amount.
+  constexpr double kMaxRatio = 16;
+  const bool known = e.relmse.high <= kMaxRatio * e.relmse.low;
+  std::string text = fmt::format("{} takes about {:.2g} times as long: {}",
+                                 missed ? "the target" : "half the error", times, cost);
+  if (!missed && !known) {
+    text = fmt::format(
+        "the error is uncertain: render {:.2g} times as long for a narrower interval: {}",
+        times, cost);
+  }
   if (!checkpoint.empty()) {
     text += fmt::format("; --resume continues from '{}'", checkpoint);
   }

@@ -1,6 +1,6 @@
 """Checks of the page of a sweep as a whole."""
 
-from checks import NAMES, STATES, check, data, require
+from checks import NAMES, STATES, check, require
 from sweep_checks import choose
 
 NAMES += ["<i>odd"]
@@ -18,7 +18,7 @@ def column(page, key):
 
 @check
 def the_summary_counts(page):
-    cells = data(page)["cells"]
+    cells = page.js("return study.cells")
     done = sum(cell["status"] == "done" for cell in cells)
     text = page.find("#summary").text
     require(f"{done} of {len(cells)} done" in text, text)
@@ -30,7 +30,7 @@ def the_summary_counts(page):
 @check
 def the_table_sorts(page):
     page.show("#cells")
-    require(len(column(page, "spp")) == len(data(page)["cells"]), "not all cells")
+    require(len(column(page, "spp")) == len(page.js("return study.cells")), "not all cells")
     for sign in (1, -1):
         page.click('#cells [data-key="spp"]')
         numbers = [sign * int(text) for text in column(page, "spp")]
@@ -39,3 +39,11 @@ def the_table_sorts(page):
     last = page.find("#cells tbody tr:last-child").text
     require("failed" in last or "missing" in last, "what is not known is not last:", last)
     require("out of <i>memory</i>" in page.find("#cells").text, "no message")
+
+
+@check
+def the_pixels_to_blame_are_named(page):
+    page.show("#convergence")
+    text = page.find("#convergence").text
+    require("stops falling as 1/N at 16 spp" in text, text)
+    require("(7, 4) 45 %" in text and "heavy-tails" in text, text)

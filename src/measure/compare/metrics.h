@@ -18,6 +18,10 @@ namespace lanelight {
 inline constexpr int kFilterSides[] = {2, 4, 8};
 inline constexpr std::size_t kFilters = std::size(kFilterSides);
 
+/// Errors have heavy tails if the worst kWorstFraction of the pixels carry more than
+/// kHeavyTail of the squared error.
+inline constexpr double kWorstFraction = 0.001, kHeavyTail = 0.3;
+
 /// Distribution of z = (test - reference) / sqrt(variance of test + variance of
 /// reference) over pixels and channels: standard normal if noise alone separates the
 /// images and the variances are right.

@@ -46,7 +46,7 @@ PAGES = {
     "Sweep": ({"NAME": "sweep", "TABS": "Sweep",
                "FILES": also("sweep.csv in the same directory")}, "images sweep",
                   f"""{CURVES} tone picture stages rates sweep_cells sweep_choice sweep_lines
-                  sweep_plots sweep_images sweep_stages sweep_table sweep_headline
+                  sweep_plots sweep_images sweep_stages sweep_convergence sweep_table sweep_headline
                   sweep_summary sweep_main"""),
     "Bench": ({"NAME": "bench", "TABS": "Scenes",
                "FILES": also("the output of bench --json")},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/measure/compare/metrics.h"
 #include "src/measure/compare/tile_test.h"
 #include "src/measure/study/study.h"
 #include "src/scene/prepare/parameters.h"

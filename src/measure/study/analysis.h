@@ -128,10 +128,6 @@ struct SceneAnalysis {
   int report_scale = 1;  // the report's images are smaller by this factor
 };
 
-/// Fraction of the relative MSE in the worst kWorstFraction of the pixels above which a
-/// strategy is heavy-tailed: a few pixels dominate its mean error.
-inline constexpr double kHeavyTail = 0.3;
-
 /// Longest list of names in texts.
 inline constexpr std::size_t kMaxNames = 4;
 

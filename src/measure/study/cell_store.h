@@ -51,7 +51,7 @@ namespace lanelight {
   X(std::uint64_t, worst_x) /* the worst pixel of raw_relmse */                     \
   X(std::uint64_t, worst_y)
 
-inline constexpr double kTrimmedFraction = 0.01, kWorstFraction = 0.001;
+inline constexpr double kTrimmedFraction = 0.01;
 
 struct Measurement {
 #define X(type, name) type name = Unknown<type>();

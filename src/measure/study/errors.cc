@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/core/check.h"
+#include "src/measure/compare/metrics.h"
 #include "src/render/estimate/estimate.h"
 
 namespace lanelight {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "src/measure/compare/metrics.h"
 #include "src/measure/study/analysis.h"
 #include "src/render/estimate/estimate.h"
 

@@ -11,30 +11,28 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kMinSeeds = 4;  // of a ranking
-
-std::string WhereText(const Json& values) {
-  std::string text = values.at("scene").get<std::string>();
-  for (const auto& [axis, value] : values.items()) {
-    if (axis == "scene") continue;
-    text += fmt::format(", {} {}{}", axis, value.get<std::string>(),
-                        axis == "time" ? " s" : "");
+// Returns e.g. "2.31 [2.10, 2.55]".
+std::string RatioText(const Json& interval) {
+  if (interval.at("value").is_null()) return "infinitely many";  // without any error
+  if (!interval.at("low").is_number()) {
+    return fmt::format("{:.3g}", interval.at("value").get<double>());
   }
-  return text;
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", interval.at("value").get<double>(),
+                     interval.at("low").get<double>(), interval.at("high").get<double>());
 }
 
 // Returns e.g. "reuse=block has 2.31 [2.10, 2.55] times the efficiency of default".
 std::string BestText(const Json& leader) {
   const std::string best = leader.at("best"), baseline = leader.at("baseline");
-  const Json& efficiency = leader.at("efficiency");
-  if (best == baseline) return baseline + ", the baseline, is the most efficient";
-  const std::string bounds =
-      efficiency.at("low").is_number()
-          ? fmt::format(" [{:.3g}, {:.3g}]", efficiency.at("low").get<double>(),
-                        efficiency.at("high").get<double>())
-          : "";
-  return fmt::format("{} has {:.3g}{} times the efficiency of {}", best,
-                     efficiency.at("value").get<double>(), bounds, baseline);
+  if (best != baseline) {
+    return fmt::format("{} has {} times the efficiency of {}", best,
+                       RatioText(leader.at("efficiency")), baseline);
+  }
+  std::string text = baseline + ", the baseline, is the most efficient";
+  if (leader.at("next").is_null()) return text;
+  return text + fmt::format("; the next, {}, has {} times its efficiency",
+                            leader.at("next").get<std::string>(),
+                            RatioText(leader.at("next_efficiency")));
 }
 
 std::string OpenText(const Json& leader) {
@@ -52,18 +50,28 @@ std::string OpenText(const Json& leader) {
 
 std::string LineText(const Json& leader) {
   const auto seeds = leader.at("seeds").get<int>();
-  const std::string where = WhereText(leader.at("values"));
-  if (seeds < kMinSeeds) {
+  const std::string where = ValuesText(leader.at("values"));
+  if (seeds < kMinRankedSeeds) {
     return fmt::format(
         "{}: {} {} not rank strategies; give at least {}: seed = [1, 2, 3, 4]", where,
         seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds),
-        seeds == 1 ? "does" : "do", kMinSeeds);
+        seeds == 1 ? "does" : "do", kMinRankedSeeds);
   }
   return fmt::format("{}: {}{} ({} seeds)", where, BestText(leader), OpenText(leader),
                      seeds);
 }
 
 }  // namespace
+
+std::string ValuesText(const Json& values) {
+  std::string text = values.at("scene").get<std::string>();
+  for (const auto& [axis, value] : values.items()) {
+    if (axis == "scene") continue;
+    text += fmt::format(", {} {}{}", axis, value.get<std::string>(),
+                        axis == "time" ? " s" : "");
+  }
+  return text;
+}
 
 std::string AnswerText(const Json& leaders) {
   std::string text;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -52,6 +53,11 @@ double LoadSeconds(const Sweep& sweep) {
   return seconds;
 }
 
+// Returns the time of all cells of a part and of their files.
+double SecondsOf(const BudgetPlan& plan) {
+  return (double(plan.cells) * plan.cell_seconds + plan.load_seconds) / (1 - kFiles);
+}
+
 Json PlanJson(const BudgetPlan& plan, double seconds) {
   return {{"budget_seconds", seconds},
           {"cells", plan.cells},
@@ -69,16 +75,19 @@ BudgetPlan NewPlan(const Sweep& sweep, double seconds, std::size_t cells) {
       DurationText(seconds), cells, kMinCellSeconds, DurationText(plan.load_seconds));
 }
 
+// Returns the plan of the file for another number of cells, which keep their time.
 BudgetPlan OldPlan(const std::string& path, double seconds, std::size_t cells) {
   return FromJsonOf(path, [&] {
     const Json json = ParseJson(ReadWholeFile(path));
-    const BudgetPlan plan = {json.at("cells"), json.at("cell_seconds"),
-                             json.at("load_seconds")};
-    if (json.at("budget_seconds") == seconds && plan.cells == cells) return plan;
+    const BudgetPlan plan = {cells, json.at("cell_seconds"), json.at("load_seconds")};
+    if (json.at("budget_seconds") == seconds && json.at("cells") == cells) return plan;
+    const double needed = SecondsOf(plan);
+    if (needed <= seconds) return plan;
     throw InputError(
-        "'{}' plans {} for {} cells, not {} for {}: use another --out, or remove it",
-        path, DurationText(json.at("budget_seconds")), plan.cells, DurationText(seconds),
-        cells);
+        "'{}' plans {} for each cell, so that {} cells take {}, more than {}; give "
+        "--budget {:.0f} to keep the finished cells, or use another --out",
+        path, DurationText(plan.cell_seconds), cells, DurationText(needed),
+        DurationText(seconds), std::ceil(needed));
   });
 }
 
@@ -93,6 +102,7 @@ BudgetPlan PlanBudget(Sweep& sweep, double seconds, const Part& part,
   BudgetPlan plan;
   if (fs::exists(path)) {
     plan = OldPlan(path, seconds, cells);
+    WriteFileAtomically(path, DumpJson(PlanJson(plan, seconds), 1) + "\n");
   } else {
     plan = NewPlan(sweep, seconds, cells);
     std::error_code error;
@@ -110,9 +120,15 @@ BudgetPlan PlanBudget(Sweep& sweep, double seconds, const Part& part,
 }
 
 std::string BudgetText(const BudgetPlan& plan, double seconds) {
-  return fmt::format("budget {}: {} cells of {} each, and {} to load the scenes",
-                     DurationText(seconds), plan.cells, DurationText(plan.cell_seconds),
-                     DurationText(plan.load_seconds));
+  std::string text = fmt::format(
+      "budget {}: {} cells of {} each, and {} to load the scenes", DurationText(seconds),
+      plan.cells, DurationText(plan.cell_seconds), DurationText(plan.load_seconds));
+  const double rest = (seconds - SecondsOf(plan)) * (1 - kFiles);
+  if (rest < plan.cell_seconds) return text;
+  return text + fmt::format(
+                    "; budget.json keeps their time, so {} are left: add seeds "
+                    "or strategies, {:.0f} cells",
+                    DurationText(rest), std::floor(rest / plan.cell_seconds));
 }
 
 }  // namespace lanelight

@@ -18,13 +18,15 @@ struct BudgetPlan {
 
 /// Gives every cell the same time, so that each part of the sweep takes `seconds` in one
 /// process: what compiling the scenes takes is measured and left out. OUT/budget.json
-/// keeps the plan, which later runs use. Throws InputError for cells with samples, times
-/// or targets of their own, and for a plan of another budget or grid. Also throws if a
-/// cell would have less than 0.05 seconds.
+/// keeps the time of a cell, which later runs use, so that a larger budget keeps finished
+/// cells and has room for others. Throws InputError for cells with samples, times or
+/// targets of their own, and for more cells of that time than the budget has room for.
+/// Also throws if a cell would have less than 0.05 seconds.
 BudgetPlan PlanBudget(Sweep& sweep, double seconds, const Part& part,
                       const std::string& out);
 
-/// Returns e.g. "budget 2 h: 32 cells of 3.6 min each, and 4 s to load 2 scenes".
+/// Returns e.g. "budget 2 h: 32 cells of 3.6 min each, and 4 s to load the scenes", and
+/// how many more cells there is room for.
 std::string BudgetText(const BudgetPlan& plan, double seconds);
 
 }  // namespace lanelight

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "kernels/simd/target.h"
+#include "src/base/stat/interval.h"
 #include "src/render/estimate/estimate.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/memory.h"
@@ -32,6 +33,19 @@ namespace fs = std::filesystem;
 
 // Samples per pixel of the shortest probe.
 constexpr std::uint64_t kProbeSamples = 4;
+constexpr std::size_t kTimedProbes = 3;
+
+// Returns the wall time of a sample: the median processor time, which excludes other
+// programs, by the smallest ratio of wall to processor time.
+double SampleSeconds(const std::vector<RunResult>& timed) {
+  std::vector<double> cpu;
+  double ratio = std::numeric_limits<double>::infinity();
+  for (const RunResult& r : timed) {
+    cpu.push_back(r.cpu_seconds / double(std::max<std::uint64_t>(1, r.samples)));
+    ratio = std::min(ratio, r.seconds / std::max(r.cpu_seconds, 1e-9));
+  }
+  return stat::Median(std::move(cpu)) * ratio;
+}
 
 // Returns tiles of at most 32 x 32 pixels in a grid of 8 x 8 over the image.
 std::vector<PixelRect> EvenlySpacedWindows(const PixelRect& image) {
@@ -155,15 +169,21 @@ ProbeRender RenderProbe(const Job& whole, double seconds, bool half) {
   options.windows = windows;
   options.seed = job.seed;
   options.threads = job.settings.threads;
-  // The first render fills caches; the last one measures.
+  // The first renders fill caches; the last ones measure.
   Job windowed = job;
   windowed.window = {0, 0, width, height};
-  for (options.spp = kProbeSamples;; options.spp *= 4) {
+  std::vector<RunResult> timed;
+  for (options.spp = kProbeSamples;;) {
     FilmAccumulator film = MakeFilm(windowed);
     const RunResult result = Run(job.scene, job.plan, options, film);
-    probe.sample_seconds =
-        result.seconds / double(std::max<std::uint64_t>(1, result.samples));
-    if (4 * result.seconds < seconds && options.spp < 1024) continue;
+    const bool longer = 4 * kTimedProbes * result.seconds < seconds;
+    if (timed.empty() && longer && options.spp < 1024) {
+      options.spp *= 4;
+      continue;
+    }
+    timed.push_back(result);
+    if (timed.size() < kTimedProbes) continue;
+    probe.sample_seconds = SampleSeconds(timed);
     const ErrorEstimate error = EstimateError(film);
     if (error.available) {
       probe.relmse = error.relmse.value * double(options.spp);

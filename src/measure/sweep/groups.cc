@@ -86,42 +86,88 @@ struct StrategyCosts {
   Costs costs;
 };
 
-// The strategies of a context: those that are ranked, and how many have stopped.
+// The strategies of a context. Those that stopped (--race) have fewer seeds.
 struct Contest {
-  std::vector<StrategyCosts> ranked;
-  std::set<std::string> stopped;
+  std::vector<StrategyCosts> ranked, stopped;
   const CellGroup* sample = nullptr;
+
+  // Returns null if no group has entered it.
+  const StrategyCosts* Find(const std::string& strategy) const {
+    for (const auto* strategies : {&ranked, &stopped}) {
+      for (const StrategyCosts& c : *strategies) {
+        if (c.strategy == strategy) return &c;
+      }
+    }
+    return nullptr;
+  }
 };
 
-Json LeaderJson(const std::vector<StrategyCosts>& strategies,
-                const std::string& baseline) {
+// A strategy and its efficiency relative to the baseline.
+struct Placed {
+  std::string strategy;
+  Interval efficiency = WithoutBounds(0);
+};
+
+// Returns an efficiency relative to the baseline, by the seeds that both have; without
+// any, the value is NaN.
+Interval RatioOf(const Costs& baseline, const Costs& costs, double confidence) {
+  const auto paired = PairedCosts({baseline, costs});
+  if (paired[0].empty()) return WithoutBounds(std::nan(""));
+  return stat::EfficiencyRatio(paired[0], paired[1], confidence);
+}
+
+// Returns the most efficient strategy but `best`; an empty name without any. Those that
+// stopped have fewer seeds.
+Placed RunnerUp(const Contest& contest, const StrategyCosts& best, const Costs& baseline,
+                double confidence) {
+  Placed next;
+  for (const auto* strategies : {&contest.ranked, &contest.stopped}) {
+    for (const StrategyCosts& c : *strategies) {
+      const Interval efficiency = RatioOf(baseline, c.costs, confidence);
+      if (&c == &best || std::isnan(efficiency.value)) continue;
+      if (next.strategy.empty() || efficiency.value > next.efficiency.value) {
+        next = {c.strategy, efficiency};
+      }
+    }
+  }
+  return next;
+}
+
+Json LeaderJson(const Contest& contest, const std::string& baseline) {
+  const std::vector<StrategyCosts>& strategies = contest.ranked;
   std::vector<Costs> all;
   for (const StrategyCosts& c : strategies) all.push_back(c.costs);
   const auto paired = PairedCosts(all);
   if (paired[0].empty()) return nullptr;
-  std::size_t base = 0, best = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (strategies[i].strategy == baseline) base = i;
-  }
-  const int others = std::max(1, int(all.size()) - 1);
+  const StrategyCosts* base = contest.Find(baseline);
+  if (base == nullptr) base = &strategies[0];
+  const int others = std::max(1, int(all.size() + contest.stopped.size()) - 1);
   const double confidence = 1 - stat::SidakLevel(1 - kSweepConfidence, others);
-  std::vector<Interval> ratios;
-  for (const auto& costs : paired) {
-    ratios.push_back(stat::EfficiencyRatio(paired[base], costs, confidence));
-    if (ratios.back().value > ratios[best].value) best = ratios.size() - 1;
+  std::size_t at = 0;
+  double highest = 0;
+  for (std::size_t i = 0; i < paired.size(); ++i) {
+    const double ratio = stat::EfficiencyRatio(paired[0], paired[i], confidence).value;
+    if (ratio > highest) at = i, highest = ratio;
   }
-  Json json = {{"best", strategies[best].strategy},
-               {"baseline", strategies[base].strategy},
-               {"efficiency", best == base ? IntervalJson(WithoutBounds(1))
-                                           : IntervalJson(ratios[best])},
+  const StrategyCosts& best = strategies[at];
+  const Placed next = RunnerUp(contest, best, base->costs, confidence);
+  const Interval efficiency =
+      &best == base ? WithoutBounds(1) : RatioOf(base->costs, best.costs, confidence);
+  if (std::isnan(efficiency.value)) return nullptr;
+  Json json = {{"best", best.strategy},
+               {"baseline", base->strategy},
+               {"efficiency", IntervalJson(efficiency)},
+               {"next", next.strategy.empty() ? Json() : Json(next.strategy)},
+               {"next_efficiency", IntervalJson(next.efficiency)},
                {"strategies", all.size()},
+               {"stopped", contest.stopped.size()},
                {"seeds", paired[0].size()},
                {"equals", nullptr}};
   if (all.size() > kMaxRanked) return json;
   const auto ranks = stat::RankByEfficiency(paired, kSweepConfidence);
   json["equals"] =
       std::ranges::count_if(ranks, [](const stat::RankRange& r) { return r.best == 1; }) -
-      (ranks[best].best == 1);
+      (ranks[at].best == 1);
   return json;
 }
 
@@ -172,7 +218,7 @@ std::vector<CellGroup> GroupCells(const Sweep& sweep, const std::vector<Json>& c
       const Json& status = cells[cell.index].at("status");
       CellGroup& all = groups[entry->second];
       if (status == Name(CellState::kDone)) all.cells.push_back(cell.index);
-      all.stopped |= status == Name(CellState::kStopped);
+      all.lost |= cells[cell.index].value("lost", false);
     }
   }
   return groups;
@@ -208,19 +254,14 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
   std::map<std::size_t, Contest> contexts;
   for (const CellGroup& group : groups) {
     Contest& contest = contexts[group.context];
-    if (group.stopped) {
-      contest.stopped.insert(group.strategy);
-      continue;
-    }
     Costs costs = CostsOf(group, cells);
-    std::vector<StrategyCosts>& in = contest.ranked;
-    if (costs.empty() || std::ranges::any_of(in, [&](const StrategyCosts& c) {
-          return c.strategy == group.strategy;
-        })) {
-      continue;
+    if (contest.Find(group.strategy) != nullptr) continue;
+    if (group.lost) {
+      contest.stopped.push_back({group.strategy, std::move(costs)});
+    } else if (!costs.empty()) {
+      contest.ranked.push_back({group.strategy, std::move(costs)});
+      contest.sample = &group;
     }
-    in.push_back({group.strategy, std::move(costs)});
-    contest.sample = &group;
   }
   std::map<std::string, Json> last;  // by scene
   std::vector<std::string> order;
@@ -228,9 +269,8 @@ Json LeadersJson(const std::vector<CellGroup>& groups, const std::vector<Json>& 
     if (contest.ranked.size() + contest.stopped.size() < 2 || contest.ranked.empty()) {
       continue;
     }
-    Json leader = LeaderJson(contest.ranked, baseline);
+    Json leader = LeaderJson(contest, baseline);
     if (leader.is_null()) continue;
-    leader["stopped"] = contest.stopped.size();
     leader["values"] = ContextOf(*contest.sample);
     const std::string scene = leader["values"].at(Key(Axis::kScene));
     if (last.count(scene) == 0) order.push_back(scene);

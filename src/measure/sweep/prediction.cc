@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "src/base/core/parallel.h"
 #include "src/measure/sweep/cell_render.h"
 #include "src/measure/sweep/sweep_folder.h"
 
@@ -42,8 +43,8 @@ double SamplesOf(const RenderSettings& settings, const ProbeRender& probe,
 
 class Predictor {
  public:
-  Predictor(const Sweep& sweep, SweepFolder folder, const std::atomic<bool>& stop)
-      : sweep_(sweep), folder_(std::move(folder)), stop_(stop), renderer_(sweep) {}
+  Predictor(const Sweep& sweep, const std::string& out, const std::atomic<bool>& stop)
+      : sweep_(sweep), folder_(out, sweep), stop_(stop), renderer_(sweep) {}
 
   SweepPrediction Predict(std::size_t max_probes) {
     SweepPrediction out;
@@ -62,8 +63,10 @@ class Predictor {
   void FindCombinations(SweepPrediction& out) {
     std::set<std::pair<std::string, std::string>> seen;
     out.cells.resize(sweep_.cells.size());
+    ParallelFor(out.cells.size(), [&](std::size_t i) {
+      out.cells[i].done = folder_.ReadCell(sweep_.cells[i]).state == CellState::kDone;
+    });
     for (const SweepCell& cell : sweep_.cells) {
-      out.cells[cell.index].done = folder_.ReadCell(cell).state == CellState::kDone;
       if (out.cells[cell.index].done || !CellRenderer::HasTarget(cell)) continue;
       const std::string scene = renderer_.SceneKey(cell), strategy = StrategyOf(cell);
       if (seen.emplace(scene, strategy).second) {
@@ -161,7 +164,7 @@ class Predictor {
 
 SweepPrediction Predict(const Sweep& sweep, const std::string& out, int max_probes,
                         const std::atomic<bool>& stop) {
-  return Predictor(sweep, SweepFolder(out, sweep), stop).Predict(std::size_t(max_probes));
+  return Predictor(sweep, out, stop).Predict(std::size_t(max_probes));
 }
 
 }  // namespace lanelight

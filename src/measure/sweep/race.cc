@@ -5,11 +5,13 @@
 
 #include "src/base/stat/distributions.h"
 #include "src/measure/sweep/results.h"
+#include "src/render/estimate/estimate.h"
 
 namespace lanelight {
 namespace {
 
-constexpr double kLevel = 0.05;  // of any wrong stop in a race
+// Levels of any wrong stop at the first look, and at the others.
+constexpr double kFirstLevel = 0.01, kLevel = 0.04;
 // Degrees of freedom that the pooled variance counts at most, beside a strategy's own.
 constexpr double kMaxPooledDof = 8;
 constexpr double kMinSeconds = 1e-9;
@@ -67,6 +69,20 @@ class Look {
   std::size_t best_ = 0;
 };
 
+// Appends the strategies that are worse than the best by their first costs.
+void FindWorseByFirst(const std::vector<Racer>& racers,
+                      const std::vector<std::size_t>& alive, double level,
+                      std::vector<std::size_t>& worse) {
+  const auto cost = [&](std::size_t i) { return racers[i].log_costs[0]; };
+  const std::size_t best = *std::ranges::min_element(alive, {}, cost);
+  const double quantile = stat::NormalQuantile(1 - level);
+  for (const std::size_t i : alive) {
+    const double error = std::hypot(racers[i].deviation, racers[best].deviation,
+                                    std::sqrt(2.0) * kTimeDeviation);
+    if (i != best && cost(i) - cost(best) > quantile * error) worse.push_back(i);
+  }
+}
+
 bool HaveSeeds(const std::vector<Racer>& racers, const std::vector<std::size_t>& which,
                std::size_t seeds) {
   return std::ranges::all_of(which, [&](std::size_t i) {
@@ -83,27 +99,40 @@ void EnterCell(Race& race, const SweepCell& cell, const nlohmann::json& json) {
     const nlohmann::json value = json.at("measured").value(name, nlohmann::json());
     return value.is_number() ? value.get<double>() : NAN;
   };
-  race.Enter(cell.index, number("relmse"), number("cpu_seconds"));
+  race.Enter(cell.index, {number("relmse"), number("relmse_low"), number("relmse_high")},
+             number("cpu_seconds"));
 }
 
 }  // namespace
 
-std::vector<std::size_t> StopsOf(const std::vector<Racer>& racers, std::size_t seeds) {
-  std::vector<std::size_t> stops(racers.size(), seeds);
-  if (racers.size() < 2 || seeds < 3) return stops;
-  const double tests = double(seeds - 2) * double(racers.size() - 1);
-  for (std::size_t look = 2; look < seeds; ++look) {
+RaceResult StopsOf(const std::vector<Racer>& racers, std::size_t seeds) {
+  const std::size_t n = racers.size();
+  RaceResult result = {std::vector<std::size_t>(n, seeds), std::vector<bool>(n)};
+  if (n < 2) return result;
+  double level = kLevel / (double(n) - 1);
+  for (std::size_t look = 1; look < seeds; ++look) {
     std::vector<std::size_t> alive, worse;
-    for (std::size_t i = 0; i < racers.size(); ++i) {
-      if (stops[i] == seeds) alive.push_back(i);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!result.lost[i]) alive.push_back(i);
     }
-    if (alive.size() < 2 || !HaveSeeds(racers, alive, look)) break;
-    Look(racers, alive, look).FindWorse(kLevel / tests, worse);
+    if (!HaveSeeds(racers, alive, look)) break;
+    if (look == 1) {
+      FindWorseByFirst(racers, alive, kFirstLevel / (double(n) - 1), worse);
+    } else {
+      level /= 2;
+      Look(racers, alive, look).FindWorse(level, worse);
+    }
+    const std::size_t enough = std::min<std::size_t>(kMinRankedSeeds, seeds);
     for (const std::size_t i : worse) {
-      if (!racers[i].stays) stops[i] = look;
+      result.lost[i] = true;
+      result.stops[i] = racers[i].stays ? std::max(look, enough) : look;
     }
+    if (worse.size() + 1 < alive.size()) continue;
+    const auto winner = std::ranges::find(result.lost, false) - result.lost.begin();
+    result.stops[std::size_t(winner)] = std::max(look, enough);
+    break;
   }
-  return stops;
+  return result;
 }
 
 Race::Race(const Sweep& sweep) : entered_(sweep.cells.size()) {
@@ -124,22 +153,27 @@ Race::Race(const Sweep& sweep) : entered_(sweep.cells.size()) {
     context.cells.push_back(cell.index);
     const auto [racer, is_new] =
         context.racer_of.try_emplace(name, context.racers.size());
-    if (is_new) context.racers.push_back({{}, name == baseline});
+    if (is_new) context.racers.emplace_back().stays = name == baseline;
     racer_of_.push_back(racer->second);
   }
   seeds_ = round_of.size();
   for (Context& context : contexts_) {
     context.costs.resize(context.racers.size());
-    context.stops.assign(context.racers.size(), seeds_);
+    context.result = StopsOf(context.racers, seeds_);
   }
 }
 
-void Race::Enter(std::size_t cell, double error, double seconds) {
+void Race::Enter(std::size_t cell, const Interval& error, double seconds) {
   if (entered_[cell]) return;
   entered_[cell] = true;
   Context& context = contexts_[context_of_[cell]];
-  const double cost = std::log(error) + std::log(std::max(seconds, kMinSeconds));
+  const double cost = std::log(error.value) + std::log(std::max(seconds, kMinSeconds));
   context.costs[racer_of_[cell]][rounds_[cell]] = cost;
+  if (rounds_[cell] == 0) {
+    const double width = std::log(error.high / error.low);
+    context.racers[racer_of_[cell]].deviation =
+        width / 2 / stat::NormalQuantile((1 + kEstimateConfidence) / 2);
+  }
   Update(context);
 }
 
@@ -153,7 +187,7 @@ void Race::Update(Context& context) const {
       costs.push_back(cost);
     }
   }
-  context.stops = StopsOf(context.racers, seeds_);
+  context.result = StopsOf(context.racers, seeds_);
 }
 
 const std::vector<std::size_t>& Race::Rivals(std::size_t cell) const {
@@ -161,7 +195,11 @@ const std::vector<std::size_t>& Race::Rivals(std::size_t cell) const {
 }
 
 bool Race::IsStopped(std::size_t cell) const {
-  return rounds_[cell] >= contexts_[context_of_[cell]].stops[racer_of_[cell]];
+  return rounds_[cell] >= contexts_[context_of_[cell]].result.stops[racer_of_[cell]];
+}
+
+bool Race::HasLost(std::size_t cell) const {
+  return contexts_[context_of_[cell]].result.lost[racer_of_[cell]];
 }
 
 void EnterIfDone(Race& race, SweepFolder& folder, const SweepCell& cell) {
@@ -181,7 +219,9 @@ std::size_t MarkStopped(const Sweep& sweep, std::vector<nlohmann::json>& cells) 
     if (json.at("status") != Name(CellState::kMissing)) continue;
     if (!race.IsStopped(cell.index)) continue;
     json["status"] = Name(CellState::kStopped);
-    json["message"] = "clearly less efficient than the best (--race)";
+    json["lost"] = race.HasLost(cell.index);
+    json["message"] = json["lost"] ? "clearly less efficient than the best (--race)"
+                                   : "the race is decided (--race)";
     ++stopped;
   }
   return stopped;

@@ -7,10 +7,12 @@
 #include <set>
 
 #include "src/base/core/json_text.h"
+#include "src/base/core/parallel.h"
 #include "src/base/core/version.h"
 #include "src/base/image/atomic_file.h"
 #include "src/base/stat/values.h"
 #include "src/measure/report/page.h"
+#include "src/measure/sweep/convergence.h"
 #include "src/measure/sweep/race.h"
 #include "src/render/job/machine_json.h"
 
@@ -150,35 +152,50 @@ std::string SweepCsv(const std::vector<Json>& cells) {
   return text;
 }
 
-void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
-                  SweepOutcome& outcome) {
-  std::vector<Json> cells;
-  for (const SweepCell& cell : sweep.cells) {
+void ReadMissing(const Sweep& sweep, SweepFolder& folder, CellResults& results) {
+  results.resize(sweep.cells.size());
+  ParallelFor(results.size(), [&](std::size_t i) {
+    if (!results[i].json.is_null()) return;
+    const SweepCell& cell = sweep.cells[i];
     const CellRecord record = folder.ReadCell(cell);
-    FromJsonOf(folder.File(cell, "report.json"), [&] {
-      cells.push_back(CellJson(cell, record));
-      if (record.state != CellState::kDone) return;
-      ++outcome.done;
-      outcome.cpu_seconds += cells.back()["measured"].value("cpu_seconds", 0.0);
-      outcome.invalid_samples +=
-          cells.back()["measured"][kInvalidSamples].get<std::uint64_t>();
-      outcome.differing += record.report.value("differs", false);
+    const bool done = record.state == CellState::kDone;
+    results[i] = FromJsonOf(folder.File(cell, "report.json"), [&] {
+      return CellResult{CellJson(cell, record),
+                        done && record.report.value("differs", false)};
     });
-    if (record.state == CellState::kFailed) {
-      outcome.failures.push_back({cell.name, record.message});
+  });
+}
+
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race, CellResults results,
+                  SweepOutcome& outcome) {
+  ReadMissing(sweep, folder, results);
+  std::vector<Json> cells;
+  for (CellResult& result : results) {
+    const Json& json = cells.emplace_back(std::move(result.json));
+    if (json.at("status") == Name(CellState::kFailed)) {
+      const Json& message = json.at("message");
+      outcome.failures.push_back({json.at("name"), message.is_null() ? "" : message});
     }
+    if (json.at("status") != Name(CellState::kDone)) continue;
+    ++outcome.done;
+    outcome.cpu_seconds += json.at("measured").value("cpu_seconds", 0.0);
+    outcome.invalid_samples +=
+        json.at("measured").at(kInvalidSamples).get<std::uint64_t>();
+    outcome.differing += result.differs;
   }
   if (race) outcome.stopped = MarkStopped(sweep, cells);
   outcome.total = sweep.cells.size();
   outcome.other_cells = folder.OtherCells();
   WriteFileAtomically(folder.File("sweep.csv"), SweepCsv(cells));
   const std::vector<CellGroup> groups = GroupCells(sweep, cells);
-  const Json json = SweepJson(sweep, cells, groups);
-  outcome.answer = AnswerText(json.at("leaders"));
+  Json json = SweepJson(sweep, cells, groups);
+  json["convergence"] = ConvergenceJson(sweep, folder, groups);
+  outcome.answer =
+      AnswerText(json.at("leaders")) + ConvergenceText(json.at("convergence"));
   WriteFileAtomically(folder.File("sweep.json"), DumpJson(json, 1) + "\n");
-  WriteFileAtomically(
-      folder.File("report.html"),
-      ReportPage(PageKind::kSweep, json, Thumbnails(sweep, folder, groups)));
+  WriteFileAtomically(folder.File("report.html"),
+                      ReportPage(PageKind::kSweep, PageJson(std::move(json)),
+                                 Thumbnails(sweep, folder, groups)));
 }
 
 }  // namespace lanelight

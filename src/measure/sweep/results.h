@@ -17,9 +17,20 @@ namespace lanelight {
 /// Returns the report of a render with processor seconds, machine and program.
 nlohmann::json CellReport(const Rendering& rendering);
 
-/// Reads all cells, writes the table and the page, and adds the state of the whole sweep
-/// to `outcome`. `race`: missing cells of strategies that have lost are kStopped.
-void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race,
+/// A cell as its files have it.
+struct CellResult {
+  nlohmann::json json;  // by CellJson(); null: not read
+  bool differs = false;
+};
+using CellResults = std::vector<CellResult>;  // of all cells, by index
+
+/// Reads the cells that `results` lacks, in parallel. Throws InputError (ReadCell).
+void ReadMissing(const Sweep& sweep, SweepFolder& folder, CellResults& results);
+
+/// Reads the cells that `results` lacks, writes the table and the page, and adds the
+/// state of the whole sweep to `outcome`. `race`: missing cells of strategies that have
+/// lost are kStopped.
+void WriteResults(const Sweep& sweep, SweepFolder& folder, bool race, CellResults results,
                   SweepOutcome& outcome);
 
 /// Returns the names of stages of all cells, ascending.
@@ -34,6 +45,9 @@ nlohmann::json CellJson(const SweepCell& cell, const CellRecord& record);
 /// Returns sweep.csv of cells by CellJson().
 std::string SweepCsv(const std::vector<nlohmann::json>& cells);
 
+/// Fewest seeds of a ranking.
+inline constexpr int kMinRankedSeeds = 4;
+
 /// Cells that differ in their seed only: repetitions of one render.
 struct CellGroup {
   /// Texts by axis, without the seed. Open parts of a strategy are axes, and the strategy
@@ -42,7 +56,7 @@ struct CellGroup {
   std::string strategy;            // empty if the sweep has no such axis
   std::size_t context = 0;         // equal for groups that differ in strategy only
   std::vector<std::size_t> cells;  // finished ones, by index
-  bool stopped = false;            // by --race: it is not among the best
+  bool lost = false;               // by --race: it is not among the best
 };
 
 /// Returns all groups in the order of the grid, with or without finished cells. A
@@ -66,7 +80,10 @@ nlohmann::json LeadersJson(const std::vector<CellGroup>& groups,
                            const std::vector<nlohmann::json>& cells,
                            const std::string& baseline);
 
-/// Returns the same as text, a line for each scene; with fewer than four seeds, what a
+/// Returns values as text: "box, spp 64".
+std::string ValuesText(const nlohmann::json& values);
+
+/// Returns the leaders as text, a line for each scene; with fewer than four seeds, what a
 /// ranking needs. Empty without leaders.
 std::string AnswerText(const nlohmann::json& leaders);
 
@@ -76,6 +93,10 @@ std::string BaselineOf(const Sweep& sweep);
 /// Writes sweep.json (docs/sweep.md); `cells` by CellJson().
 nlohmann::json SweepJson(const Sweep& sweep, const std::vector<nlohmann::json>& cells,
                          const std::vector<CellGroup>& groups);
+
+/// Returns sweep.json as the page has it: "packed" instead of "cells", with a column for
+/// each member and numbers of six digits, so that a page can have 100 000 cells.
+nlohmann::json PageJson(nlohmann::json sweep_json);
 
 /// Returns a small image of the first finished cell of each of the first 1000 groups,
 /// named like the cell; at most about 8 MB of text. Omits images that cannot be read.

@@ -35,7 +35,8 @@ class Runner {
     if (options.race) race_.emplace(sweep);
   }
 
-  void Run(SweepOutcome& outcome) {
+  // Returns the cells that were finished before; the others are null.
+  CellResults Run(SweepOutcome& outcome) {
     if (!claims_.supports_locks() && options_.part.count == 1) {
       throw InputError(
           "the file system of '{}' does not support locks, which several processes need; "
@@ -51,6 +52,7 @@ class Runner {
     outcome.elsewhere = Count(CellStatus::kElsewhere);
     outcome.without_target = Count(CellStatus::kNoTarget);
     outcome.interrupted = interrupted_;
+    return std::move(results_);
   }
 
  private:
@@ -59,8 +61,12 @@ class Runner {
 
   void FindPart() {
     std::map<std::string, std::size_t> group_of;
+    ReadMissing(sweep_, folder_, results_);
     for (const SweepCell& cell : sweep_.cells) {
-      const CellState state = folder_.ReadCell(cell).state;
+      nlohmann::json& known = results_[cell.index].json;
+      const bool done = known["status"] == Name(CellState::kDone);
+      const bool failed = known["status"] == Name(CellState::kFailed);
+      if (!done) known = nullptr;  // it is read again at the end
       const auto [index, count] = options_.part;
       if (cell.index % std::size_t(count) != std::size_t(index - 1)) continue;
       const auto [entry, is_new] =
@@ -68,10 +74,10 @@ class Runner {
       if (is_new) groups_.emplace_back();
       groups_[entry->second].push_back(part_.size());
       part_.push_back(&cell);
-      known_.push_back(state == CellState::kDone        ? CellStatus::kDone
+      known_.push_back(done                             ? CellStatus::kDone
                        : !CellRenderer::HasTarget(cell) ? CellStatus::kNoTarget
                                                         : CellStatus::kMissing);
-      failed_before_.push_back(state == CellState::kFailed);
+      failed_before_.push_back(failed);
     }
   }
 
@@ -235,6 +241,7 @@ class Runner {
   std::vector<CellStatus> known_;       // of each
   std::vector<bool> failed_before_;     // failed before this process started; retried
   std::vector<Group> groups_;
+  CellResults results_;
   std::set<std::string> said_;  // reported failures
   std::size_t rendered_ = 0;
   bool interrupted_ = false;
@@ -247,11 +254,12 @@ SweepOutcome RunSweep(const Sweep& sweep, const SweepOptions& options,
   SweepFolder folder(options.out, sweep);
   folder.Make();
   SweepOutcome outcome;
-  if (!options.table_only) Runner(sweep, options, hooks, folder).Run(outcome);
+  CellResults results;
+  if (!options.table_only) results = Runner(sweep, options, hooks, folder).Run(outcome);
   // Processes write results one after the other, so that the last one includes all cells.
   const LockFile claims(folder.File("claims"));
   const auto claim = claims.Wait("the table", [](double) { return true; });
-  WriteResults(sweep, folder, options.race, outcome);
+  WriteResults(sweep, folder, options.race, std::move(results), outcome);
   return outcome;
 }
 

@@ -116,7 +116,8 @@ void SweepFolder::CheckReport(const SweepCell& cell, const Json& report) {
       path_ + "/cells/" + cell.name, differences);
 }
 
-const std::string& SweepFolder::SceneHash(const SweepCell& cell) {
+std::string SweepFolder::SceneHash(const SweepCell& cell) {
+  const std::lock_guard lock(mutex_);
   const std::string path = sweep_.ScenePath(cell);
   const auto [entry, is_new] = scene_hashes_.try_emplace(path);
   if (is_new) entry->second = fmt::format("{:016x}", HashSceneFiles(path));

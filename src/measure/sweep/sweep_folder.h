@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,7 +12,7 @@
 
 namespace lanelight {
 
-/// kStopped: missing, since its strategy has lost a race (sweep --race).
+/// kStopped: missing, since its race is decided without it (sweep --race).
 enum class CellState { kMissing, kFailed, kDone, kStopped };
 /// "missing", "failed", "done", "stopped".
 const char* Name(CellState state);
@@ -37,7 +38,8 @@ class SweepFolder {
   void CheckWritable() const;
 
   /// Reads a cell. Throws InputError that states the difference for a finished cell of
-  /// other settings or of a changed scene, and for other files.
+  /// other settings or of a changed scene, and for other files. Safe from several
+  /// threads.
   CellRecord ReadCell(const SweepCell& cell);
 
   /// Makes the directory of a claimed cell, and removes temporary files of killed
@@ -57,11 +59,12 @@ class SweepFolder {
 
  private:
   void CheckReport(const SweepCell& cell, const nlohmann::json& report);
-  const std::string& SceneHash(const SweepCell& cell);
+  std::string SceneHash(const SweepCell& cell);
 
   std::string path_;
   const Sweep& sweep_;
-  std::map<std::string, std::string> scene_hashes_;  // by path
+  std::mutex mutex_;
+  std::map<std::string, std::string> scene_hashes_;  // by path; guarded by mutex_
 };
 
 }  // namespace lanelight

@@ -75,8 +75,7 @@ Json MachinesJson(const std::vector<Json>& cells) {
   return ToJson(machines);
 }
 
-// Rounds stages to four digits and omits their names, so that a page can have 10 000
-// cells.
+// Rounds stages to four digits and omits their names.
 Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
   Json json = {{"name", cell.at("name")},       {"status", cell.at("status")},
                {"message", cell.at("message")}, {"values", cell.at("values")},
@@ -93,6 +92,50 @@ Json PageCell(const Json& cell, const std::vector<std::string>& stage_names) {
       json["stages"].push_back(std::stod(fmt::format("{:.4g}", seconds)));
     }
   }
+  return json;
+}
+
+// A member of all cells: numbers, or indices of texts.
+class CellColumn {
+ public:
+  void Set(std::size_t cell, const Json& value) {
+    if (value.is_null()) return;
+    while (at_.size() < cell) at_.push_back(nullptr);
+    if (value.is_string()) {
+      const auto [entry, is_new] = index_.try_emplace(value, texts_.size());
+      if (is_new) texts_.push_back(value);
+      at_.push_back(entry->second);
+    } else if (value.is_number_float()) {
+      at_.push_back(std::stod(fmt::format("{:.6g}", value.get<double>())));
+    } else {
+      at_.push_back(value);
+    }
+  }
+
+  Json Packed() const {
+    return index_.empty() ? Json({{"at", at_}}) : Json({{"at", at_}, {"texts", texts_}});
+  }
+
+ private:
+  std::map<std::string, std::size_t> index_;
+  Json texts_ = Json::array(), at_ = Json::array();  // null: unknown
+};
+
+using CellColumns = std::map<std::string, CellColumn>;
+
+void SetAll(std::size_t cell, const Json& members, CellColumns& columns) {
+  if (members.is_array()) {
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      columns[std::to_string(i)].Set(cell, members[i]);
+    }
+    return;
+  }
+  for (const auto& [name, value] : members.items()) columns[name].Set(cell, value);
+}
+
+Json PackedJson(const CellColumns& columns) {
+  Json json = Json::object();
+  for (const auto& [name, column] : columns) json[name] = column.Packed();
   return json;
 }
 
@@ -153,6 +196,24 @@ Json SweepJson(const Sweep& sweep, const std::vector<Json>& cells,
           {"groups", GroupsJson(groups, cells, baseline)},
           {"leaders", LeadersJson(groups, cells, baseline)},
           {"cells", page_cells}};
+}
+
+Json PageJson(Json sweep_json) {
+  constexpr const char* kParts[] = {"values", "measured", "stages"};
+  std::map<std::string, CellColumns> parts;
+  CellColumns own;
+  Json names = Json::array();
+  for (const Json& cell : sweep_json.at("cells")) {
+    for (const char* part : kParts) SetAll(names.size(), cell.at(part), parts[part]);
+    own["status"].Set(names.size(), cell.at("status"));
+    own["message"].Set(names.size(), cell.at("message"));
+    names.push_back(cell.at("name"));
+  }
+  Json packed = {{"names", std::move(names)}, {"own", PackedJson(own)}};
+  for (const char* part : kParts) packed[part] = PackedJson(parts[part]);
+  sweep_json.erase("cells");
+  sweep_json["packed"] = std::move(packed);
+  return sweep_json;
 }
 
 std::vector<ReportImage> Thumbnails(const Sweep& sweep, const SweepFolder& folder,

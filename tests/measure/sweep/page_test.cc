@@ -130,7 +130,20 @@ std::string SyntheticPage(const Sweep& sweep) {
   }
   std::vector<ReportImage> images;
   for (const auto& [name, image] : pictures) images.push_back(image);
-  return ReportPage(PageKind::kSweep, SweepJson(sweep, cells, groups), images);
+  Json json = SweepJson(sweep, cells, groups);
+  const Json order = {{"value", 0.4}, {"low", 0.2}, {"high", 0.6}};
+  json["convergence"] = {{{"values", {{"scene", "box"}, {"strategy", "default"}}},
+                          {"order", order},
+                          {"fall", "slower"},
+                          {"from", 16},
+                          {"cause", "heavy-tails"},
+                          {"rounding", 1e-16},
+                          {"worst_share", 0.5},
+                          {"percent_share", 0.7},
+                          {"repeated", 0.9},
+                          {"pixels", {{{"x", 7}, {"y", 4}, {"share", 0.45}}}},
+                          {"text", "the error stops falling as 1/N at 16 spp"}}};
+  return ReportPage(PageKind::kSweep, PageJson(json), images);
 }
 
 const Json& GroupOf(const Json& json, const Json& values) {
@@ -256,6 +269,8 @@ TEST_CASE("sweep: efficiencies are ratios over pairs of equal seeds", "[sweep][r
   }
   CHECK(json["leaders"][1]["best"] == best);
   CHECK(json["leaders"][1]["strategies"] == 10);
+  CHECK(json["leaders"][1]["next"] != best);
+  CHECK(json["leaders"][1]["next_efficiency"]["value"] <= maximum);
   CHECK(json["leaders"][1]["seeds"] == 10);
 }
 
@@ -304,6 +319,36 @@ seed = [1, 2, 3, 4]
   CHECK(json["leaders"][0]["efficiency"]["low"].get<double>() == Approx(3));
   CHECK_THAT(AnswerText(json["leaders"]),
              Catch::Contains("time 2 s: points=halton has 3 [3, 3] times"));
+}
+
+TEST_CASE("sweep: a race that the baseline wins names the runner-up", "[sweep][report]") {
+  const TemporaryFolder folder;
+  folder.Write("a.pbrt", "");
+  const Sweep sweep = ParseSweep(folder.File("s.toml"), R"([grid]
+scene = "a.pbrt"
+strategy = ["points=cmj", "points=halton"]
+spp = 16
+seed = [1, 2, 3, 4, 5]
+)");
+  std::vector<Json> cells;
+  for (const SweepCell& cell : sweep.cells) {
+    const bool stopped = cell.index >= 8;
+    cells.push_back(CellJson(
+        cell, stopped ? CellRecord()
+                      : CellRecord{CellState::kDone, SyntheticReport(cell), ""}));
+    if (stopped) {
+      cells.back()["status"] = Name(CellState::kStopped);
+      cells.back()["lost"] = true;
+      continue;
+    }
+    cells.back()["measured"]["cpu_seconds"] = 1;
+    cells.back()["measured"]["relmse"] = cell.index < 5 ? 1 : 2;
+  }
+  const Json json = SweepJson(sweep, cells, GroupCells(sweep, cells));
+  CHECK_THAT(AnswerText(json["leaders"]),
+             Catch::Contains("points=cmj, the baseline, is the most efficient; the next, "
+                             "points=halton, has 0.5 [0.5, 0.5] times its efficiency; 1 "
+                             "stopped early (5 seeds)"));
 }
 
 TEST_CASE("The synthetic sweep can be written", "[sweep][report]") {

@@ -102,7 +102,12 @@ TEST_CASE("sweep: a budget is a time for each cell", "[sweep][cli]") {
   CHECK(rendered > 0.9 * 4 * plan["cell_seconds"].get<double>());
   // The plan stays; another one is refused.
   CHECK_THAT(Sweep(grid(""), out, {"--budget", "1.2"}).out, Contains("0 of them by"));
-  CHECK_THAT(Sweep(grid(""), out, {"--budget", "2"}).err, Contains("use another --out"));
+  CHECK_THAT(Sweep(grid(""), out, {"--budget", "1"}).err, Contains("use another --out"));
+  // A larger one keeps the finished cells, and their time.
+  const ProcessResult larger = Sweep(grid(""), out, {"--budget", "2.5"});
+  CHECK_THAT(larger.out, Contains("0 of them by") && Contains("are left: add seeds"));
+  CHECK(ReadJson(out + "/budget.json")["cell_seconds"] == plan["cell_seconds"]);
+  CHECK(ReadJson(out + "/budget.json")["budget_seconds"] == 2.5);
   CHECK_THAT(Sweep(grid("spp = 4\n"), directory / "b", {"--budget", "2"}).err,
              Contains("remove spp from the grid"));
   CHECK_THAT(Sweep(grid(""), directory / "c", {"--budget", "0.1"}).err,

@@ -107,6 +107,7 @@ TEST_CASE("sweep: ten thousand cells", "[sweep]") {
   CHECK(outcome.failures.empty());
   const std::string table = ReadWholeFile(directory / "out/sweep.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 10001);
+  CHECK(std::filesystem::file_size(directory / "out/report.html") < 8'000'000);
 }
 
 }  // namespace lanelight

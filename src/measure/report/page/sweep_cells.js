@@ -3,6 +3,27 @@
 
 const UNSET = "not set";
 
+// Calls set(cell, key, value) for the known values of columns.
+function unpack(columns, cells, set) {
+  for (const [key, { at, texts }] of Object.entries(columns)) {
+    at.forEach((x, i) => {
+      if (x !== null) set(cells[i], key, texts ? texts[x] : x);
+    });
+  }
+}
+
+function unpackedCells({ names, own, ...parts }) {
+  const cells = names.map((name) => (
+    { name, message: null, values: {}, measured: {}, stages: [] }));
+  unpack(own, cells, (cell, key, x) => { cell[key] = x; });
+  for (const [part, columns] of Object.entries(parts)) {
+    unpack(columns, cells, (cell, key, x) => { cell[part][key] = x; });
+  }
+  return cells;
+}
+
+study.cells = unpackedCells(study.packed);
+
 // Values of an axis in the order of the grid, as texts.
 function axisValues(axis) {
   return axis.unset ? [...axis.values, UNSET] : axis.values;

@@ -18,17 +18,10 @@ function certaintyText({ equals, seeds, strategies, stopped }) {
   return "all other strategies are significantly less efficient";
 }
 
-// The efficiency of the second-best strategy relative to the baseline, where that is best.
-function nextText({ best, values }) {
-  const same = (group) => Object.entries(values).every(([key, x]) => group.values[key] === x);
-  const others = study.groups.filter((group) =>
-    group.strategy !== best && known(intervalOf(group, "efficiency").value) && same(group));
-  if (others.length === 0) return "";
-  const efficiency = (group) => intervalOf(group, "efficiency");
-  const next = others.reduce((a, b) =>
-    efficiency(b).value > efficiency(a).value ? b : a);
-  const ratio = joined(intervalTexts(efficiency(next), 1, "×"));
-  return `; the next, ${next.strategy}, has ${ratio} its efficiency`;
+function nextText({ next, next_efficiency }) {
+  if (!next) return "";
+  const ratio = joined(intervalTexts(next_efficiency, 1, "×"));
+  return `; the next, ${next}, has ${ratio} its efficiency`;
 }
 
 function leaderText(leader) {

@@ -29,6 +29,7 @@ function start() {
       ["plots", "Plots"],
       imageBlocks.size > 0 && ["images", "Images"],
       ["stages", "Stage costs"],
+      curves.length > 0 && ["convergence", "Convergence"],
       ["cells", "Cells"],
     ],
   });
@@ -40,7 +41,7 @@ function start() {
     const again = focused && area.querySelector(`[data-menu="${focused}"]`);
     if (again) again.focus();
   };
-  showContent(sweepSummary(), area, tableSection());
+  showContent(sweepSummary(), area, convergenceSection(), tableSection());
   if (doneCells.length > 0) show(firstChoice());
 }
 
