@@ -244,11 +244,17 @@ HWY_INLINE DiskPlace SamplePlace(const Wave& wave, const GuideSquare& square,
   return {hn::IfThenElse(guided, x, at.x), hn::IfThenElse(guided, y, at.y)};
 }
 
-// Returns the start for light from the direction `toward` it, whose density is 1 /
-// `inverse`. E never finds it, unless the caller sets `chain`.
-HWY_INLINE Start FromDisk(const Wave& wave, V3 toward, V3 light, VF inverse,
-                          const GuideSquare& square, const StartNumbers& u) {
+// Light from the direction `toward` it, whose density is 1 / `inverse`.
+struct FarLight {
+  V3 toward, light;
+  VF inverse;
+  GuideSquare square;
+};
+
+// Returns the start for it. E never finds it, unless the caller sets `chain`.
+HWY_INLINE Start FromDisk(const Wave& wave, const FarLight& far, const StartNumbers& u) {
   const LightTable& table = *wave.lights;
+  const auto& [toward, light, inverse, square] = far;
   const DiskPlace place = SamplePlace(wave, square, u);
   const VF radius = Splat(table.radius), density = OriginDensity(wave, square, place);
   const V3 center = Splat3(table.center[0], table.center[1], table.center[2]);
@@ -268,7 +274,8 @@ HWY_INLINE void TakeSky(const Wave& wave, const Lights& light, VF inverse_pmf,
   const LightTable& table = *wave.lights;
   const auto take = [&](MF mine, V3 toward, V3 radiance, VF pdf_sa) HWY_ATTR {
     const VF inverse = hn::Div(inverse_pmf, pdf_sa);
-    Start from = FromDisk(wave, toward, radiance, inverse, SquareOfSky(wave, toward), u);
+    Start from =
+        FromDisk(wave, {toward, radiance, inverse, SquareOfSky(wave, toward)}, u);
     // At the edges of texels the two may differ.
     const VF density = SkyDensity(wave, toward);
     from.chain = hn::Min(inverse, hn::Div(Splat(1.0f), density));
@@ -311,8 +318,10 @@ HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
     const MF mine = HasShape(light, LightShape::kDistant);
     const V3 toward =
         IfThenElse(mine, light.F3(offsetof(LightRecord, direction)), Splat3(0, 0, 1));
-    start.Take(mine, FromDisk(wave, toward, light.Radiance(), inverse_pmf,
-                              SquareOfDistant(wave, index), u));
+    start.Take(mine, FromDisk(wave,
+                              {toward, light.Radiance(), inverse_pmf,
+                               SquareOfDistant(wave, index)},
+                              u));
   }
   if (StartAtSky(emission)) TakeSky(wave, light, inverse_pmf, u, start);
   return start;
