@@ -81,9 +81,7 @@ for scene in cornell-box glass; do
   render "$scene.pbrt" --resolution 81x61 --spp 9 --strategy light-paths=splats:2
 done
 # Strategies with training.
-for strategy in roulette=adjoint shadow-roulette=contribution; do
-  render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
-done
+render corridor.pbrt --resolution 81x61 --spp 40 --strategy roulette=adjoint
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=solid-angle
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=projected

@@ -52,12 +52,7 @@ std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
 
 RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
                          const RunOptions& options, const RunClock& clock)
-    : scene_(scene),
-      plan_(plan),
-      options_(options),
-      clock_(clock),
-      tables_(MakeStrategyTables(scene)),
-      run_(Parameters()) {}
+    : scene_(scene), plan_(plan), options_(options), clock_(clock), run_(Parameters()) {}
 
 RunParameters RunStrategy::Parameters() const {
   RunParameters run = MakeRunParameters(scene_, plan_);

@@ -1,53 +1,21 @@
 #include "src/render/train/training.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <string>
 
 #include "src/base/core/error.h"
 
 namespace lanelight {
-namespace {
-
-struct Training {
-  Feature trigger;
-  TrainingOutcome (*train)(const TrainingContext&);
-};
-
-constexpr Training kTrainings[] = {
-#define X(name, feature) {Feature::feature, Train##name},
-    LANELIGHT_TRAININGS(X)
-#undef X
-};
-
-}  // namespace
-
-void TrainingOutcome::Add(const TrainingOutcome& next) {
-  const auto join = [](std::string& all, const char* between, const std::string& more) {
-    all += (all.empty() || more.empty() ? "" : between) + more;
-  };
-  changes = JoinedChanges(changes, next.changes);
-  join(note, "; ", next.note);
-  samples += next.samples;
-  rays += next.rays;
-}
 
 bool NeedsTraining(const Plan& plan) {
-  if (plan.features.Has(Feature::kDecides)) return true;
-  for (const Training& t : kTrainings) {
-    if (plan.features.Has(t.trigger)) return true;
-  }
-  return false;
+  return plan.features.HasAny({Feature::kDecides, Feature::kPathValues});
 }
 
 TrainingOutcome Train(const TrainingContext& context) {
-  if (context.plan.features.Has(Feature::kDecides)) return TrainDecision(context);
-  TrainingOutcome all;
-  for (const Training& t : kTrainings) {
-    if (!context.plan.features.Has(t.trigger)) continue;
-    all.Add(t.train(context));
-  }
-  return all;
+  const FeatureSet& features = context.plan.features;
+  if (features.Has(Feature::kDecides)) return TrainDecision(context);
+  return features.Has(Feature::kPathValues) ? TrainPathValues(context)
+                                            : TrainingOutcome();
 }
 
 namespace {
@@ -56,8 +24,6 @@ constexpr char kHead[] = "path_values";
 constexpr char kSurvive[] = "path_values_survive";
 constexpr char kSplit[] = "path_values_split";
 constexpr char kInverse[] = "path_values_inverse";
-// Left out of the state where nothing is known.
-constexpr char kShadowThresholdColumn[] = "shadow_worth_inverse";
 
 constexpr std::uint64_t kHeadSize = 13;
 
@@ -72,7 +38,7 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
   for (int i = 0; i < 3; ++i) head.push_back(g.size[i]);
   for (int i = 0; i < 3; ++i) head.push_back(double(p.channel[i]));
   head.push_back(double(p.scale));
-  std::vector<TrainedTable> trained = {
+  return {
       {kHead, "grid: low corner, cells per unit, cells; weight of each channel; scale",
        head},
       {kSurvive, "by cell", {p.survive.begin(), p.survive.end()}},
@@ -80,14 +46,6 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
       {kInverse,
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
-  const AlignedVector<float>& shadow = tables.shadow_threshold.inverse;
-  if (!shadow.empty()) {
-    trained.push_back(
-        {kShadowThresholdColumn,
-         "inverse weight of shadow rays, by pixel of the full image and channel",
-         {shadow.begin(), shadow.end()}});
-  }
-  return trained;
 }
 
 const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
@@ -99,11 +57,6 @@ const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
 }
 
 namespace {
-
-bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name) {
-  return std::ranges::any_of(
-      trained, [&](const TrainedTable& table) { return table.name == name; });
-}
 
 // `why` says what the right size comes from.
 void CheckSize(const char* table, std::size_t size, std::uint64_t right,
@@ -144,8 +97,11 @@ void CheckCells(const std::vector<double>& head, std::size_t size) {
                   kSurvive, size, right, head[6], head[7], head[8]));
 }
 
-void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                   PathValues& p) {
+}  // namespace
+
+void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
+                    StrategyTables& tables) {
+  PathValues& p = tables.path_values;
   const std::vector<double>& head = TableOf(trained, kHead);
   PutHead(head, p);
   Put(TableOf(trained, kSurvive), p.survive);
@@ -158,17 +114,6 @@ void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixel
   if (cells > 0 || !p.inverse_pixel.empty()) {
     CheckPixels(kInverse, p.inverse_pixel.size(), pixels);
   }
-}
-
-}  // namespace
-
-void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                    StrategyTables& tables) {
-  PutPathValues(trained, pixels, tables.path_values);
-  if (!HasTable(trained, kShadowThresholdColumn)) return;
-  const std::vector<double>& shadow = TableOf(trained, kShadowThresholdColumn);
-  CheckPixels(kShadowThresholdColumn, shadow.size(), pixels);
-  Put(shadow, tables.shadow_threshold.inverse);
 }
 
 void CheckTrained(const Plan& plan, const StrategyTables& tables) {

@@ -112,11 +112,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(T, K, Compensated, PLAIN, ({}), "compensated", "", "in proportion to radiance minus its mean; BSDF sampling covers the dim parts (needs directions=mis)", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
 
-#define LANELIGHT_SHADOW_ROULETTES(X, T, K)                                                     \
-  X(T, K, None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
-  X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays that can add less are traced with a lower probability", \
-    "f V / s or 0, s = min(1, max(FLOOR = 0.1, contribution / expected pixel value))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
-
 #define LANELIGHT_DISTANCES(X, T, K)                                                            \
   X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to the transmittance (default)", \
     "f / p, p = sigma_t T(d)", "Raab, Seibert and Keller 2008")                           \
@@ -166,7 +161,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(LightCandidates, light_candidates, "light-candidates",                          \
     LANELIGHT_LIGHT_CANDIDATE_CHOICES)                                              \
   X(EnvironmentPoints, environment, "environment", LANELIGHT_ENVIRONMENT_CHOICES)   \
-  X(ShadowRoulette, shadow_roulette, "shadow-roulette", LANELIGHT_SHADOW_ROULETTES) \
   X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
   X(LightPaths, light_paths, "light-paths", LANELIGHT_LIGHT_PATH_CHOICES)           \

@@ -47,8 +47,6 @@ struct Strategy {
   std::uint32_t candidates =
       kDefaultLightCandidates;  // of kResampled: 2 to kMaxLightCandidates
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
-  ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
-  std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
   Distances distances = Distances::kExponential;
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
@@ -63,8 +61,6 @@ struct Strategy {
   double Floor() const {
     return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
   }
-  /// Returns the least probability of a shadow ray.
-  double ShadowFloor() const { return shadow_floor.value_or(0.1); }
   /// Returns the first scattering event (from 1) after which roulette is played.
   std::uint32_t First() const {
     return first.value_or(roulette == Roulette::kConstant ? 1 : 2);

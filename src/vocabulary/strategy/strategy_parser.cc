@@ -23,7 +23,7 @@ constexpr const char* kKeys[] = {
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
-    "light-candidates=single,environment=plain,shadow-roulette=none,"
+    "light-candidates=single,environment=plain,"
     "distances=exponential,reuse=none,light-paths=none,decide=none";
 
 class Parser {
@@ -191,12 +191,6 @@ class Parser {
     if (n != std::floor(n))
       Fail("the number of camera samples per light subpath must be whole");
     strategy_.light_path_samples = static_cast<std::uint32_t>(n);
-  }
-
-  void SetArguments(ShadowRoulette roulette, const Parts& parts) {
-    strategy_.shadow_floor.reset();
-    if (!Has(parts, roulette == ShadowRoulette::kNone ? 0 : 1)) return;
-    strategy_.shadow_floor = Number("shadow-roulette", parts[1], 0.001, 1);
   }
 
   void SetArguments(Roulette roulette, const Parts& parts) {

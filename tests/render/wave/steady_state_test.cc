@@ -62,7 +62,7 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
           "points=halton,directions=light,pairs=antithetic",
           "points=cmj,control=regression",
           "points=lattice,roulette=luminance,control=regression", "points=stratified",
-          "roulette=efficiency", "shadow-roulette=contribution:0.01"}) {
+          "roulette=efficiency"}) {
       INFO(strategy);
       TaskFixture task(scene, strategy, Auxiliary::kGbuffer);
       Plant(task.plan);
