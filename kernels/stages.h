@@ -128,7 +128,6 @@ namespace lanelight {
   X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
-  X(LuminanceRoulette)                         \
   X(RecordPath)                                \
   X(SinglePathEnd)                             \
   X(EnterMedia)                                \

@@ -48,7 +48,7 @@ done
 # Every kind of sample points, choice of directions, control variate, roulette.
 for strategy in points=stratified,pairs=antithetic,directions=light \
   points=cmj points=pmj02,light-selection=uniform \
-  points=halton,roulette=constant points=lattice,roulette=luminance \
+  points=halton,roulette=constant points=lattice,roulette=none \
   directions=bsdf,roulette=none directions=uniform,light-selection=power \
   control=regression,c=optimal; do
   render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"

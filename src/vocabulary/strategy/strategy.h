@@ -37,7 +37,7 @@ struct Strategy {
   Roulette roulette = Roulette::kThroughput;
   // of kConstant: probability of ending, in (0, 1)
   double termination = kConstantTermination;
-  std::optional<double> floor;         // of kThroughput, kLuminance: least survival
+  std::optional<double> floor;         // of kThroughput: least survival
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   double scale = 1;                    // of kThroughput: of the throughput
   LightSelection light_selection = LightSelection::kPower;
@@ -57,10 +57,8 @@ struct Strategy {
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 
-  /// Returns the least survival probability of the roulette on throughput or luminance.
-  double Floor() const {
-    return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
-  }
+  /// Returns the least survival probability of the roulette on throughput.
+  double Floor() const { return floor.value_or(0); }
   /// Returns the first scattering event (from 1) after which roulette is played.
   std::uint32_t First() const {
     return first.value_or(roulette == Roulette::kConstant ? 1 : 2);

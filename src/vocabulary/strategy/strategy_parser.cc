@@ -195,13 +195,12 @@ class Parser {
 
   void SetArguments(Roulette roulette, const Parts& parts) {
     const bool by_throughput = roulette == Roulette::kThroughput;
-    const bool has_floor = by_throughput || roulette == Roulette::kLuminance;
     strategy_.termination = Strategy{}.termination;
     strategy_.floor.reset();
     strategy_.first.reset();
     strategy_.scale = 1;
     const bool constant = roulette == Roulette::kConstant;
-    if (!Has(parts, by_throughput ? 3 : has_floor || constant ? 2 : 0)) return;
+    if (!Has(parts, by_throughput ? 3 : constant ? 2 : 0)) return;
     if (constant) {
       strategy_.termination = Number("roulette=constant", parts[1], 0.001, 0.999);
     } else {

@@ -287,7 +287,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
       {kAllStagesScene, "points=cmj"},
-      {kAllStagesScene, "points=pmj02,roulette=luminance"},
+      {kAllStagesScene, "points=pmj02,roulette=none"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
       {kAllStagesScene, "points=sobol,light-points=projected"},
       {kAllStagesScene, "points=stratified,directions=light"},

@@ -53,9 +53,8 @@ TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") 
   const TemporaryFolder folder;
   const Job job = Prepare(folder, "", 1);
   const Keyed baseline = Render(job, "default");
-  for (const char* same :
-       {"light-selection=uniform", "light-selection=tree", "roulette=none",
-        "roulette=luminance", "c=0.5", "environment=compensated"}) {
+  for (const char* same : {"light-selection=uniform", "light-selection=tree",
+                           "roulette=none", "c=0.5", "environment=compensated"}) {
     INFO(same);
     const Keyed other = Render(job, same);
     CHECK(other.key == baseline.key);
