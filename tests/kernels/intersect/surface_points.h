@@ -8,7 +8,7 @@
 
 namespace lanelight {
 
-/// What the surface point of a path is compared with.
+/// Holds what the surface point of a path is compared with.
 struct ExpectedSurface {
   TriangleRecord triangle;  // where it lies in the scene
   TestRay ray;
