@@ -10,7 +10,7 @@
 #include <cstdio>
 
 #include "bench/cpu_clock.h"
-#include "kernels/probe/sampler_probe.h"
+#include "tests/kernels/probe/sampler_probe.h"
 #include "kernels/simd/target.h"
 #include "src/base/core/machine_info.h"
 #include "src/vocabulary/strategy/strategy.h"

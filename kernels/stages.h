@@ -112,7 +112,6 @@ namespace lanelight {
   X(KeepCandidate)                             \
   LANELIGHT_SHADE_KINDS(LANELIGHT_SHADE_STAGE) \
   X(WeighConnections)                          \
-  X(ShadowRoulette)                            \
   X(ShadowTriangles)                           \
   X(ShadowSpheres)                             \
   X(ShadowDisks)                               \
@@ -129,7 +128,6 @@ namespace lanelight {
   X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \
-  X(LuminanceRoulette)                         \
   X(RecordPath)                                \
   X(SinglePathEnd)                             \
   X(EnterMedia)                                \

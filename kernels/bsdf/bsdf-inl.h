@@ -17,6 +17,7 @@
 #define LANELIGHT_BSDF_BSDF_INL_H_
 
 #include "kernels/queue/slots-inl.h"
+#include "src/vocabulary/path/fields.h"
 #include "kernels/simd/math-inl.h"
 #include "kernels/simd/rng-inl.h"
 #include "src/scene/compiled/materials.h"

@@ -120,7 +120,6 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
                                     p.u_light_1);
         Draw<Policy, kPlain, true>(run, drawer, Dimension::kSelect, p.u_select);
         Draw<Policy, kPlain, true>(run, drawer, Dimension::kRoulette, p.u_roulette);
-        Draw<Policy, kPlain, true>(run, drawer, Dimension::kShadow, p.u_shadow);
         Draw<Policy, kPlain, true>(run, drawer, Dimension::kCandidate, p.u_candidate);
         Draw<Policy, kPlain, false>(run, drawer, Dimension::kMedium, p.u_medium_0,
                                     p.u_medium_1);

@@ -14,7 +14,7 @@
 #include "kernels/queue/batch-inl.h"
 #include "kernels/surface/instance-inl.h"
 #include "kernels/surface/mapped_normals-inl.h"
-#include "kernels/texture/levels-inl.h"
+#include "kernels/texture/texture-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 

@@ -10,46 +10,16 @@
 
 #include "hwy/contrib/math/math-inl.h"
 #include "kernels/queue/slots-inl.h"
-#include "kernels/texture/texture-inl.h"
+#include "kernels/texture/image-inl.h"
+#include "kernels/texture/mapping-inl.h"
 #include "src/vocabulary/path/fields.h"
 
 LANELIGHT_BEGIN_KERNELS
-
-/// Steps in surface coordinates from one pixel to the next.
-struct Footprint {
-  VF dudx, dudy, dvdx, dvdy;
-
-  LANELIGHT_INLINE Footprint Only(MF mask) const {
-    return {hn::IfThenElseZero(mask, dudx), hn::IfThenElseZero(mask, dudy),
-            hn::IfThenElseZero(mask, dvdx), hn::IfThenElseZero(mask, dvdy)};
-  }
-};
 
 LANELIGHT_INLINE Footprint LoadFootprint(const PathColumns& path, const Slots& slots) {
   return {Gather(path.footprint_0, slots), Gather(path.footprint_1, slots),
           Gather(path.footprint_2, slots), Gather(path.footprint_3, slots)};
 }
-
-/// A point for all textures, which are filtered; p and n as in PlacedPoint. The steps
-/// from one pixel to the next along the surface are read by mappings of places.
-struct FilteredPoint {
-  static constexpr bool kHasPlace = true, kHasFootprint = true;
-  VF u, v;
-  V3 p, n;
-  Footprint footprint;
-  V3 step_x, step_y;
-
-  LANELIGHT_INLINE void SetSteps(V3 tg, V3 tv) {
-    step_x = MulAdd(tg, footprint.dudx, Mul(tv, footprint.dvdx));
-    step_y = MulAdd(tg, footprint.dudy, Mul(tv, footprint.dvdy));
-  }
-  LANELIGHT_INLINE FilteredPoint Only(MF mine) const {
-    return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v),
-            IfThenElseZero(mine, p),     n,
-            footprint.Only(mine),        IfThenElseZero(mine, step_x),
-            IfThenElseZero(mine, step_y)};
-  }
-};
 
 /// Bilinear lookup in the lanes' own levels.
 LANELIGHT_INLINE V3 EvalLevel(const TextureTable& table, const TextureNode& node,

@@ -30,6 +30,37 @@ struct PlacedPoint {
   }
 };
 
+/// Steps in surface coordinates from one pixel to the next.
+struct Footprint {
+  VF dudx, dudy, dvdx, dvdy;
+
+  LANELIGHT_INLINE Footprint Only(MF mask) const {
+    return {hn::IfThenElseZero(mask, dudx), hn::IfThenElseZero(mask, dudy),
+            hn::IfThenElseZero(mask, dvdx), hn::IfThenElseZero(mask, dvdy)};
+  }
+};
+
+/// A point for all textures, which are filtered; p and n as in PlacedPoint. The steps
+/// from one pixel to the next along the surface are read by mappings of places.
+struct FilteredPoint {
+  static constexpr bool kHasPlace = true, kHasFootprint = true;
+  VF u, v;
+  V3 p, n;
+  Footprint footprint;
+  V3 step_x, step_y;
+
+  LANELIGHT_INLINE void SetSteps(V3 tg, V3 tv) {
+    step_x = MulAdd(tg, footprint.dudx, Mul(tv, footprint.dvdx));
+    step_y = MulAdd(tg, footprint.dudy, Mul(tv, footprint.dvdy));
+  }
+  LANELIGHT_INLINE FilteredPoint Only(MF mine) const {
+    return {hn::IfThenElseZero(mine, u), hn::IfThenElseZero(mine, v),
+            IfThenElseZero(mine, p),     n,
+            footprint.Only(mine),        IfThenElseZero(mine, step_x),
+            IfThenElseZero(mine, step_y)};
+  }
+};
+
 struct TexturePair {
   VF s, t;
 };

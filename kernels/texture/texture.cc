@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "kernels/queue/batch-inl.h"
-#include "kernels/texture/levels-inl.h"
+#include "kernels/texture/texture-inl.h"
 #include "src/scene/compiled/materials.h"
 #include "src/scene/compiled/texture_table.h"
 

@@ -124,11 +124,9 @@ void CheckMaterials(std::uint64_t spp, int reference_spp, double power) {
   for (const Material& material : MaterialZoo()) {
     // The kernels sum the inner bounces of a clear coat in closed form, within 3 %.
     const double tolerance = IsClearCoat(material) ? 0.03 : kFloatTolerance;
-    const auto result =
-        CompareWithReference(Plate(material, 6), spp, reference_spp, tolerance);
-    INFO(material.name << ": " << result.ToString());
-    CHECK(result.same);
-    CHECK(result.detectable_bias < power);
+    stat::CheckSame(
+        CompareWithReference(Plate(material, 6), spp, reference_spp, tolerance), power,
+        material.name);
   }
 }
 

@@ -159,11 +159,10 @@ TEST_CASE("wavefront: a clear coat conserves energy", "[closed_form]") {
       b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddMaterial(coat));
       b.AddEnvironment(Grey(1));
       const double exact = closed_form::CoatedFurnace(albedo, 1.5, 1, events / 2);
-      const auto result = stat::CompareMeans(RenderWavefront(b.Build(), 4096),
-                                             stat::ExpectedImage(4, 4, Constant(exact)),
-                                             {4, 1e-6, 0.005, 0});
-      INFO("events " << events << ", albedo " << albedo << ": " << result.ToString());
-      CHECK(result.same);
+      stat::CheckSame(stat::CompareMeans(RenderWavefront(b.Build(), 4096),
+                                         stat::ExpectedImage(4, 4, Constant(exact)),
+                                         {4, 1e-6, 0.005, 0}),
+                      fmt::format("events {}, albedo {}", events, albedo));
     }
   }
 }

@@ -28,11 +28,9 @@ TEST_CASE("forcediffuse: every material agrees with the reference", "[agreement]
   for (const Material& material : MaterialZoo()) {
     // Clear coats are in closed form, within 3 %.
     const bool coat = material.kind == MaterialKind::kCoatedDiffuse;
-    const auto result = CompareWithReference(Forced(Plate(material, 6)), 2048, 1500,
-                                             coat ? 0.03 : kFloatTolerance);
-    INFO(material.name << ": " << result.ToString());
-    CHECK(result.same);
-    CHECK(result.detectable_bias < 0.2);
+    stat::CheckSame(CompareWithReference(Forced(Plate(material, 6)), 2048, 1500,
+                                         coat ? 0.03 : kFloatTolerance),
+                    0.2, material.name);
   }
 }
 

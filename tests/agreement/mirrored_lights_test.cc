@@ -42,10 +42,7 @@ TEST_CASE("mirrored lights emit on the same side as in pbrt", "[lights][agreemen
         }
         const SceneDescription lit =
             Shell(mirrored, reversed, cut, outward ? kOutside : kInside);
-        const auto result = CompareWithReference(lit, 1024, 1024, cut ? 2e-3 : 1e-4);
-        INFO(result.ToString());
-        CHECK(result.same);
-        CHECK(result.detectable_bias < 0.2);
+        stat::CheckSame(CompareWithReference(lit, 1024, 1024, cut ? 2e-3 : 1e-4), 0.2);
       }
     }
   }

@@ -62,10 +62,8 @@ TEST_CASE("regularize: strategies agree with each other", "[agreement]") {
   const auto plain = RenderWavefront(scene, 8192, "reuse=none");
   for (const char* strategy : {"reuse=block", "directions=light", "roulette=none"}) {
     const auto other = RenderWavefront(scene, 8192, strategy);
-    const auto result =
-        stat::CompareMeans(plain, other, {4, 1e-6, kFloatTolerance, 1e-7});
-    INFO(strategy << ": " << result.ToString());
-    CHECK(result.same);
+    stat::CheckSame(stat::CompareMeans(plain, other, {4, 1e-6, kFloatTolerance, 1e-7}),
+                    strategy);
   }
 }
 

@@ -111,11 +111,9 @@ SceneDescription Instanced() {
 }
 
 void CheckAgreement(const SceneDescription& scene, int samples, double detectable) {
-  const auto result = CompareWithReference(scene, static_cast<std::uint64_t>(samples),
-                                           samples, kTolerance);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < detectable);
+  stat::CheckSame(CompareWithReference(scene, static_cast<std::uint64_t>(samples),
+                                       samples, kTolerance),
+                  detectable);
 }
 
 }  // namespace

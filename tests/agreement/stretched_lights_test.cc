@@ -39,9 +39,7 @@ TEST_CASE("a transform that nearly flattens a light is rendered or refused",
           "[lights][agreement]") {
   SceneDescription scene = Spots(35, 15);
   scene.lights[0].world_from_light = Transform::Scale({1, 1e-3, 1});
-  const auto result = CompareWithReference(scene, 256, 256);
-  INFO(result.ToString());
-  CHECK(result.same);
+  stat::CheckSame(CompareWithReference(scene, 256, 256));
   scene.lights[0].world_from_light = Transform::Scale({1, 1e-25, 1});
   CHECK_THROWS_AS(RenderWavefront(scene, 1), InputError);
 }

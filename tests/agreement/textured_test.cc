@@ -161,11 +161,9 @@ SceneDescription Varied(MaterialKind kind, bool has_reflectance = false) {
 }
 
 void CheckVaried(MaterialKind kind, bool has_reflectance, double tolerance) {
-  const auto result =
-      CompareWithReference(Varied(kind, has_reflectance), 8192, 2000, tolerance);
-  INFO(static_cast<int>(kind) << ": " << result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < 0.15);
+  stat::CheckSame(
+      CompareWithReference(Varied(kind, has_reflectance), 8192, 2000, tolerance), 0.15,
+      fmt::format("{}", static_cast<int>(kind)));
 }
 
 }  // namespace
@@ -250,10 +248,7 @@ TEST_CASE("textures by position agree with the reference in a render", "[texture
   mix.mix_amount.texture = 3;
   scene.materials.push_back(mix);
   scene.shapes[0].material = static_cast<Index>(scene.materials.size()) - 1;
-  const auto result = CompareWithReference(scene, 8192, 2000);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < 0.1);
+  stat::CheckSame(CompareWithReference(scene, 8192, 2000), 0.1);
 }
 
 TEST_CASE("columns of textured layers exist with their features only", "[textured]") {

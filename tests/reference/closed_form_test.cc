@@ -28,11 +28,6 @@ std::function<Rgb(int, int)> PixelMean(int size, const std::function<Rgb(Vec3d)>
   };
 }
 
-void CheckSame(const stat::ImageTestResult& result) {
-  INFO(result.ToString());
-  CHECK(result.same);
-}
-
 // Pixels of these images vary over their area: the midpoint rule above is good to 1e-4.
 constexpr stat::ImageTestOptions kMidpoint = {4, 1e-6, 2e-4, 1e-9};
 constexpr stat::ImageTestOptions kRounding = {4, 1e-6, 1e-12, 0};
@@ -50,7 +45,7 @@ TEST_CASE("reference: white furnace of every diffuse model", "[reference]") {
         const auto result = CompareWithClosedForm(
             Furnace(m, 4), Options(e, 256), Constant(closed_form::Furnace(albedo, 1)),
             {4, 1e-6, 1e-12, 0});
-        CheckSame(result);
+        stat::CheckSame(result);
       }
     }
   }
@@ -66,8 +61,8 @@ TEST_CASE("reference: lossless materials vanish in the furnace", "[reference]") 
   for (const Material& m : {glass, thin, leaf}) {
     for (ReferenceEstimator e : kEstimators) {
       // A leaf's path stays inside with probability below one per bounce; 200 is plenty.
-      CheckSame(CompareWithClosedForm(Furnace(m, 200, 4), Options(e, 64), Constant(1),
-                                      {4, 1e-6, 1e-6, 0}));
+      stat::CheckSame(CompareWithClosedForm(Furnace(m, 200, 4), Options(e, 64),
+                                            Constant(1), {4, 1e-6, 1e-6, 0}));
     }
   }
 }
@@ -78,22 +73,22 @@ TEST_CASE("reference: closed rooms of albedo 0.5, 0.9 and 0.99", "[reference]") 
       // Material sampling meets the emission at every vertex: no variance.
       const double series = closed_form::ClosedRoom(1, albedo, depth);
       const auto a = Options(ReferenceEstimator::kMaterialSampling, 8);
-      CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), a, Constant(series),
-                                      kRounding));
-      CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), a, Constant(series),
-                                      kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), a,
+                                            Constant(series), kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), a, Constant(series),
+                                            kRounding));
       const auto b = Options(ReferenceEstimator::kLightSampling, depth > 3 ? 10 : 400);
-      CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), b, Constant(series),
-                                      kRounding));
-      CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), b, Constant(series),
-                                      kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), b,
+                                            Constant(series), kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), b, Constant(series),
+                                            kRounding));
     }
     CHECK(closed_form::ClosedRoom(1, albedo, 300) ==
           Approx(closed_form::ClosedRoom(1, albedo)).epsilon(1e-12));
   }
-  CheckSame(CompareWithClosedForm(ClosedRoom(0.99, 4000),
-                                  Options(ReferenceEstimator::kMaterialSampling, 4),
-                                  Constant(100), kRounding));
+  stat::CheckSame(CompareWithClosedForm(ClosedRoom(0.99, 4000),
+                                        Options(ReferenceEstimator::kMaterialSampling, 4),
+                                        Constant(100), kRounding));
 }
 
 TEST_CASE("reference: point light over a plane", "[reference]") {
@@ -106,8 +101,8 @@ TEST_CASE("reference: point light over a plane", "[reference]") {
              Rgb{1, 2, 3};
     });
     for (ReferenceEstimator e : kEstimators) {
-      CheckSame(CompareWithClosedForm(PointOverPlane(s, size), Options(e, 400), exact,
-                                      kMidpoint));
+      stat::CheckSame(CompareWithClosedForm(PointOverPlane(s, size), Options(e, 400),
+                                            exact, kMidpoint));
     }
   }
 }
@@ -120,12 +115,12 @@ TEST_CASE("reference: irradiance of a sphere light", "[reference]") {
         0.5 / std::numbers::pi *
         closed_form::SphereLightIrradiance(3, 0.5, Length(to), to.z / Length(to)));
   });
-  CheckSame(CompareWithClosedForm(SphereLight(size),
-                                  Options(ReferenceEstimator::kLightSampling, 2000),
-                                  exact, kMidpoint));
-  CheckSame(CompareWithClosedForm(SphereLight(size),
-                                  Options(ReferenceEstimator::kMaterialSampling, 8000),
-                                  exact, kMidpoint));
+  stat::CheckSame(CompareWithClosedForm(SphereLight(size),
+                                        Options(ReferenceEstimator::kLightSampling, 2000),
+                                        exact, kMidpoint));
+  stat::CheckSame(CompareWithClosedForm(
+      SphereLight(size), Options(ReferenceEstimator::kMaterialSampling, 8000), exact,
+      kMidpoint));
 }
 
 TEST_CASE("reference: Lambert's polygon formula", "[reference]") {
@@ -135,13 +130,13 @@ TEST_CASE("reference: Lambert's polygon formula", "[reference]") {
     return Grey(0.5 / std::numbers::pi *
                 closed_form::PolygonIrradiance(3, corners, p, {0, 0, 1}));
   });
-  CheckSame(CompareWithClosedForm(PolygonLight(size),
-                                  Options(ReferenceEstimator::kLightSampling, 2000),
-                                  exact, kMidpoint));
+  stat::CheckSame(CompareWithClosedForm(PolygonLight(size),
+                                        Options(ReferenceEstimator::kLightSampling, 2000),
+                                        exact, kMidpoint));
   const auto other = CompareWithClosedForm(
       PolygonLight(size), Options(ReferenceEstimator::kMaterialSampling, 8000), exact,
       kMidpoint);
-  CheckSame(other);
+  stat::CheckSame(other);
   CHECK(other.detectable_bias < 0.05);
 }
 
@@ -154,7 +149,7 @@ TEST_CASE("reference: a mirror at normal incidence", "[reference]") {
                      2 * closed_form::ConductorNormal(0.9, 2.5),
                      3 * closed_form::ConductorNormal(1.1, 2.2)};
   for (ReferenceEstimator e : kEstimators) {
-    CheckSame(CompareWithClosedForm(
+    stat::CheckSame(CompareWithClosedForm(
         b.Build(), Options(e, 4), [&](int, int) { return exact; }, kRounding));
   }
 }
@@ -165,9 +160,9 @@ TEST_CASE("reference: a slab of glass splits and displaces a beam", "[reference]
   const double eta = 1.5, thickness = 0.25, cosine = std::sqrt(0.5);
   SceneDescription scene = GlassSlab(400);
   scene.lights.clear();
-  CheckSame(CompareWithClosedForm(GlassSlab(400),
-                                  Options(ReferenceEstimator::kMaterialSampling, 64),
-                                  Constant(1), {4, 1e-6, 1e-9, 0}));
+  stat::CheckSame(CompareWithClosedForm(
+      GlassSlab(400), Options(ReferenceEstimator::kMaterialSampling, 64), Constant(1),
+      {4, 1e-6, 1e-9, 0}));
   const reference::Geometry geometry(scene, nullptr);
   reference::Random random(17);
   const Vec3d start = {-1, 0, 1}, direction = Normalize(Vec3d{1, 0, -1});
@@ -198,7 +193,7 @@ TEST_CASE("reference: a slab of glass splits and displaces a beam", "[reference]
                                : closed_form::SlabTransmittance(cosine, eta);
     const auto result = CompareWithClosedForm(
         b.Build(), Options(ReferenceEstimator::kLightSampling, 20000), Constant(exact));
-    CheckSame(result);
+    stat::CheckSame(result);
     CHECK(result.detectable_bias < (above ? 0.1 : 0.02));
   }
 }

@@ -48,7 +48,7 @@ done
 # Every kind of sample points, choice of directions, control variate, roulette.
 for strategy in points=stratified,pairs=antithetic,directions=light \
   points=cmj points=pmj02,light-selection=uniform \
-  points=halton,roulette=constant points=lattice,roulette=luminance \
+  points=halton,roulette=constant points=lattice,roulette=none \
   directions=bsdf,roulette=none directions=uniform,light-selection=power \
   control=regression,c=optimal; do
   render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"
@@ -81,9 +81,7 @@ for scene in cornell-box glass; do
   render "$scene.pbrt" --resolution 81x61 --spp 9 --strategy light-paths=splats:2
 done
 # Strategies with training.
-for strategy in roulette=adjoint shadow-roulette=contribution; do
-  render corridor.pbrt --resolution 81x61 --spp 40 --strategy "$strategy"
-done
+render corridor.pbrt --resolution 81x61 --spp 40 --strategy roulette=adjoint
 render veach-mis.pbrt --resolution 24x18 --spp 16 --strategy decide=pilot
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=solid-angle
 render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy light-points=projected

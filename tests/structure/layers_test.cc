@@ -54,7 +54,6 @@ constexpr Folder kFolders[] = {
     {"kernels/accumulate",      "finished samples"},
     {"kernels/reuse",           "paths that serve a block of pixels"},
     {"kernels/light_paths",     "light subpaths"},
-    {"kernels/probe",           "kernel routines outside a render"},
     {"kernels",                 "the registry of stages"},
     {"src/render/films",        "sums of samples"},
     {"src/render/plan",         "which stages and columns a scene needs"},

@@ -43,12 +43,6 @@ AlignedVector<float> ImpliedProbability(const AliasTable& table) {
 
 }  // namespace
 
-std::size_t AliasTable::Pick(double u) const {
-  const double scaled = u * static_cast<double>(size());
-  const auto i = std::min(static_cast<std::size_t>(scaled), size() - 1);
-  return scaled - static_cast<double>(i) < static_cast<double>(q[i]) ? i : alias[i];
-}
-
 AliasTable BuildAliasTable(std::span<const double> weights) {
   LL_CHECK_LT(weights.size(), std::size_t{1} << 32);
   std::vector<double> rest = MeanOne(weights);

@@ -19,8 +19,6 @@ struct AliasTable {
   AlignedVector<float> probability;
 
   std::size_t size() const { return q.size(); }
-  /// The entry picked by u in [0, 1).
-  std::size_t Pick(double u) const;
 };
 
 /// Table over weights >= 0 (finite, at least one positive). An entry of weight zero is

@@ -1,6 +1,5 @@
 #include "src/base/core/hash.h"
 
-#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <new>
@@ -15,8 +14,6 @@ Hash128 HashTo128(const void* bytes, std::size_t size) {
   const XXH128_hash_t hash = XXH3_128bits(bytes, size);
   return {hash.low64, hash.high64};
 }
-
-std::string Hash128::Hex() const { return fmt::format("{:016x}{:016x}", high, low); }
 
 struct StreamHash::State {
   XXH3_state_t* const of_library = XXH3_createState();

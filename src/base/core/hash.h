@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -18,8 +17,6 @@ inline std::uint64_t Hash64(std::string_view text) {
 struct Hash128 {
   std::uint64_t low = 0, high = 0;
   friend bool operator==(const Hash128&, const Hash128&) = default;
-  /// 32 digits.
-  std::string Hex() const;
 };
 Hash128 HashTo128(const void* bytes, std::size_t size);
 

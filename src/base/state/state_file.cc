@@ -96,7 +96,6 @@ const std::string& StateFile::identity() const { return impl_->identity; }
 const std::string& StateFile::report() const { return impl_->report; }
 PixelRect StateFile::window() const { return impl_->window; }
 const std::vector<PixelRect>& StateFile::tiles() const { return impl_->tiles; }
-std::uint64_t StateFile::bytes() const { return impl_->bytes; }
 
 void StateFile::ReadPixels(const std::vector<MutableStateColumn>& into,
                            PixelRect window) const {

@@ -69,8 +69,6 @@ class StateFile {
   const std::string& report() const;
   PixelRect window() const;
   const std::vector<PixelRect>& tiles() const;
-  /// Size of the file.
-  std::uint64_t bytes() const;
 
   /// Puts the pixels of the file's tiles into the columns of a film of the pixels
   /// `window`, which must contain the tiles, and leaves all other pixels alone. Memory of

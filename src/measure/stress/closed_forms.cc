@@ -25,11 +25,6 @@ double ClosedRoom(double emission, double albedo, double depth) {
   return emission * -std::expm1((depth + 1) * std::log(albedo)) / (1 - albedo);
 }
 
-double SphereIrradiance(double radius, double distance, double cosine) {
-  const double sine = radius / distance;
-  return kPi * sine * sine * cosine;
-}
-
 double PolygonIrradiance(std::span<const Vec3d> corners) {
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -15,11 +15,6 @@ namespace lanelight::stress {
 /// series ends after albedo^depth.
 double ClosedRoom(double emission, double albedo, double depth);
 
-/// Irradiance from a sphere of radiance 1 that is wholly above the horizon: pi sin^2 a
-/// cos, with a its half angle and `cosine` of the direction to its centre (the projected
-/// solid angle of a cone).
-double SphereIrradiance(double radius, double distance, double cosine);
-
 /// Irradiance at the origin, normal (0, 0, 1), from a polygon of radiance 1 above the
 /// horizon: half the sum of the edges' angles times the cosine of their planes' normals
 /// (Lambert 1760).

@@ -78,7 +78,6 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
     f.Add(Feature::kProjectedHits);
   }
   if (SamplesOfLightDiffer(f)) f.Add(TurnsOn(strategy.light_candidates));
-  f.Add(TurnsOn(strategy.shadow_roulette));
 }
 
 }  // namespace
@@ -132,9 +131,8 @@ FeatureSet LightPathFeatures(FeatureSet f) {
   // Shadow rays go to the camera, and lights are neither sampled nor hit.
   f.Remove({Feature::kManyLights, Feature::kMis, Feature::kProjectedHits,
             Feature::kLightCandidates, Feature::kLightTable, Feature::kLightTree,
-            Feature::kSampledHittableLights, Feature::kContributionShadowRoulette,
-            Feature::kAreaLights, Feature::kInfiniteLights, Feature::kEmissionImages,
-            Feature::kPortals});
+            Feature::kSampledHittableLights, Feature::kAreaLights,
+            Feature::kInfiniteLights, Feature::kEmissionImages, Feature::kPortals});
   for (int i = 0; i < int(LightShape::kCount); ++i) {
     f.Remove(LightFeature(static_cast<LightShape>(i)));
   }

@@ -50,9 +50,6 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
     text += fmt::format(" roulette {} {} {} {} {}", Name(s.roulette), r.termination,
                         r.floor, r.first, r.scale);
   }
-  if (features.Has(Feature::kContributionShadowRoulette)) {
-    text += fmt::format(" shadow floor {}", s.ShadowFloor());
-  }
   if (features.Has(Feature::kRegressionControl)) {
     text += fmt::format(" control {} {}", Name(s.control),
                         s.coefficient ? fmt::format("{}", *s.coefficient) : "optimal");

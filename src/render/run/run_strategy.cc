@@ -13,8 +13,10 @@
 #include "src/render/train/training_pass.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/task_watcher.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/film.h"
+#include "src/scene/prepare/emission_guide.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 
@@ -52,12 +54,7 @@ std::uint32_t SeedOf(std::uint64_t seed, std::uint64_t first_sample) {
 
 RunStrategy::RunStrategy(const PreparedScene& scene, const Plan& plan,
                          const RunOptions& options, const RunClock& clock)
-    : scene_(scene),
-      plan_(plan),
-      options_(options),
-      clock_(clock),
-      tables_(MakeStrategyTables(scene)),
-      run_(Parameters()) {}
+    : scene_(scene), plan_(plan), options_(options), clock_(clock), run_(Parameters()) {}
 
 RunParameters RunStrategy::Parameters() const {
   RunParameters run = MakeRunParameters(scene_, plan_);
@@ -104,6 +101,7 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
 void RunStrategy::Restore(TrainingOutcome training,
                           const std::vector<TrainedTable>& tables) {
   training_ = std::move(training);
+  tables_.emission = MakeEmissionGuide(scene_.compiled->lights);
   ImportTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
   UseTraining();
   CheckTrained(plan_, tables_);

@@ -124,7 +124,6 @@ TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& option
   tried.price = price;
   tried.scene = scene;
   tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
-  tried.tables = MakeStrategyTables(scene);
   tried.splits = PlannedStrategy(scene, tried.options).Splits();
   return tried;
 }

@@ -39,9 +39,8 @@ inline constexpr double kMinChangeGain = 1.05;
 // bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
 // combining is never much worse than either, one alone can be); roulette=efficiency
 // (where it gains adjoint does too, and it needs two more passes to learn its factors),
-// and what has never won: roulette=luminance (0.66 to 1.03 on five scenes), control
-// variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98), uniform directions, antithetic
-// pairs, which undo what strata gain, a constant roulette.
+// and what has never won: control variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98),
+// uniform directions, antithetic pairs, which undo what strata gain, a constant roulette.
 inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"roulette=adjoint", "gains where little of the scene carries the light", 1.17, 0.19},
     {"roulette=throughput:0:2:4", "gains where later events of paths carry much light",

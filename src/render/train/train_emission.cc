@@ -44,6 +44,7 @@ class EmissionTraining {
     const LightTable& table = scene_.compiled->lights;
     const LightEmission& emission = scene_.chances->emission;
     EmissionGuide& guide = tables_.emission;
+    guide = MakeEmissionGuide(table);
     Learn(PlainEmissionWeights(table, guide, emission), guide);
     std::vector<double> light(guide.num_cells + emission.pmf.size(), 0.0);
     for (std::uint32_t round = 0; round < kRounds; ++round) {

@@ -9,47 +9,18 @@
 #include "src/scene/prepare/emission_guide.h"
 
 namespace lanelight {
-namespace {
-
-struct Training {
-  Feature trigger;
-  TrainingOutcome (*train)(const TrainingContext&);
-};
-
-constexpr Training kTrainings[] = {
-#define X(name, feature) {Feature::feature, Train##name},
-    LANELIGHT_TRAININGS(X)
-#undef X
-};
-
-}  // namespace
-
-void TrainingOutcome::Add(const TrainingOutcome& next) {
-  const auto join = [](std::string& all, const char* between, const std::string& more) {
-    all += (all.empty() || more.empty() ? "" : between) + more;
-  };
-  changes = JoinedChanges(changes, next.changes);
-  join(note, "; ", next.note);
-  samples += next.samples;
-  rays += next.rays;
-}
 
 bool NeedsTraining(const Plan& plan) {
-  if (plan.features.Has(Feature::kDecides)) return true;
-  for (const Training& t : kTrainings) {
-    if (plan.features.Has(t.trigger)) return true;
-  }
-  return false;
+  return plan.features.HasAny(
+      {Feature::kDecides, Feature::kPathValues, Feature::kGuidedEmission});
 }
 
 TrainingOutcome Train(const TrainingContext& context) {
-  if (context.plan.features.Has(Feature::kDecides)) return TrainDecision(context);
-  TrainingOutcome all;
-  for (const Training& t : kTrainings) {
-    if (!context.plan.features.Has(t.trigger)) continue;
-    all.Add(t.train(context));
-  }
-  return all;
+  const FeatureSet& features = context.plan.features;
+  if (features.Has(Feature::kDecides)) return TrainDecision(context);
+  if (features.Has(Feature::kPathValues)) return TrainPathValues(context);
+  if (features.Has(Feature::kGuidedEmission)) return TrainEmission(context);
+  return {};
 }
 
 namespace {
@@ -58,8 +29,6 @@ constexpr char kHead[] = "path_values";
 constexpr char kSurvive[] = "path_values_survive";
 constexpr char kSplit[] = "path_values_split";
 constexpr char kInverse[] = "path_values_inverse";
-// Left out of the state where nothing is known.
-constexpr char kShadowThresholdColumn[] = "shadow_worth_inverse";
 
 // Left out unless light subpaths come from infinity.
 constexpr char kEmissionCells[] = "emission_cells";
@@ -86,13 +55,6 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
       {kInverse,
        "ImageGuess::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
-  const AlignedVector<float>& shadow = tables.shadow_threshold.inverse;
-  if (!shadow.empty()) {
-    trained.push_back(
-        {kShadowThresholdColumn,
-         "inverse weight of shadow rays, by pixel of the full image and channel",
-         {shadow.begin(), shadow.end()}});
-  }
   if (tables.emission.has_learned()) {
     trained.push_back({kEmissionCells, "weights of where subpaths from infinity start",
                        tables.emission.cell_weights});
@@ -111,11 +73,6 @@ const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
 }
 
 namespace {
-
-bool HasTable(const std::vector<TrainedTable>& trained, const std::string& name) {
-  return std::ranges::any_of(
-      trained, [&](const TrainedTable& table) { return table.name == name; });
-}
 
 // `why` says what the right size comes from.
 void CheckSize(const char* table, std::size_t size, std::uint64_t right,
@@ -156,22 +113,6 @@ void CheckCells(const std::vector<double>& head, std::size_t size) {
                   kSurvive, size, right, head[6], head[7], head[8]));
 }
 
-void PutPathValues(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
-                   PathValues& p) {
-  const std::vector<double>& head = TableOf(trained, kHead);
-  PutHead(head, p);
-  Put(TableOf(trained, kSurvive), p.survive);
-  Put(TableOf(trained, kSplit), p.split);
-  Put(TableOf(trained, kInverse), p.inverse_pixel);
-  const std::size_t cells = p.survive.size();
-  if (cells > 0) CheckCells(head, cells);
-  const std::string why = "one for each value of 'path_values_survive'";
-  if (!p.split.empty()) CheckSize(kSplit, p.split.size(), cells, why);
-  if (cells > 0 || !p.inverse_pixel.empty()) {
-    CheckPixels(kInverse, p.inverse_pixel.size(), pixels);
-  }
-}
-
 void PutEmission(const std::vector<TrainedTable>& trained, EmissionGuide& guide) {
   EmissionWeights weights = {TableOf(trained, kEmissionCells),
                              TableOf(trained, kEmissionLights)};
@@ -192,12 +133,21 @@ void PutEmission(const std::vector<TrainedTable>& trained, EmissionGuide& guide)
 
 void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,
                     StrategyTables& tables) {
-  PutPathValues(trained, pixels, tables.path_values);
-  if (HasTable(trained, kEmissionCells)) PutEmission(trained, tables.emission);
-  if (!HasTable(trained, kShadowThresholdColumn)) return;
-  const std::vector<double>& shadow = TableOf(trained, kShadowThresholdColumn);
-  CheckPixels(kShadowThresholdColumn, shadow.size(), pixels);
-  Put(shadow, tables.shadow_threshold.inverse);
+  PathValues& p = tables.path_values;
+  const std::vector<double>& head = TableOf(trained, kHead);
+  PutHead(head, p);
+  Put(TableOf(trained, kSurvive), p.survive);
+  Put(TableOf(trained, kSplit), p.split);
+  Put(TableOf(trained, kInverse), p.inverse_pixel);
+  const std::size_t cells = p.survive.size();
+  if (cells > 0) CheckCells(head, cells);
+  const std::string why = "one for each value of 'path_values_survive'";
+  if (!p.split.empty()) CheckSize(kSplit, p.split.size(), cells, why);
+  if (cells > 0 || !p.inverse_pixel.empty()) {
+    CheckPixels(kInverse, p.inverse_pixel.size(), pixels);
+  }
+  const auto has_cells = [](const TrainedTable& t) { return t.name == kEmissionCells; };
+  if (std::ranges::any_of(trained, has_cells)) PutEmission(trained, tables.emission);
 }
 
 void CheckTrained(const Plan& plan, const StrategyTables& tables) {

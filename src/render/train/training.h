@@ -46,24 +46,16 @@ struct TrainingContext {
   StrategyTables& tables;  // to be filled
 };
 
-// X(name, feature that asks for it), in the order in which they run. Each is a function
-// Train<name> in a file of its own. With kDecides TrainDecision runs instead, which
-// trains what it compares, and what it has chosen.
-#define LANELIGHT_TRAININGS(X) \
-  X(PathValues, kPathValues)   \
-  X(Emission, kGuidedEmission) \
-  X(ShadowThreshold, kContributionShadowRoulette)
-
-#define X(name, feature) TrainingOutcome Train##name(const TrainingContext& context);
-LANELIGHT_TRAININGS(X)
-#undef X
-TrainingOutcome TrainDecision(const TrainingContext& context);
-
 /// Returns whether the plan's strategy needs training.
 bool NeedsTraining(const Plan& plan);
 
-/// Runs the trainings that the plan's strategy needs.
+/// Runs the training that the plan's strategy needs: with kPathValues TrainPathValues,
+/// with kGuidedEmission TrainEmission; with kDecides TrainDecision, which trains what it
+/// compares, and what it has chosen.
 TrainingOutcome Train(const TrainingContext& context);
+TrainingOutcome TrainPathValues(const TrainingContext& context);
+TrainingOutcome TrainEmission(const TrainingContext& context);
+TrainingOutcome TrainDecision(const TrainingContext& context);
 
 /// Returns the values of a table. Throws InputError for an unknown name.
 const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
@@ -72,7 +64,7 @@ const std::vector<double>& TableOf(const std::vector<TrainedTable>& trained,
 /// Returns what Train has stored in the tables.
 std::vector<TrainedTable> ExportTraining(const StrategyTables& tables);
 
-/// Restores them bit by bit into tables of MakeStrategyTables, for an image of so many
+/// Restores them bit by bit into `tables`, for an image of so many
 /// pixels (the full one). Kernels do not check what they look up: throws InputError for
 /// tables that are missing, have a wrong size, or do not match each other.
 void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixels,

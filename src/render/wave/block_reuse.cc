@@ -75,10 +75,6 @@ BlockReuse::BlockReuse(const Plan& plan, const Strategy& strategy)
   PlacePairs();
 }
 
-std::size_t BlockReuse::bytes() const {
-  return (records_.size() + pairs_.size()) * sizeof(std::uint32_t);
-}
-
 void BlockReuse::PlacePairs() {
   const std::uint32_t receivers =
       std::min(kMaxReceivers, paths_ + kMaxLanes * KindsOf(plan_.features));

@@ -45,8 +45,6 @@ class BlockReuse {
   /// Connects the paths when they have ended. Adds rays and health to `paths`.
   void Connect(const PixelRect& tile, Wave& paths, StageClock* clock);
 
-  std::size_t bytes() const;
-
  private:
   void MakeRoom(std::uint32_t samples, const PathColumns& paths);
   void PlacePairs();

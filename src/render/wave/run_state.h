@@ -54,9 +54,6 @@ struct TrainingOutcome {
   std::string note;  // what was found, one line
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0, cpu_seconds = 0;
-
-  /// Appends the changes, notes and counts of a later training.
-  void Add(const TrainingOutcome& next);
 };
 
 /// Results of a run so far, besides its films.

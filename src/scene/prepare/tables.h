@@ -10,9 +10,6 @@
 
 namespace lanelight {
 
-class PilotImage;      // src/scene/prepare/estimate_path_values.h
-struct PreparedScene;  // src/scene/prepare/prepared_scene.h
-
 /// Cells of a box, times the six dominant directions of the normal.
 struct CellGrid {
   float low[3] = {}, per_unit[3] = {};  // cell = (p - low) * per_unit
@@ -38,26 +35,6 @@ struct PathValues {
   float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
 };
 
-/// For shadow-roulette=contribution. The root of the sum over the channels of the squares
-/// of what a ray carries times `inverse`, at least `floor`, is the probability with which
-/// it is traced.
-struct ShadowThreshold {
-  float floor = 0.1f;            // least probability, in (0, 1]
-  AlignedVector<float> inverse;  // 3 per pixel of the full image; empty = all are traced
-};
-
-/// Tracing a ray that adds v to a pixel of colour I with probability s adds v^2 (1/s - 1)
-/// to the variance of the sample. It saves (1 - s) of the ray's cost t. Variance times
-/// cost is least with s = v / pixel_threshold, where
-///   pixel_threshold = sqrt(variance of a sample * t / cost of a sample)
-/// (the efficiency-optimised roulette of Veach 1997, section 10.4, per ray). As relative
-/// errors weigh it, with the same relative variance in all pixels,
-///   threshold_c = sqrt(I_c^2 + epsilon) * relative,   3 inverse_c^2 = 1 / threshold_c^2
-/// relative: sqrt(relative variance of a sample * t / cost of a sample); 0 = trace all.
-/// exposure: factor from what rays carry to the colours that `image` was made of.
-AlignedVector<float> InverseShadowThreshold(const PilotImage& image, std::uint32_t pixels,
-                                            double relative, double exposure);
-
 /// Where light subpaths from infinity start, learned from what they bring to the image.
 /// Across its direction, each distant light has a square of cells around the scene; the
 /// infinite lights together have one for each of kSkyBins^2 directions of the octahedral
@@ -82,12 +59,8 @@ struct EmissionGuide {
 };
 
 struct StrategyTables {
-  PathValues path_values;            // adjoint, efficiency: set by the training passes
-  ShadowThreshold shadow_threshold;  // shadow-roulette=contribution: by a training pass
-  EmissionGuide emission;            // light-paths=splats: by a training pass
+  PathValues path_values;  // adjoint, efficiency: set by the training passes
+  EmissionGuide emission;  // light-paths=splats: by a training pass
 };
-
-/// Returns the tables that the scene's strategy needs, before training.
-StrategyTables MakeStrategyTables(const PreparedScene& scene);
 
 }  // namespace lanelight

@@ -24,9 +24,9 @@ enum class Dimension : std::uint32_t {
   // 10: free
   kMedium = 11,  // 2: distance in a medium, choice of channel
   // 16 to 23: light samples
-  kLight = 16,      // 2: point on the light
-  kSelect = 17,     // 1: choice of light
-  kShadow = 18,     // 1: whether a shadow ray is traced
+  kLight = 16,   // 2: point on the light
+  kSelect = 17,  // 1: choice of light
+  // 18: free
   kCandidate = 19,  // 1: choice between light candidates
   // 24 to 31: whether a path goes on
   kRoulette = 24,  // 1: survival, or how many copies

@@ -113,7 +113,6 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   X(f32, u_select, ({kManyLights}), kBounce, (), "choice of light")                     \
   LANELIGHT_2(X, f32, u_light, ({kLights}), kBounce, (), "point on the light")          \
   X(f32, u_roulette, ({kRoulette}), kBounce, (), "survival")                            \
-  X(f32, u_shadow, ({kContributionShadowRoulette}), kBounce, (), "whether the shadow ray is traced") \
   /* media (src/scene/compiled/media.h) */                                                      \
   X(u32, medium, ({kMedia}), kPath, (), "medium that the ray is in; 0xffffffff = none")  \
   LANELIGHT_2(X, f32, u_medium, ({kMedia}), kPath, (), "distance in the medium along the ray, choice of colour channel") \
@@ -265,9 +264,9 @@ inline constexpr FieldSet kParameters = {Field::color0_r,       Field::color0_g,
                                          Field::coat_albedo_g,  Field::coat_albedo_b,
                                          Field::coat_g,         Field::eta};
 inline constexpr FieldSet kBounceNumbers = {
-    Field::u_lobe,      Field::u_bsdf_0,   Field::u_bsdf_1,   Field::u_select,
-    Field::u_light_0,   Field::u_light_1,  Field::u_roulette, Field::u_shadow,
-    Field::u_candidate, Field::u_medium_0, Field::u_medium_1};
+    Field::u_lobe,     Field::u_bsdf_0,  Field::u_bsdf_1,   Field::u_select,
+    Field::u_light_0,  Field::u_light_1, Field::u_roulette, Field::u_candidate,
+    Field::u_medium_0, Field::u_medium_1};
 /// The rest of a shadow ray that goes through interfaces.
 inline constexpr FieldSet kShadowRest = {
     Field::sh_o_x,  Field::sh_o_y,      Field::sh_o_z,     Field::sh_n_x,  Field::sh_n_y,

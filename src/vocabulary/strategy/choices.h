@@ -73,8 +73,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "f / (1 - q) or 0", "paper eq. 8; Arvo and Kirk 1990")                                \
   X(T, K, Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
     "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(T, K, Luminance, STAGE, ({kRoulette}), "luminance", "[:FLOOR[:FIRST]]", "survives with the luminance of the throughput", \
-    "f / s or 0, s = min(1, max(FLOOR = 0.05, Y(beta))), from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
   X(T, K, Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
     "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
   X(T, K, Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
@@ -111,11 +109,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "p ~ L", "")                                                                          \
   X(T, K, Compensated, PLAIN, ({}), "compensated", "", "in proportion to radiance minus its mean; BSDF sampling covers the dim parts (needs directions=mis)", \
     "p ~ max(0, L - mean L)", "Karlik et al. 2019")
-
-#define LANELIGHT_SHADOW_ROULETTES(X, T, K)                                                     \
-  X(T, K, None, PLAIN, ({}), "none", "", "every light sample that could add light is traced (default)", "f V", "") \
-  X(T, K, Contribution, STAGE, ({}), "contribution", "[:FLOOR]", "shadow rays that can add less are traced with a lower probability", \
-    "f V / s or 0, s = min(1, max(FLOOR = 0.1, contribution / expected pixel value))", "Arvo and Kirk 1990; Shirley, Wang and Zimmerman 1996")
 
 #define LANELIGHT_DISTANCES(X, T, K)                                                            \
   X(T, K, Exponential, PLAIN, ({}), "exponential", "", "points in media in proportion to the transmittance (default)", \
@@ -166,7 +159,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(LightCandidates, light_candidates, "light-candidates",                          \
     LANELIGHT_LIGHT_CANDIDATE_CHOICES)                                              \
   X(EnvironmentPoints, environment, "environment", LANELIGHT_ENVIRONMENT_CHOICES)   \
-  X(ShadowRoulette, shadow_roulette, "shadow-roulette", LANELIGHT_SHADOW_ROULETTES) \
   X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
   X(LightPaths, light_paths, "light-paths", LANELIGHT_LIGHT_PATH_CHOICES)           \

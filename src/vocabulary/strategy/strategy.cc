@@ -33,9 +33,7 @@ std::string LightText(const Strategy& s) {
   if (s.light_candidates == LightCandidates::kResampled) {
     text += fmt::format(":{}", s.candidates);
   }
-  text += fmt::format(",environment={},shadow-roulette={}", Name(s.environment),
-                      Name(s.shadow_roulette));
-  return s.shadow_floor ? text + fmt::format(":{}", *s.shadow_floor) : text;
+  return text + fmt::format(",environment={}", Name(s.environment));
 }
 
 std::string ReuseText(const Strategy& s) {

@@ -37,7 +37,7 @@ struct Strategy {
   Roulette roulette = Roulette::kThroughput;
   // of kConstant: probability of ending, in (0, 1)
   double termination = kConstantTermination;
-  std::optional<double> floor;         // of kThroughput, kLuminance: least survival
+  std::optional<double> floor;         // of kThroughput: least survival
   std::optional<std::uint32_t> first;  // first scattering event with roulette
   double scale = 1;                    // of kThroughput: of the throughput
   LightSelection light_selection = LightSelection::kPower;
@@ -47,8 +47,6 @@ struct Strategy {
   std::uint32_t candidates =
       kDefaultLightCandidates;  // of kResampled: 2 to kMaxLightCandidates
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
-  ShadowRoulette shadow_roulette = ShadowRoulette::kNone;
-  std::optional<double> shadow_floor;  // of kContribution: least probability of a ray
   Distances distances = Distances::kExponential;
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
@@ -59,12 +57,8 @@ struct Strategy {
 
   friend bool operator==(const Strategy&, const Strategy&) = default;
 
-  /// Returns the least survival probability of the roulette on throughput or luminance.
-  double Floor() const {
-    return floor.value_or(roulette == Roulette::kLuminance ? 0.05 : 0);
-  }
-  /// Returns the least probability of a shadow ray.
-  double ShadowFloor() const { return shadow_floor.value_or(0.1); }
+  /// Returns the least survival probability of the roulette on throughput.
+  double Floor() const { return floor.value_or(0); }
   /// Returns the first scattering event (from 1) after which roulette is played.
   std::uint32_t First() const {
     return first.value_or(roulette == Roulette::kConstant ? 1 : 2);

@@ -23,7 +23,7 @@ constexpr const char* kKeys[] = {
 constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
-    "light-candidates=single,environment=plain,shadow-roulette=none,"
+    "light-candidates=single,environment=plain,"
     "distances=exponential,reuse=none,light-paths=none,decide=none";
 
 class Parser {
@@ -193,21 +193,14 @@ class Parser {
     strategy_.light_path_samples = static_cast<std::uint32_t>(n);
   }
 
-  void SetArguments(ShadowRoulette roulette, const Parts& parts) {
-    strategy_.shadow_floor.reset();
-    if (!Has(parts, roulette == ShadowRoulette::kNone ? 0 : 1)) return;
-    strategy_.shadow_floor = Number("shadow-roulette", parts[1], 0.001, 1);
-  }
-
   void SetArguments(Roulette roulette, const Parts& parts) {
     const bool by_throughput = roulette == Roulette::kThroughput;
-    const bool has_floor = by_throughput || roulette == Roulette::kLuminance;
     strategy_.termination = Strategy{}.termination;
     strategy_.floor.reset();
     strategy_.first.reset();
     strategy_.scale = 1;
     const bool constant = roulette == Roulette::kConstant;
-    if (!Has(parts, by_throughput ? 3 : has_floor || constant ? 2 : 0)) return;
+    if (!Has(parts, by_throughput ? 3 : constant ? 2 : 0)) return;
     if (constant) {
       strategy_.termination = Number("roulette=constant", parts[1], 0.001, 0.999);
     } else {

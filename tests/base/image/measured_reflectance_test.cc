@@ -9,6 +9,7 @@
 #include "tests/fuzz/measured_fuzz.h"
 #include "tests/reference/measured.h"
 #include "tests/reference/random.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight::test {
 namespace {
@@ -27,12 +28,7 @@ std::shared_ptr<const MeasuredReflectance> ReadBytes(const std::string& bytes) {
 }
 
 std::string ErrorOfFile(const std::string& bytes) {
-  try {
-    ReadBytes(bytes);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return InputErrorOf([&] { ReadBytes(bytes); });
 }
 
 TensorField& FieldOf(std::vector<TensorField>& fields, const std::string& name) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/fuzz/nanovdb_fuzz.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight::test {
 namespace {
@@ -27,12 +28,7 @@ std::string WithWord(std::string file, std::size_t at, T value) {
 
 std::string ErrorOfBytes(const std::string& bytes) {
   std::istringstream file(bytes);
-  try {
-    ReadSparseGrid(file, "x.nvdb", "density");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return InputErrorOf([&] { ReadSparseGrid(file, "x.nvdb", "density"); });
 }
 
 // All bits of the word of 4 bytes at `at`, then one of one of its bytes.

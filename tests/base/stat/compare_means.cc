@@ -1,5 +1,6 @@
 #include "tests/base/stat/compare_means.h"
 
+#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "src/base/core/check.h"
@@ -100,6 +101,17 @@ ImageTestResult CompareMeans(const ImageEstimate& a, const ImageEstimate& b,
   if (tile_p.size() >= 8) result.uniformity_p = KsUniformPValue(tile_p);
   result.detectable_bias = DetectableBias(a, b, result.level);
   return result;
+}
+
+void CheckSame(const ImageTestResult& result, const std::string& what) {
+  INFO(what << ": " << result.ToString());
+  CHECK(result.same);
+}
+
+void CheckSame(const ImageTestResult& result, double power, const std::string& what) {
+  INFO(what << ": " << result.ToString());
+  CHECK(result.same);
+  CHECK(result.detectable_bias < power);
 }
 
 }  // namespace lanelight::stat

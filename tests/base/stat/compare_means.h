@@ -49,4 +49,9 @@ struct ImageTestResult {
 ImageTestResult CompareMeans(const ImageEstimate& a, const ImageEstimate& b,
                              const ImageTestOptions& options = {});
 
+/// Requires that a comparison found no difference; with `power`, that it would have
+/// detected a relative error of that size. `what` is printed with a failure.
+void CheckSame(const ImageTestResult& result, const std::string& what = "");
+void CheckSame(const ImageTestResult& result, double power, const std::string& what = "");
+
 }  // namespace lanelight::stat

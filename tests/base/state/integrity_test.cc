@@ -7,11 +7,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
 #include "src/base/state/seal.h"
 #include "tests/base/image/temporary_folder.h"
 #include "tests/base/state/random_film.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -25,12 +25,7 @@ std::string SmallState() {
 
 // The error, or "" if the file opens.
 std::string ErrorOf(const std::string& path) {
-  try {
-    const StateFile file(path);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return InputErrorOf([&] { const StateFile file(path); });
 }
 
 std::uint64_t NumberAt(const std::string& bytes, std::size_t offset) {

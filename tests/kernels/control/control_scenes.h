@@ -40,15 +40,6 @@ inline Rendered RenderWith(const SceneDescription& scene, const std::string& str
   return render;
 }
 
-/// Standard deviation of one sample relative to the mean, of the image's green.
-inline double RelativeDeviation(const Rendered& render) {
-  const FilmAccumulator& film = render.film;
-  const double pixels = double(film.width()) * film.height();
-  const double of_mean = ImageStandardError(film).y * std::sqrt(pixels);
-  const double spp = double(film.Samples(film.x0(), film.y0()));
-  return of_mean * std::sqrt(spp) / ImageMean(film).y;
-}
-
 /// Mean of the pixels' variances, of all channels.
 inline double MeanVariance(const Rendered& render) {
   const stat::ImageEstimate e = Estimate(render);

@@ -7,6 +7,7 @@
 
 #include "kernels/stages.h"
 #include "tests/kernels/shade/moments.h"
+#include "tests/kernels/shade/shade_stages.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
@@ -15,26 +16,6 @@ namespace {
 
 constexpr std::uint32_t kPaths = (1 << 14) - 3;  // never a multiple of a vector
 const FeatureSet kFeatures = {Feature::kUniformDirections, Feature::kScatters};
-
-// In the order of ShadeKind.
-constexpr StageOn kFactories[] = {ShadeDiffuseStage,
-                                  ShadeDiffuseUniformStage,
-                                  ShadeDiffuseInSphereStage,
-                                  ShadeConductorSmoothStage,
-                                  ShadeConductorRoughStage,
-                                  ShadeDielectricSmoothStage,
-                                  ShadeDielectricRoughStage,
-                                  ShadeThinDielectricStage,
-                                  ShadeCoatedDiffuseSmoothStage,
-                                  ShadeCoatedDiffuseRoughStage,
-                                  ShadeCoatedConductorStage,
-                                  ShadeCoatedDiffuseMediumStage,
-                                  ShadeCoatedConductorMediumStage,
-                                  ShadeDiffuseTransmissionStage,
-                                  ShadeMeasuredStage,
-                                  ShadeHairStage,
-                                  ShadeHenyeyGreensteinStage};
-static_assert(std::size(kFactories) == kNumShadeKinds);
 
 bool Transmits(ShadeKind kind) {
   return kind == ShadeKind::kDielectricRough || kind == ShadeKind::kDiffuseTransmission ||
@@ -79,7 +60,7 @@ struct Bounces {
       p.eta_scale[i] = 1, p.uv_v[i] = material.uv_v[0];
     }
     fixture.QueueAll(ShadeQueue(material.kind), kPaths);
-    fixture.Run(kFactories[static_cast<int>(material.kind)], kFeatures);
+    fixture.Run(kShadeStages[static_cast<int>(material.kind)], kFeatures);
   }
   Vec3d Wi(std::uint32_t i) const {
     const PathColumns& p = fixture.wave.path;

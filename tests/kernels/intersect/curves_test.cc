@@ -158,6 +158,19 @@ std::vector<KernelHit> TraceStrands(const CompiledScene& scene,
   return TraceClosest(scene, rays, {IntersectCurvesStage});
 }
 
+// Computes the surface points of the rays that hit a curve.
+Queue& FindSurfaces(WaveFixture& fixture, const std::vector<TestRay>& rays) {
+  fixture.SetRays(rays);
+  fixture.Run(IntersectCurvesStage, {});
+  Queue& surface = fixture.wave.queue(QueueId::kSurface);
+  surface.size = 0;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (!std::isinf(fixture.wave.path.t[i])) surface.items[surface.size++] = i;
+  }
+  fixture.Run(SurfaceCurveStage, {});
+  return surface;
+}
+
 }  // namespace
 
 TEST_CASE("curves are hit where the reference hits them", "[intersect][curves]") {
@@ -285,15 +298,8 @@ TEST_CASE("surfaces of curves are those of the reference", "[surface][curves]") 
   const std::vector<TestRay> rays = RaysAtCurves(set, 20000, 7);
   const EachTarget target;
   WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
-  fixture.SetRays(rays);
-  fixture.Run(IntersectCurvesStage, {});
+  const Queue& surface = FindSurfaces(fixture, rays);
   const PathColumns& p = fixture.wave.path;
-  Queue& surface = fixture.wave.queue(QueueId::kSurface);
-  surface.size = 0;
-  for (std::uint32_t i = 0; i < rays.size(); ++i) {
-    if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
-  }
-  fixture.Run(SurfaceCurveStage, {});
   CHECK(surface.size > 8000);
   double worst_p = 0, worst_n = 0, worst_v = 0, worst_u = 0, worst_tangent = 0;
   int wrong = 0;
@@ -349,15 +355,8 @@ TEST_CASE("rays that leave a straight curve do not hit it again", "[surface][cur
   const CompiledScene scene = MakeScene(set.Records());
   const std::vector<TestRay> rays = RaysAtCurves(set, 5000, 9);
   WaveFixture fixture(scene, static_cast<std::uint32_t>(rays.size()));
-  fixture.SetRays(rays);
-  fixture.Run(IntersectCurvesStage, {});
+  const Queue& surface = FindSurfaces(fixture, rays);
   const PathColumns& p = fixture.wave.path;
-  Queue& surface = fixture.wave.queue(QueueId::kSurface);
-  surface.size = 0;
-  for (std::uint32_t i = 0; i < rays.size(); ++i) {
-    if (!std::isinf(p.t[i])) surface.items[surface.size++] = i;
-  }
-  fixture.Run(SurfaceCurveStage, {});
   std::vector<TestRay> leaving;
   std::vector<std::uint32_t> from;
   for (std::uint32_t k = 0; k < surface.size; ++k) {

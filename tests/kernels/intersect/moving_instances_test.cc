@@ -5,6 +5,7 @@
 
 #include "kernels/stages.h"
 #include "src/base/core/motion.h"
+#include "tests/kernels/intersect/surface_points.h"
 #include "tests/support/brute_force.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
@@ -210,21 +211,8 @@ TEST_CASE("surface points of moving instances lie on the moved surface",
   for (std::uint32_t k = 0; k < queue.size; ++k) {
     const std::uint32_t i = queue.items[k];
     const TriangleRecord tri = moving.At(p.prim[i], p.inst[i], TimeOf(i));
-    const auto vertex = [&](int v) {
-      return Vec3d{tri.p[v][0], tri.p[v][1], tri.p[v][2]};
-    };
-    const Vec3d n = Normalize(Cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
-    const bool mirrored = p.inst[i] != kWorldInstance && p.inst[i] % 3 == 0;
     CAPTURE(i, p.inst[i]);
-    REQUIRE(Length(n * (mirrored ? -1.0 : 1.0) - ToDouble(f.Ng(i))) < 2e-4);
-    REQUIRE(std::abs(Dot(n, ToDouble(f.P(i)) - vertex(0))) < 4e-6);
-    const Vec3d on_ray = ToDouble(rays[i].o) + double{p.t[i]} * ToDouble(rays[i].d);
-    REQUIRE(Length(on_ray - ToDouble(f.P(i))) < 1e-4);
-    // Leaving the surface does not meet it within a short way.
-    const Vec3f d = random.Direction();
-    if (std::abs(Dot(d, f.Ng(i))) < 1e-3f) continue;
-    p.ls_x[i] = d.x, p.ls_y[i] = d.y, p.ls_z[i] = d.z, p.ls_distance[i] = 2e-5f;
-    shadow.items[shadow.size++] = i;
+    CheckAndLeave(f, i, {tri, rays[i], random.Direction(), 2});
   }
   const std::uint32_t before = shadow.size;
   REQUIRE(before > 100);

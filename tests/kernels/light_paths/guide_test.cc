@@ -54,7 +54,7 @@ EmissionGuide GuideOf(const SceneBuilder& b) {
   options.target = TestTarget();
   const Plan plan = MakePlan(scene, options);
   REQUIRE(plan.features.Has(Feature::kGuidedEmission));
-  StrategyTables tables = MakeStrategyTables(scene);
+  StrategyTables tables;
   TrainingOptions training;
   training.planned_samples = 1 << 20;
   Train({scene, plan, 3, training, tables});

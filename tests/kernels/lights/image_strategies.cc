@@ -54,15 +54,11 @@ void CheckStrategies(const SceneDescription& scene) {
   const auto other = reference(ReferenceEstimator::kMaterialSampling);
   const stat::ImageTestOptions test = {
       4, stat::SidakLevel(1e-5, int(std::size(kStrategies)) + 1), kFloatTolerance, 1e-7};
-  const auto twins = stat::CompareMeans(truth, other, test);
-  INFO(twins.ToString());
-  CHECK(twins.same);
+  stat::CheckSame(stat::CompareMeans(truth, other, test));
   for (const char* strategy : kStrategies) {
     if (Refused(scene, strategy)) continue;
-    const auto result = stat::CompareMeans(RenderBy(scene, strategy), truth, test);
-    INFO(strategy << ": " << result.ToString());
-    CHECK(result.same);
-    CHECK(result.detectable_bias < 0.2);
+    stat::CheckSame(stat::CompareMeans(RenderBy(scene, strategy), truth, test), 0.2,
+                    strategy);
   }
 }
 

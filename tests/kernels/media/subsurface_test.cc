@@ -84,12 +84,9 @@ TEST_CASE("subsurface: a slab has the specified reflectance", "[media][subsurfac
       const Medium inside =
           InsideThatReflects({Grey(r), kNone}, {0.1, 1, 3}, eta, eta > 1.5 ? 0.6 : 0);
       depth = 6 - depth;
-      const auto result =
-          CompareWith(Slab(inside, depth), f + (1 - f) * r, r < 0.5 ? 4096 : 2048);
-      INFO("r " << r << ", eta " << eta << ", depth " << depth << ": "
-                << result.ToString());
-      CHECK(result.same);
-      CHECK(result.detectable_bias < 0.08);
+      stat::CheckSame(
+          CompareWith(Slab(inside, depth), f + (1 - f) * r, r < 0.5 ? 4096 : 2048), 0.08,
+          fmt::format("r {}, eta {}, depth {}", r, eta, depth));
     }
   }
   const Medium milk = InsideThatReflects({Grey(0.8), kNone}, {0.1, 1, 3}, 1.33);
@@ -122,9 +119,7 @@ TEST_CASE("subsurface: a white furnace", "[media][subsurface]") {
     b.AddSphere({0, 0, 0}, 1, AddSubsurface(b, Inside({}, {2, 5, 9}, 1.0, 0.3), alpha));
     Fill(b);
     b.AddEnvironment(Grey(1));
-    const auto result = CompareWith(b.Build(), 1, 1024);
-    INFO("alpha " << alpha << ": " << result.ToString());
-    CHECK(result.same);
+    stat::CheckSame(CompareWith(b.Build(), 1, 1024), fmt::format("alpha {}", alpha));
   }
 }
 
@@ -141,10 +136,9 @@ TEST_CASE("subsurface: strategies agree", "[media][subsurface]") {
        {"directions=light", "directions=uniform", "roulette=none", "roulette=adjoint",
         "roulette=efficiency", "distances=equiangular", "light-selection=tree",
         "points=sobol,pairs=antithetic:first-bounce"}) {
-    const auto result = stat::CompareMeans(RenderWavefront(scene, 4096, strategy), truth,
-                                           {8, 1e-6, kFloatTolerance, 1e-7});
-    INFO(strategy << ": " << result.ToString());
-    CHECK(result.same);
+    stat::CheckSame(stat::CompareMeans(RenderWavefront(scene, 4096, strategy), truth,
+                                       {8, 1e-6, kFloatTolerance, 1e-7}),
+                    strategy);
   }
 }
 

@@ -22,11 +22,9 @@ Rgb SlabOf(Rgb emission) {
 
 void CheckSlab(const SceneDescription& scene, Rgb expected) {
   const auto known = stat::ExpectedImage(4, 4, [&](int, int) { return expected; });
-  const auto result = stat::CompareMeans(RenderWavefront(scene, 1 << 14), known,
-                                         {4, 1e-6, kFloatTolerance, 1e-7});
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < 0.05);
+  stat::CheckSame(stat::CompareMeans(RenderWavefront(scene, 1 << 14), known,
+                                     {4, 1e-6, kFloatTolerance, 1e-7}),
+                  0.05);
 }
 
 // Counts of samples: such that a bias of 10 % of the whole image is found. What can be
@@ -35,10 +33,7 @@ void CheckSlab(const SceneDescription& scene, Rgb expected) {
 // by the square of that over 10 %, and by 1.5 for what variances are estimated wrongly,
 // rounded up to a doubling. Twice as many, at length, find 10 % over the root of 2.
 void CheckBall(const Medium& medium, std::uint64_t spp, int reference_spp, double power) {
-  const auto result = CompareWithReference(BallOf(medium), spp, reference_spp);
-  INFO(result.ToString());
-  CHECK(result.same);
-  CHECK(result.detectable_bias < power);
+  stat::CheckSame(CompareWithReference(BallOf(medium), spp, reference_spp), power);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ ReuseScene MirrorSides() {
 TEST_CASE("roulette before the second vertex is unbiased", "[reuse]") {
   for (const char* roulette :
        {"roulette=none", "roulette=constant:0.25", "roulette=throughput:0:1",
-        "roulette=luminance:0:1", "roulette=throughput"}) {
+        "roulette=throughput:0.05:1", "roulette=throughput"}) {
     CheckSame(Room(), std::string("points=sobol,") + roulette, "reuse=block:16");
   }
 }

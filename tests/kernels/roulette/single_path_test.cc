@@ -45,7 +45,6 @@ struct Prepared {
     PlanOptions options;
     options.max_depth = static_cast<std::uint32_t>(scene.compiled->integrator.max_depth);
     plan = MakePlan(scene, options);
-    tables = MakeStrategyTables(scene);
     TrainingOptions training;
     training.planned_samples = 400'000;
     Train({scene, plan, kSeed, training, tables});

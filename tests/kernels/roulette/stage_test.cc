@@ -97,7 +97,7 @@ void SetValues(Paths& paths, float value, float split) {
 TEST_CASE("survivors' weights are bounded", "[roulette]") {
   for (std::uint32_t depth : {1u, 2u, 5u}) {
     CheckSurvivors(ThroughputRouletteStage, {}, 0, depth, depth >= 2);
-    CheckSurvivors(LuminanceRouletteStage, {}, 0.05f, depth, depth >= 2);
+    CheckSurvivors(ThroughputRouletteStage, {}, 0.05f, depth, depth >= 2);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "kernels/probe/sampler_probe.h"
+#include "tests/kernels/probe/sampler_probe.h"
 #include "tests/support/test_target.h"
 
 namespace lanelight::test {

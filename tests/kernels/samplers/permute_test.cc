@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include "kernels/probe/sampler_probe.h"
+#include "tests/kernels/probe/sampler_probe.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/support/each_target.h"

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "kernels/probe/math_probe.h"
+#include "tests/kernels/probe/math_probe.h"
 #include "src/measure/stress/closed_forms.h"
 #include "tests/kernels/shade/probe_batch.h"
 #include "tests/reference/optics.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/probe/bsdf_probe.h"
+#include "tests/kernels/probe/bsdf_probe.h"
 #include "tests/reference/bsdf.h"
 #include "tests/support/test_target.h"
 

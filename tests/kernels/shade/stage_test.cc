@@ -7,6 +7,7 @@
 
 #include "kernels/stages.h"
 #include "tests/kernels/shade/probe_batch.h"
+#include "tests/kernels/shade/shade_stages.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
@@ -17,28 +18,8 @@ constexpr std::uint32_t kPaths = 37;  // never a multiple of a vector
 const FeatureSet kAll = {Feature::kLights, Feature::kMis, Feature::kScatters,
                          Feature::kVertexNormals};
 
-// In the order of ShadeKind.
-constexpr StageOn kFactories[] = {ShadeDiffuseStage,
-                                  ShadeDiffuseUniformStage,
-                                  ShadeDiffuseInSphereStage,
-                                  ShadeConductorSmoothStage,
-                                  ShadeConductorRoughStage,
-                                  ShadeDielectricSmoothStage,
-                                  ShadeDielectricRoughStage,
-                                  ShadeThinDielectricStage,
-                                  ShadeCoatedDiffuseSmoothStage,
-                                  ShadeCoatedDiffuseRoughStage,
-                                  ShadeCoatedConductorStage,
-                                  ShadeCoatedDiffuseMediumStage,
-                                  ShadeCoatedConductorMediumStage,
-                                  ShadeDiffuseTransmissionStage,
-                                  ShadeMeasuredStage,
-                                  ShadeHairStage,
-                                  ShadeHenyeyGreensteinStage};
-static_assert(std::size(kFactories) == kNumShadeKinds);
-
 StageOn StageOf(ShadeKind kind) {
-  const StageOn stage = kFactories[static_cast<int>(kind)];
+  const StageOn stage = kShadeStages[static_cast<int>(kind)];
   REQUIRE(stage(TestTarget()).input == ShadeQueue(kind));
   return stage;
 }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/probe/math_probe.h"
+#include "tests/kernels/probe/math_probe.h"
 #include "src/base/stat/hypothesis.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/support/each_target.h"

@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 const char* const kPoints[] = {"sobol",   "pmj02", "halton",
                                "lattice", "cmj",   "stratified"};
-const char* const kRoulettes[] = {"throughput", "luminance", "none", "constant:0.25"};
+const char* const kRoulettes[] = {"throughput", "adjoint", "none", "constant:0.25"};
 
 // Long names as people give them, and complete texts that are longer.
 Recipe RecipeOf(int i) {

@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "src/base/core/error.h"
 #include "src/base/core/input_file.h"
 #include "src/base/core/source_location.h"
 #include "src/render/job/machine_json.h"
 #include "src/render/job/parts.h"
 #include "tests/render/job/checkpointed_render.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -33,15 +33,6 @@ std::string PartOf(CheckpointedRender r, int index, int count) {
   r.checkpoint.part = {index, count};
   r.checkpoint.path += "-" + std::to_string(index);
   return StateOf(r);
-}
-
-std::string ErrorOf(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 double Sum(const FilmAccumulator& film) {
@@ -77,7 +68,7 @@ TEST_CASE("parts: every pixel is in exactly one", "[merge]") {
       CHECK(maximum - minimum <= 2 + window.pixels() / std::uint64_t(count) / 8);
     }
   }
-  CHECK_THAT(ErrorOf([] { TilesOfPart({0, 0, 3, 3}, {1, 10}); }),
+  CHECK_THAT(InputErrorOf([] { TilesOfPart({0, 0, 3, 3}, {1, 10}); }),
              Contains("at most 9 parts"));
 }
 
@@ -87,18 +78,19 @@ TEST_CASE("merge: parts of other renders are refused with their names", "[merge]
   const std::string first = PartOf(r, 1, 2);
   CheckpointedRender seed = Small(folder, "b"), depth = Small(folder, "c"), scene = seed;
   depth.settings.max_depth = 2;
-  CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(depth, 2, 2)}); }),
+  CHECK_THAT(InputErrorOf([&] { MergeStates({first, PartOf(depth, 2, 2)}); }),
              Contains("max_depth") && Contains("c-2"));
   scene.checkpoint.path = folder.File("d");
   scene.scene = LANELIGHT_SOURCE_DIR "/scenes/glass.pbrt";
-  CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(scene, 2, 2)}); }),
+  CHECK_THAT(InputErrorOf([&] { MergeStates({first, PartOf(scene, 2, 2)}); }),
              Contains("scene_hash"));
   seed.settings.seed = 9;
-  CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(seed, 2, 2)}); }),
+  CHECK_THAT(InputErrorOf([&] { MergeStates({first, PartOf(seed, 2, 2)}); }),
              Contains("lacks") && Contains("seed"));
-  CHECK_THAT(ErrorOf([&] { MergeStates({first, first}); }), Contains("both have pixel"));
+  CHECK_THAT(InputErrorOf([&] { MergeStates({first, first}); }),
+             Contains("both have pixel"));
   CheckpointedRender three = Small(folder, "e");
-  CHECK_THAT(ErrorOf([&] { MergeStates({first, PartOf(three, 3, 3)}); }),
+  CHECK_THAT(InputErrorOf([&] { MergeStates({first, PartOf(three, 3, 3)}); }),
              Contains("both have pixel") && Contains("a-1") && Contains("e-3"));
 }
 
@@ -148,7 +140,7 @@ TEST_CASE("merge: merges of merges, and resuming from one", "[merge]") {
   CHECK((RenderKept(r) == RenderKept(plain)));
   // Half of it is no render to go on with.
   r.checkpoint.from = l;
-  CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("384 of 768 pixels"));
+  CHECK_THAT(InputErrorOf([&] { RenderKept(r); }), Contains("384 of 768 pixels"));
 }
 
 TEST_CASE("merge: the machines of all parts are named", "[merge]") {
@@ -199,12 +191,12 @@ TEST_CASE("merge: renders of different seeds are added in their order", "[merge]
   CHECK(EstimateError(*merged.film).rmse.value ==
         Approx(one / std::sqrt(3)).epsilon(0.15));
   MergedRender copy = MergeStates(states);
-  CHECK_THAT(ErrorOf([&] { WriteMergedState(copy, folder.File("no")); }),
+  CHECK_THAT(InputErrorOf([&] { WriteMergedState(copy, folder.File("no")); }),
              Contains("several seeds"));
   CheckpointedRender odd = Small(folder, "odd");
   odd.settings.spp = 6;
   odd.settings.seed = 8;
-  CHECK_THAT(ErrorOf([&] { MergeStates({states[0], StateOf(odd)}); }),
+  CHECK_THAT(InputErrorOf([&] { MergeStates({states[0], StateOf(odd)}); }),
              Contains("multiple of 4"));
 }
 
@@ -232,10 +224,11 @@ TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   TemporaryFolder folder;
   CheckpointedRender r = Small(folder, "a");
   StateOf(r);
-  CHECK_THAT(ErrorOf([&] { RenderKept(r); }), Contains("exists") && Contains("--resume"));
+  CHECK_THAT(InputErrorOf([&] { RenderKept(r); }),
+             Contains("exists") && Contains("--resume"));
   r.checkpoint.resume = Resume::kMust;
   const auto refused = [&](const CheckpointedRender& other, const char* what) {
-    CHECK_THAT(ErrorOf([&] { RenderKept(other); }), Contains(what));
+    CHECK_THAT(InputErrorOf([&] { RenderKept(other); }), Contains(what));
   };
   CheckpointedRender seed = r, size = r, strategy = r, fewer = r, aov = r, gbuffer = r,
                      part = r;

@@ -14,6 +14,7 @@
 #include "src/scene/compiled/scene.h"
 #include "src/scene/parse/parse.h"
 #include "tests/base/image/temporary_folder.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -80,15 +81,6 @@ const std::string kOneEnvironment = kEnvironment + "\"spectrum L\" [ 300 1 900 1
 const std::string kGreyBall =
     "Material \"diffuse\" \"rgb reflectance\" [ 0.5 0.5 0.5 ]\nShape \"sphere\" \"float "
     "radius\" 3\n";
-
-std::string Refused(const std::function<void()>& prepare) {
-  try {
-    prepare();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "not refused";
-}
 
 }  // namespace
 
@@ -237,33 +229,35 @@ TEST_CASE("spectral film: it selects spectral transport", "[render][spectral][bu
     CHECK(job.scene.compiled->features.Has(Feature::kSpectral));
     CHECK(job.loaded->transport_why == "the film keeps spectra");
   }
-  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "", TransportSetting::kRgb); }),
+  CHECK_THAT(InputErrorOf([&] { SpectralJob(text, 1, "", TransportSetting::kRgb); }),
              Catch::Contains("Film \"spectral\" needs wavelengths") &&
                  Catch::Contains("--transport rgb"));
   const std::string says = SpectralText(
       "", kOneEnvironment, "Integrator \"path\" \"string transport\" \"rgb\"");
-  CHECK_THAT(Refused([&] { SpectralJob(says); }),
+  CHECK_THAT(InputErrorOf([&] { SpectralJob(says); }),
              Catch::Contains("\"transport\" \"rgb\" of its Integrator"));
   CHECK_NOTHROW(SpectralJob(says, 1, "", TransportSetting::kSpectral));
 }
 
 TEST_CASE("spectral film: RGB-only settings are refused", "[render][buckets]") {
   const std::string text = SpectralText("", kOneEnvironment + kGreyBall);
-  CHECK_THAT(Refused([&] { SpectralJob(text, 1, "reuse=block"); }),
+  CHECK_THAT(InputErrorOf([&] { SpectralJob(text, 1, "reuse=block"); }),
              Catch::Contains("reuse=block does not work with Film \"spectral\""));
   const std::string unseen = "LightSource \"point\" \"spectrum I\" [ 790 1 820 1 ]\n";
-  CHECK_THAT(Refused([&] { SpectralJob(SpectralText("", unseen + kGreyBall)); }),
+  CHECK_THAT(InputErrorOf([&] { SpectralJob(SpectralText("", unseen + kGreyBall)); }),
              Catch::Contains("a light emits nothing from 380 to 780 nm") &&
                  Catch::Contains("with Film \"rgb\""));
-  CHECK_THAT(Refused([&] { SpectralJob(SpectralText("\"integer nbuckets\" 0", "")); }),
-             Catch::Contains("nbuckets"));
   CHECK_THAT(
-      Refused([&] {
+      InputErrorOf([&] { SpectralJob(SpectralText("\"integer nbuckets\" 0", "")); }),
+      Catch::Contains("nbuckets"));
+  CHECK_THAT(
+      InputErrorOf([&] {
         SpectralJob(SpectralText("\"float lambdamin\" 500 \"float lambdamax\" 500", ""));
       }),
       Catch::Contains("narrower than"));
-  CHECK_THAT(Refused([&] { SpectralJob(SpectralText("\"float lambdamin\" 300", "")); }),
-             Catch::Contains("lambdamin"));
+  CHECK_THAT(
+      InputErrorOf([&] { SpectralJob(SpectralText("\"float lambdamin\" 300", "")); }),
+      Catch::Contains("lambdamin"));
 }
 
 TEST_CASE("spectral film: a note says which wavelengths paths carry",
@@ -283,9 +277,10 @@ TEST_CASE("spectral film: memory is included in the estimate", "[render][buckets
   // Sums in double, and planes of the file twice.
   CHECK(FilmBytes(window, {Auxiliary::kNone, 32}) ==
         FilmBytes(window, Auxiliary::kNone) + window.pixels() * 32 * (8 + 2 * 4));
-  CHECK_THAT(Refused([&] { CheckFilmFits(window, {Auxiliary::kNone, 32}, {}, 1000); }),
-             Catch::Contains("with 32 buckets of wavelengths") &&
-                 Catch::Contains("\"nbuckets\""));
+  CHECK_THAT(
+      InputErrorOf([&] { CheckFilmFits(window, {Auxiliary::kNone, 32}, {}, 1000); }),
+      Catch::Contains("with 32 buckets of wavelengths") &&
+          Catch::Contains("\"nbuckets\""));
   const Job job = SpectralJob(SpectralText("\"integer nbuckets\" 9", kOneEnvironment));
   CHECK(LayersOf({}, job.loaded->description.film).buckets == 9);
 }

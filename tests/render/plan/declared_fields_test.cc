@@ -83,14 +83,9 @@ class Checker {
       options = WithChanges(scene_, options, "roulette=throughput");
     }
     plan_ = MakePlan(scene_, options);
-    tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan_);
     run_.tables = &tables_;
     MakePathValues();
-    if (plan_.features.Has(Feature::kContributionShadowRoulette)) {
-      const auto pixels = std::size_t{run_.width} * run_.height;
-      tables_.shadow_threshold.inverse.assign(3 * pixels, 0.5f);
-    }
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     if (plan_.features.Has(Feature::kReuse)) reuse_.emplace(plan_, scene_.strategy);
     const PathColumns& p = wavefront_->wave().path;
@@ -292,11 +287,10 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
       {kAllStagesScene, "points=cmj"},
-      {kAllStagesScene, "points=pmj02,roulette=luminance"},
+      {kAllStagesScene, "points=pmj02,roulette=none"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
       {kAllStagesScene, "points=sobol,light-points=projected"},
-      {kAllStagesScene,
-       "points=stratified,directions=light,shadow-roulette=contribution"},
+      {kAllStagesScene, "points=stratified,directions=light"},
       {kAllStagesScene, "light-candidates=resampled"},
       {kAllStagesScene, "roulette=adjoint"},
       {kAllStagesScene, "roulette=efficiency"},

@@ -55,8 +55,7 @@ TEST_CASE("a scene without surfaces shows its environment or black", "[plan]") {
     for (const char* strategy :
          {"", "points=sobol,light-selection=tree", "roulette=efficiency",
           "roulette=adjoint,directions=light", "control=regression",
-          "shadow-roulette=contribution,environment=compensated",
-          "pairs=antithetic,directions=uniform"}) {
+          "environment=compensated", "pairs=antithetic,directions=uniform"}) {
       for (const Auxiliary auxiliary : {Auxiliary::kNone, Auxiliary::kGbuffer}) {
         CAPTURE(body, strategy, int(auxiliary));
         TestRender test;

@@ -53,9 +53,8 @@ TEST_CASE("choices without effect leave plan and pixels as they are", "[plan]") 
   const TemporaryFolder folder;
   const Job job = Prepare(folder, "", 1);
   const Keyed baseline = Render(job, "default");
-  for (const char* same :
-       {"light-selection=uniform", "light-selection=tree", "roulette=none",
-        "roulette=luminance", "c=0.5", "environment=compensated"}) {
+  for (const char* same : {"light-selection=uniform", "light-selection=tree",
+                           "roulette=none", "c=0.5", "environment=compensated"}) {
     INFO(same);
     const Keyed other = Render(job, same);
     CHECK(other.key == baseline.key);
@@ -78,8 +77,7 @@ TEST_CASE("choices with an effect change the plan key", "[plan]") {
         "roulette=throughput:0.2", "roulette=throughput:0:3", "roulette=adjoint",
         "points=pmj02", "points=independent", "pairs=antithetic",
         "pairs=antithetic:light", "directions=mis:balance", "directions=light",
-        "control=regression", "control=regression,c=0.5", "shadow-roulette=contribution",
-        "shadow-roulette=contribution:0.2"}) {
+        "control=regression", "control=regression,c=0.5"}) {
     INFO(other);
     const std::string key = Render(job, other).key;
     CHECK(std::count(keys.begin(), keys.end(), key) == 0);

@@ -1,10 +1,10 @@
 // What wavelengths cost: nothing where paths carry none, and what they cannot carry.
 #include <catch2/catch.hpp>
 
-#include "src/base/core/error.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/render/run/render_fixture.h"
+#include "tests/support/input_error.h"
 
 namespace lanelight {
 namespace {
@@ -34,16 +34,6 @@ bool HasStage(const Plan& plan, const std::string& name) {
 
 bool HasField(const Plan& plan, Field field) {
   return std::count(plan.live_fields.begin(), plan.live_fields.end(), field) > 0;
-}
-
-// Returns the message of the InputError.
-std::string Refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -97,7 +87,7 @@ TEST_CASE("spectral plan: each stage exists where it is needed", "[plan][spectra
 
 TEST_CASE("spectral plan: unsupported features are refused", "[plan][spectral]") {
   const auto compiles = [](const std::string& world) {
-    return Refusal([&] { PrepareScene(SpectralScene(world)); });
+    return InputErrorOf([&] { PrepareScene(SpectralScene(world)); });
   };
   const std::string medium =
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" ";
@@ -112,8 +102,9 @@ TEST_CASE("spectral plan: unsupported features are refused", "[plan][spectral]")
   const SceneDescription prism = SpectralScene(
       "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"\nShape "
       "\"sphere\"\nMaterial \"diffuse\"\n");
-  CHECK(Refusal([&] { SpectralPlan(prism, "reuse=block"); }).find("dispersive glass") !=
-        std::string::npos);
+  CHECK(InputErrorOf([&] {
+          SpectralPlan(prism, "reuse=block");
+        }).find("dispersive glass") != std::string::npos);
   CHECK(SpectralPlan(diffuse, "reuse=block").features.Has(Feature::kReuse));
 }
 

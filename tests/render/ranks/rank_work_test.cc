@@ -38,7 +38,7 @@ struct RankFixture {
   PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(kSide, kSide, 4), "test.pbrt", "."), {});
   Plan plan = MakePlan(scene, {});
-  StrategyTables tables = MakeStrategyTables(scene);
+  StrategyTables tables;
   RunParameters run = MakeRunParameters(scene, plan);
   RunOptions options = Samples(32);
   FilmAccumulator film{0, 0, kSide, kSide, GroupsOf(scene.strategy), Auxiliary::kNone};

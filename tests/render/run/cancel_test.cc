@@ -139,7 +139,7 @@ Shape "sphere" "float radius" 3
   PlanOptions plan_options;
   plan_options.max_depth = 20;
   const Plan plan = MakePlan(scene, plan_options);
-  const StrategyTables tables = MakeStrategyTables(scene);
+  const StrategyTables tables;
   RunParameters run = MakeRunParameters(scene, plan);
   run.tables = &tables;
   RunOptions options;

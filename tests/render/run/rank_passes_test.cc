@@ -19,7 +19,7 @@ namespace {
 struct PassFixture {
   PreparedScene scene =
       PrepareScene(ParseSceneText(LampScene(40, 40, 4), "test.pbrt", "."), {});
-  StrategyTables tables = MakeStrategyTables(scene);
+  StrategyTables tables;
   TrainingWork work = MakeTrainingWork(scene, 40'000);
 
   TrainingSamples Run(RankPasses* ranks) const {

@@ -20,7 +20,6 @@ const char* const kStrategies[] = {
     "points=sobol,roulette=efficiency",
     "points=sobol,decide=pilot",
     "points=cmj,pairs=antithetic",
-    "points=sobol,shadow-roulette=contribution",
     "points=sobol,reuse=block:16",
     "points=independent,pairs=antithetic,reuse=block:32:compact",
     "points=sobol,light-paths=splats:3",

@@ -61,8 +61,8 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
          {"points=sobol", "points=independent,light-selection=tree", "points=pmj02",
           "points=halton,directions=light,pairs=antithetic",
           "points=cmj,control=regression",
-          "points=lattice,roulette=luminance,control=regression", "points=stratified",
-          "roulette=efficiency", "shadow-roulette=contribution:0.01"}) {
+          "points=lattice,roulette=none,control=regression", "points=stratified",
+          "roulette=efficiency"}) {
       INFO(strategy);
       TaskFixture task(scene, strategy, Auxiliary::kGbuffer);
       Plant(task.plan);

@@ -54,7 +54,6 @@ class TaskFixture {
     options.auxiliary = auxiliary;
     options.wavefront = 256;
     plan = MakePlan(scene_, options);
-    tables_ = MakeStrategyTables(scene_);
     run_ = MakeRunParameters(scene_, plan);
     run_.tables = &tables_;
     max_split_ = plan.features.Has(Feature::kSplitting) ? kMaxSplitPaths : 1;

@@ -24,8 +24,7 @@ const std::map<std::string, std::vector<std::string>>& Variants() {
       {"block", {"block:8", "block:64:compact", "block:16:apart"}},
       {"splats", {"splats:2"}},
       {"constant", {"constant:0.2"}},
-      {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}},
-      {"contribution", {"contribution", "contribution:0.02"}}};
+      {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}}};
   return kVariants;
 }
 

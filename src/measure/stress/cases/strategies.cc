@@ -109,10 +109,6 @@ std::vector<Point> ByTransmittance(double transmitted, const Effort& effort) {
     // Roulette by the path's own throughput keeps what is left of it.
     const bool none = Is(strategy, "roulette=none") || HasTraining(strategy);
     if (none) return 1.0;
-    if (Is(strategy, "roulette=luminance")) {
-      // 0.05 at each of the sheets of 1e-3 but the first.
-      return std::pow(0.05, std::max(0.0, -std::log10(transmitted) / 3 - 1));
-    }
     return std::min(1.0, transmitted * 1e3);  // from the second sheet on
   };
   return MeasureAll(scene, effort);

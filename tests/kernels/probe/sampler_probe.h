@@ -1,4 +1,4 @@
-// Sample points of each policy outside a render, for tests and benchmarks.
+// Computes sample points of each policy outside a render, for tests and bench_points.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "kernels/probe/math_probe.h"
+#include "tests/kernels/probe/math_probe.h"
 
 #include "kernels/simd/each_target-inl.h"
 

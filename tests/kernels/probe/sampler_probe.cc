@@ -8,7 +8,7 @@
 #include "kernels/samplers/pmj02-inl.h"
 #include "kernels/samplers/sobol-inl.h"
 #include "kernels/samplers/stratified-inl.h"
-#include "kernels/probe/sampler_probe.h"
+#include "tests/kernels/probe/sampler_probe.h"
 
 LANELIGHT_BEGIN_KERNELS
 

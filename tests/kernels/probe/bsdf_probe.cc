@@ -2,7 +2,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/bsdf/kinds-inl.h"
-#include "kernels/probe/bsdf_probe.h"
+#include "tests/kernels/probe/bsdf_probe.h"
 
 LANELIGHT_BEGIN_KERNELS
 
