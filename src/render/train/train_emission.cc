@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/training.h"
 #include "src/render/wave/light_paths.h"
+#include "src/render/wave/task_watcher.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/scene.h"
@@ -31,6 +33,7 @@ class EmissionTraining {
       : scene_(context.scene),
         plan_(MakePlan(scene_, Options(context))),
         tables_(context.tables),
+        stop_(context.options.stop),
         run_(MakeRunParameters(scene_, plan_)),
         threads_(std::size_t(ThreadSlots())) {
     run_.seed = context.seed ^ 0x2c1b3c6du;
@@ -88,6 +91,7 @@ class EmissionTraining {
     };
     std::vector<std::vector<Found>> found(tasks_);
     ParallelFor(tasks_, [&](std::size_t task) {
+      if (StopWatcher(stop_).IsStopped()) return;
       auto& thread = threads_[std::size_t(ThreadIndex())];
       if (!thread) thread = std::make_unique<Thread>(scene_, plan_, run_);
       std::vector<std::uint32_t> keys(kPathsPerTask);
@@ -111,6 +115,7 @@ class EmissionTraining {
   const PreparedScene& scene_;
   const Plan plan_;
   StrategyTables& tables_;
+  const std::atomic<bool>* const stop_;
   RunParameters run_;
   std::uint32_t tasks_;
   std::vector<std::unique_ptr<Thread>> threads_;

@@ -13,6 +13,8 @@ namespace lanelight {
 namespace {
 
 constexpr double kPlainShare = 0.1;
+// Of so many distant lights each has cells, 80 KiB; others start on the whole disk.
+constexpr std::uint32_t kMaxSuns = 64;
 constexpr double kOwnWeight = 4;  // of a cell when it is blurred; that of neighbours is 1
 constexpr std::uint32_t kSunCells = EmissionGuide::kSunSide * EmissionGuide::kSunSide;
 constexpr std::uint32_t kSkyCells = EmissionGuide::kSkySide * EmissionGuide::kSkySide;
@@ -94,13 +96,15 @@ std::vector<double> Divided(const LightTable& table, const LightEmission& emissi
 std::vector<double> BroughtByLights(const LightTable& table, const EmissionGuide& guide,
                                     const LightEmission& emission,
                                     const std::vector<double>& light) {
+  double near = 0;
   std::vector<double> own(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i] = light[guide.num_cells + i];
+    if (GroupOf(table.lights[i]) == Group::kNear) near += own[i];
     if (guide.distant[i] < 0) continue;
     own[i] =
         Sum(Square{std::size_t(guide.distant[i]), EmissionGuide::kSunSide}.Of(light));
   }
-  const double near = Sum(std::span(light).subspan(guide.num_cells));
   double sky = 0;
   if (guide.sky >= 0) {
     sky = Sum(std::span(light).subspan(std::size_t(guide.sky), kSkySquares * kSkyCells));
@@ -115,6 +119,7 @@ EmissionGuide MakeEmissionGuide(const LightTable& table) {
   guide.distant.assign(table.lights.size(), -1);
   for (std::size_t i = 0; i < table.lights.size(); ++i) {
     if (GroupOf(table.lights[i]) != Group::kDistant) continue;
+    if (guide.num_cells == kMaxSuns * kSunCells) break;
     guide.distant[i] = std::int32_t(guide.num_cells);
     guide.num_cells += kSunCells;
   }

@@ -12,7 +12,8 @@ struct EmissionWeights {
   std::vector<double> cells, lights;
 };
 
-/// Returns the cells of the scene's lights, which have not learned yet.
+/// Returns the cells of the scene's lights, which have not learned yet: of the first 64
+/// distant lights, and of the sky.
 EmissionGuide MakeEmissionGuide(const LightTable& table);
 
 /// Returns weights before anything is known: all cells alike; half by power, half alike

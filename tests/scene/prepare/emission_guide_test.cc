@@ -79,6 +79,22 @@ TEST_CASE("without light all cells are alike, and so are groups of lights in par
   }
 }
 
+TEST_CASE("of many distant lights the first have cells", "[light_paths]") {
+  Sky sky;
+  sky.table.lights.assign(66, sky.table.lights[1]);
+  sky.emission.pmf = AlignedVector<float>(66, 1.0f / 66);
+  sky.guide = MakeEmissionGuide(sky.table);
+  CHECK(sky.guide.num_cells == 64 * kSun);
+  CHECK(sky.guide.distant[63] == std::int32_t(63 * kSun));
+  CHECK(sky.guide.distant[64] == -1);
+  std::vector<double> light = sky.Nothing();
+  light[3] = 1;                         // of the first
+  light[sky.guide.num_cells + 65] = 3;  // of the last, which has none
+  sky.LearnFrom(light);
+  CHECK(double(sky.guide.lights.pmf[0]) == Approx(0.1 / 66 + 0.9 / 4));
+  CHECK(double(sky.guide.lights.pmf[65]) == Approx(0.1 / 66 + 0.9 * 3 / 4));
+}
+
 TEST_CASE("cells that bring light are likely, and so are their neighbours",
           "[light_paths]") {
   Sky sky;
