@@ -3,6 +3,7 @@
 import functools
 import json
 import os
+import time
 
 CHECKS = []  # in the order in which they run
 STATES = []  # functions of the page: the ways in which common_checks look at it
@@ -37,6 +38,14 @@ def pictures(function):
 def require(condition, *what):
     if not condition:
         raise AssertionError(" ".join(str(part) for part in what))
+
+
+def wait_for(condition, *what, seconds=20):
+    """Waits until the condition holds: a busy machine draws late."""
+    end = time.monotonic() + seconds
+    while not condition():
+        require(time.monotonic() < end, *what)
+        time.sleep(0.05)
 
 
 def plot(page, name):

@@ -1,6 +1,6 @@
 """Checks of the page of a small profile, compared with an earlier one."""
 
-from checks import check, data, markers, plot, require
+from checks import check, data, markers, plot, require, wait_for
 
 
 def bars(page, section, column=0):
@@ -74,9 +74,9 @@ def stages_are_at_their_bytes_and_speed(page):
 @check
 def queues_and_image_are_drawn(page):
     page.scroll_through()
-    require(page.ink(plot(page, "queues"))["coloured"] > 100, "a blank plot")
+    wait_for(lambda: page.ink(plot(page, "queues"))["coloured"] > 100, "a blank plot")
     for canvas in page.all("#map canvas.picture"):
-        require(page.ink(canvas)["shades"] > 10, "a blank image")
+        wait_for(lambda canvas=canvas: page.ink(canvas)["shades"] > 10, "a blank image")
 
 
 @check
