@@ -1,6 +1,6 @@
 // light-paths=splats: starts light subpaths at lights (kernels/light_paths/starts-inl.h).
 //   estimator   Le cos / (p_A p_dir) of shapes, I / p_dir of lights with a position,
-//               L / (p_dir p_disk) of lights at infinity
+//               L / (p_dir p_origin) of lights at infinity
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/generate/camera-inl.h"
@@ -237,8 +237,12 @@ HWY_INLINE DiskPlace SamplePlace(const Wave& wave, const GuideSquare& square,
       hn::Floor(hn::Div(hn::Add(hn::ConvertTo(DF(), local), Splat(0.5f)), side));
   const VF column = hn::NegMulAdd(row, side, hn::ConvertTo(DF(), local));
   const VF unit = Splat(2 / static_cast<float>(square.side));
-  const VF x = hn::MulSub(hn::Add(column, u.place.x), unit, one);
-  const VF y = hn::MulSub(hn::Add(row, u.place.y), unit, one);
+  // Not at the very edge, so that rounding does not lead to the next cell.
+  const auto inside = [](VF v) HWY_ATTR {
+    return hn::Min(hn::Max(v, Splat(0x1p-18f)), Splat(1 - 0x1p-18f));
+  };
+  const VF x = hn::MulSub(hn::Add(column, inside(u.place.x)), unit, one);
+  const VF y = hn::MulSub(hn::Add(row, inside(u.place.y)), unit, one);
   const MF guided = hn::And(hn::Ge(u.guide, Splat(EmissionGuide::kDefensive)),
                             hn::RebindMask(DF(), hn::Gt(square.first, hn::Set(di, -1))));
   return {hn::IfThenElse(guided, x, at.x), hn::IfThenElse(guided, y, at.y)};
@@ -264,8 +268,10 @@ HWY_INLINE Start FromDisk(const Wave& wave, const FarLight& far, const StartNumb
   if (HasPlanes(wave)) {
     scale = hn::IfThenZeroElse(IsBehindPlane(wave, o, toward), scale);
   }
-  return {
-      o, -toward, light, scale, hn::Zero(DF()), hn::Neg(density), square.CellOf(place)};
+  const VI none = hn::Set(DI(), -1);
+  const VI cell =
+      hn::IfThenElse(hn::RebindMask(DI(), square.HasCells()), square.CellOf(place), none);
+  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(density), cell};
 }
 
 // Takes the starts of infinite lights, one image after the other.
@@ -327,7 +333,8 @@ HWY_INLINE Start StartAt(const Wave& wave, const Lights& light, VI index,
   return start;
 }
 
-// Tells a training pass where subpaths start: by cell, or behind these by light.
+// Stores where subpaths start, for a training pass: the cell, or else the number of cells
+// plus the index of the light.
 HWY_INLINE void StoreStart(const Wave& wave, const StoreSlots& slots, VI index, VI cell) {
   if (wave.light_splats->starts == nullptr) return;
   const VI behind = hn::Set(DI(), static_cast<int32_t>(GuideOf(wave)->num_cells));

@@ -70,10 +70,25 @@ HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
   });
 }
 
+// Ends the light subpaths that carry nothing any more.
+HWY_INLINE void EndDark(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const Queue all = wave.queue(QueueId::kScattered);
+  Queue& left = wave.queue(QueueId::kScattered);
+  left.size = 0;
+  ForEachBatch(wave, all, [&](const Slots& slots, MF valid) HWY_ATTR {
+    const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
+    const MF carries = hn::Gt(MaxComponent(beta), hn::Zero(DF()));
+    Push(left, slots, hn::And(valid, carries));
+    Push(wave.queue(QueueId::kDone), slots, hn::AndNot(carries, valid));
+  });
+}
+
 template <bool kLight>
 void Leave(Wave& wave) {
   ForEachShaded(wave, [&]<class Bsdf>(Queue& queue)
                           HWY_ATTR { LeaveKind<Bsdf, kLight>(wave, queue); });
+  if (kLight && !wave.chances->emission.delta_caustics) EndDark(wave);
 }
 
 Stage LightPathLeaveStage() {

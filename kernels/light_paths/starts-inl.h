@@ -92,12 +92,11 @@ HWY_INLINE bool StartAtPositions(const LightEmission& emission) {
 /// A place on the disk before lights at infinity, in units of its radius.
 struct DiskPlace {
   VF x, y;
-  MF on_disk, on_square;
+  MF on_disk;
 
   HWY_INLINE DiskPlace(VF along_x, VF along_y) : x(along_x), y(along_y) {
     const VF one = Splat(1.0f);
     on_disk = hn::Lt(hn::MulAdd(x, x, hn::Mul(y, y)), one);
-    on_square = hn::Lt(hn::Max(hn::Abs(x), hn::Abs(y)), one);
   }
 };
 
@@ -112,7 +111,6 @@ HWY_INLINE DiskPlace PlaceOnDisk(const Wave& wave, V3 at, V3 toward) {
   DiskPlace place(Dot(from, frame.s), Dot(from, frame.t));
   const MF before = hn::Lt(Dot(from, toward), Splat(1.0f));
   place.on_disk = hn::And(place.on_disk, before);
-  place.on_square = hn::And(place.on_square, before);
   return place;
 }
 
@@ -121,6 +119,10 @@ struct GuideSquare {
   VI first;
   uint32_t side;
 
+  HWY_INLINE MF HasCells() const {
+    return hn::RebindMask(DF(), hn::Gt(first, hn::Set(DI(), -1)));
+  }
+  /// Returns the cell of a place; where there are no cells, any.
   HWY_INLINE VI CellOf(const DiskPlace& place) const {
     const VF half = Splat(0.5f * static_cast<float>(side));
     const VI last = hn::Set(DI(), static_cast<int32_t>(side) - 1);
@@ -178,10 +180,11 @@ HWY_INLINE VF OriginDensity(const Wave& wave, const GuideSquare& square,
   const float cells = static_cast<float>(square.side * square.side);
   const VF pmf = Gather(guide->pmf.data(), square.CellOf(place));
   const VF per_area = Splat((1 - EmissionGuide::kDefensive) * cells / (4 * radius2));
-  const VF learned = hn::IfThenElseZero(place.on_square, hn::Mul(pmf, per_area));
+  // Nothing starts in the corners of the square: beside infinite planes, what is found
+  // there would depend on what has been learned.
+  const VF learned = hn::IfThenElseZero(place.on_disk, hn::Mul(pmf, per_area));
   const VF both = hn::MulAdd(disk, Splat(EmissionGuide::kDefensive), learned);
-  const MF none = hn::RebindMask(DF(), hn::Lt(square.first, hn::Zero(DI())));
-  return hn::IfThenElse(none, disk, both);
+  return hn::IfThenElse(square.HasCells(), both, disk);
 }
 HWY_INLINE bool StartAtSky(const LightEmission& emission) {
   return emission.Has(LightShape::kInfiniteConstant) ||

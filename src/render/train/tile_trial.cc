@@ -39,8 +39,8 @@ constexpr double kGainStandardErrors = 1;        // standard errors
 constexpr double kMinFilteredGain = 0.95;
 // A later candidate replaces an earlier one if its joint gain is this much larger.
 constexpr double kClearlyBetter = 1.5;
-constexpr double kMaxGainOfFewSubpaths = 4;
-constexpr double kSlightlyBetter = 1.1;  // of candidates with light subpaths
+constexpr double kMaxGainOfFewSubpaths = 4;  // with which more of them are tried
+constexpr double kSlightlyBetter = 1.1;      // of candidates with light subpaths
 
 // Places of pixels in the work, by the square of the image that they are in.
 using Squares = std::vector<std::vector<std::size_t>>;
@@ -233,8 +233,8 @@ bool IsWorthTrying(const DecisionCandidate& candidate, const TriedOnTiles& befor
     return before.has_gain_per_pixel && !before.is_efficient;
   }
   // More subpaths gain where camera paths are expensive. Where subpaths gain much, the
-  // rest is light that they do not find, in samples too rare for a trial: caustic and
-  // veach-bidir lose 0.6x with four times as many (trials: 1.8x).
+  // rest is light that they do not find, in samples too rare for a trial: with four times
+  // as many, caustic and veach-bidir have 0.6x the efficiency (trials say 1.8x).
   if (std::strcmp(candidate.changes, "light-paths=splats:1") == 0) {
     return before.has_gain_per_pixel &&
            before.LogJointGain() < std::log(kMaxGainOfFewSubpaths);

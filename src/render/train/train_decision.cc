@@ -18,8 +18,8 @@
 // Path reuse and light subpaths are tried beside the chosen strategy, on whole tiles.
 //
 // Shares of the planned samples: 1/100 for each candidate that learns (adjoint), 1/120
-// for each that is compared, up to four times 1/200 on tiles, 1/100 for subpaths from
-// infinity: 6 percent, before the chosen one learns. What is decided depends on scene,
+// for each that is compared, up to five times 1/200 on tiles, 1/100 for subpaths from
+// infinity: 7 percent, before the chosen one learns. What is decided depends on scene,
 // settings and seed alone: costs are counted in rays.
 #include <fmt/format.h>
 

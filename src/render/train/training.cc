@@ -123,7 +123,7 @@ void PutEmission(const std::vector<TrainedTable>& trained, EmissionGuide& guide)
   if (!AreUsable(weights, guide)) {
     throw InputError(fmt::format(
         "the state's tables '{}' and '{}' must have finite values of at least 0, and "
-        "some above 0 for each light",
+        "some above 0 in each square and among the lights",
         kEmissionCells, kEmissionLights));
   }
   Learn(std::move(weights), guide);

@@ -13,14 +13,14 @@ namespace lanelight {
 namespace {
 
 constexpr double kPlainShare = 0.1;
-// Of so many distant lights each has cells, 80 KiB; others start on the whole disk.
+// Only so many distant lights have cells, 80 KiB each.
 constexpr std::uint32_t kMaxSuns = 64;
 constexpr double kOwnWeight = 4;  // of a cell when it is blurred; that of neighbours is 1
 constexpr std::uint32_t kSunCells = EmissionGuide::kSunSide * EmissionGuide::kSunSide;
 constexpr std::uint32_t kSkyCells = EmissionGuide::kSkySide * EmissionGuide::kSkySide;
 constexpr std::uint32_t kSkySquares = EmissionGuide::kSkyBins * EmissionGuide::kSkyBins;
 
-// Lights that learn together.
+// The lights of kNear share what they have learned, and so do those of kSky.
 enum class Group { kNear, kDistant, kSky };
 
 Group GroupOf(const LightRecord& light) {

@@ -36,19 +36,19 @@ struct PathValues {
 };
 
 /// Where light subpaths from infinity start, learned from what they bring to the image.
-/// Across its direction, each distant light has a square of cells around the scene; the
-/// infinite lights together have one for each of kSkyBins^2 directions of the octahedral
-/// map.
+/// Each distant light has a square of cells across its direction, as wide as the scene.
+/// The infinite lights together have one for each of kSkyBins^2 directions of the
+/// octahedral map.
 struct EmissionGuide {
   static constexpr std::uint32_t kSunSide = 64, kSkySide = 16, kSkyBins = 8;
   /// Probability of starting on the whole disk, whatever has been learned.
   static constexpr float kDefensive = 0.1f;
 
-  // Of the scene:
+  // These follow from the scene.
   AlignedVector<std::int32_t> distant;  // per light: its first cell; -1: none
   std::int32_t sky = -1;                // first cell of all infinite lights; -1: none
   std::uint32_t num_cells = 0;
-  // Once it has learned; weights are what the tables are made of.
+  // The tables are made of the weights once these have been learned.
   std::vector<double> cell_weights, light_weights;
   LightStarts lights;
   // Per cell; an alias table of each square, with places in it.
