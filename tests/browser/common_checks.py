@@ -2,6 +2,7 @@
 
 import json
 import re
+import time
 
 from checks import NAMES, STATES, check, pictures, require, theme
 
@@ -66,6 +67,7 @@ def require_theme_when_opened(page, wanted, what):
         page.open()
         if theme(page) == wanted:
             return
+        time.sleep(0.25)
     raise AssertionError(what)
 
 

@@ -49,7 +49,8 @@ function summarySection() {
       fact("Samples", fmtCount(samples), `${fmt(rays)} rays per sample`),
       fact("Threads", fmtCount(threads), `${instructionSet(target.name)}, ${target.lanes} lanes`),
       fact("Repeats", fmtCount(repeats),
-        repeats > 5 ? `${fmtShortPercent(study.confidence)} intervals` : "6 give intervals"),
+        repeats > 5 ? `${fmtShortPercent(study.confidence)} intervals`
+          : `${repeats > 1 ? "in brackets: their range; " : ""}6 give intervals`),
       fact("Machine", study.machine.text, null, wide),
       fact("Program", study.program, null, wide),
     ),
