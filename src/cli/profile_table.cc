@@ -66,9 +66,10 @@ std::string ProfileAnswer(const ProfileReport& report, const Job& job,
       StrategyWords(job, result), double(result.samples) / double(job.window.pixels()),
       result.stopped_early ? " (stopped early)" : "", threads, threads == 1 ? "" : "s",
       TargetText(job.plan.options.target.name()),
-      repeats > 1 ? fmt::format(", {} repeats{}", repeats,
-                                repeats < kProfileRepeats ? " (in brackets: their range)" : "")
-                  : "",
+      repeats > 1
+          ? fmt::format(", {} repeats{}", repeats,
+                        repeats < kProfileRepeats ? " (in brackets: their range)" : "")
+          : "",
       most.counts.name, 100 * most.fraction);
   if (most.counts.items > 0) {
     text += fmt::format(" ({:.3g} ns per {}", most.NsPerItem(), ItemOf(most));
