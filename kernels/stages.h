@@ -93,6 +93,7 @@ namespace lanelight {
   X(BeginCandidates)                           \
   X(SelectLight)                               \
   X(SelectLightTree)                           \
+  X(SelectLearnedLight)                        \
   X(SampleTriangleLight)                       \
   X(SampleRectangleLight)                      \
   X(SampleSphereLight)                         \
@@ -120,6 +121,7 @@ namespace lanelight {
   X(ShadowCurves)                              \
   X(ShadowMedia)                               \
   X(ShadowThrough)                             \
+  X(RecordLight)                               \
   X(Connect)                                   \
   X(KeepSplats)                                \
   X(SecondVerticesLight)                       \

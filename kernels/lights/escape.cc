@@ -2,6 +2,7 @@
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/lights/environment-inl.h"
+#include "kernels/lights/light-inl.h"
 #include "kernels/lights/portal-inl.h"
 #include "kernels/queue/batch-inl.h"
 
@@ -37,9 +38,12 @@ void Escape(Wave& wave) {
           const VI lit = hn::Set(DI(), static_cast<int32_t>(index));
           radiance = AsCarried(wave, slots, lit, radiance);
           if constexpr (kMis) {
-            radiance = Mul(radiance,
-                           EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
-                                          hn::Mul(pdf, Splat(wave.chances->pmf[index]))));
+            const VF pmf = p.light_row != nullptr && p.light_pmf == nullptr
+                               ? LearnedPmf(wave, slots, lit)
+                               : Splat(wave.chances->pmf[index]);
+            radiance =
+                Mul(radiance, EmissionWeight(wave.run->mis, Gather(p.bsdf_pdf, slots),
+                                             hn::Mul(pdf, pmf)));
           }
           sum = sum + radiance;
         }
@@ -61,7 +65,8 @@ Stage EscapeStage() {
           .role = StageRole::kEmission,
           .needs = {Feature::kInfiniteLights},
           .reads = fields::kRay | fields::kThroughput | fields::kRadiance |
-                   FieldSet{Field::bsdf_pdf, Field::wavelength, Field::hit_weight},
+                   FieldSet{Field::bsdf_pdf, Field::wavelength, Field::hit_weight,
+                            Field::light_row},
           .writes = fields::kRadiance,
           .resolve = ResolveEscape};
 }

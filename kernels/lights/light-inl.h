@@ -10,6 +10,7 @@
 #include "kernels/simd/records-inl.h"
 #include "kernels/texture/wavelengths-inl.h"
 #include "src/scene/compiled/lights.h"
+#include "src/scene/prepare/tables.h"
 #include "src/vocabulary/path/wave.h"
 
 LANELIGHT_BEGIN_KERNELS
@@ -27,11 +28,27 @@ struct Lights : RecordWords<LightRecord> {
   LANELIGHT_INLINE MF TwoSided() const { return IsSet(offsetof(LightRecord, two_sided)); }
 };
 
-/// Returns the probabilities of selecting lights; a light tree has computed them for the
-/// paths, because they depend on the place.
+/// Returns the probabilities with which light-selection=learned has selected, or would
+/// have selected, lights at the last vertices.
+LANELIGHT_INLINE VF LearnedPmf(const Wave& wave, const Slots& slots, VI light) {
+  const LearnedLights& learned = wave.run->tables->lights;
+  const VI groups = hn::Set(DI(), static_cast<int32_t>(learned.num_groups));
+  const VI first = hn::Mul(Gather(wave.path.light_row, slots), groups);
+  const VI entry = hn::Add(first, Gather(learned.group.data(), light));
+  return hn::Mul(Gather(learned.pmf.data(), entry), Gather(learned.within.data(), light));
+}
+
+/// Returns the probabilities of selecting lights. Those of a light tree and of what has
+/// been learned depend on the place.
 LANELIGHT_INLINE VF Pmf(const Wave& wave, const Slots& slots, VI light) {
   if (wave.path.light_pmf != nullptr) return Gather(wave.path.light_pmf, slots);
+  if (wave.path.light_row != nullptr) return LearnedPmf(wave, slots, light);
   return Gather(wave.chances->pmf.data(), light);
+}
+
+/// Returns whether the probabilities are those of LightChances everywhere.
+LANELIGHT_INLINE bool IsPmfConstant(const Wave& wave) {
+  return wave.path.light_pmf == nullptr && wave.path.light_row == nullptr;
 }
 
 /// Primitive ids that may emit: most hits need no look at their record.

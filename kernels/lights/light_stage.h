@@ -22,7 +22,8 @@ inline Stage SampleLightStage(const char* name, const char* meaning, Feature sha
           .needs = needs,
           .reads = fields::kPoint | fields::kNormal |
                    FieldSet{Field::d_x, Field::d_y, Field::d_z, Field::u_light_0,
-                            Field::u_light_1, Field::ls_light, Field::light_pmf},
+                            Field::u_light_1, Field::ls_light, Field::light_pmf,
+                            Field::light_row},
           .writes = fields::kLightSample,
           .resolve = resolve};
 }
@@ -52,7 +53,7 @@ inline Stage EmissionStage(const char* name, const char* meaning, Feature shape,
           .reads = fields::kRay | fields::kHit | fields::kThroughput | fields::kRadiance |
                    fields::kStartNormal |
                    FieldSet{Field::bsdf_pdf, Field::passed, Field::wavelength,
-                            Field::hit_weight},
+                            Field::hit_weight, Field::light_row},
           .writes = fields::kRadiance,
           .resolve = resolve};
 }

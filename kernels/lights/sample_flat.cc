@@ -139,7 +139,7 @@ struct TriangleSampling {
   static void Sample(Wave& wave) {
     const PathColumns& p = wave.path;
     const SceneParts& scene = wave;
-    if (scene.lights->lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
+    if (scene.lights->lights.size() <= hn::Lanes(DF()) && IsPmfConstant(wave)) {
       // Records are read once per call; batches choose among them in registers.
       const TriangleEmitters all = TriangleEmitters::All(wave);
       ForEachLit<kMany>(wave, LightShape::kTriangle,

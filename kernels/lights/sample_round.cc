@@ -135,7 +135,7 @@ template <bool kMany>
 void SampleSphereLight(Wave& wave) {
   const PathColumns& p = wave.path;
   const SceneParts& scene = wave;
-  if (scene.lights->lights.size() <= hn::Lanes(DF()) && p.light_pmf == nullptr) {
+  if (scene.lights->lights.size() <= hn::Lanes(DF()) && IsPmfConstant(wave)) {
     // Records are read once per call; batches choose among them in registers.
     const SphereEmitters all = SphereEmitters::All(wave);
     ForEachLit<kMany>(wave, LightShape::kSphere,

@@ -22,13 +22,15 @@
 LANELIGHT_BEGIN_KERNELS
 
 struct VertexColumns {
-  uint32_t* cell[kRecordedVertices];
-  float *at[kRecordedVertices], *got[kRecordedVertices];
+  uint32_t *cell[kRecordedVertices], *light[kRecordedVertices];
+  float *at[kRecordedVertices], *got[kRecordedVertices], *direct[kRecordedVertices];
 
   explicit VertexColumns(const PathColumns& p)
       : cell{p.cell_0, p.cell_1, p.cell_2, p.cell_3},
+        light{p.lit_by_0, p.lit_by_1, p.lit_by_2, p.lit_by_3},
         at{p.at_0, p.at_1, p.at_2, p.at_3},
-        got{p.got_0, p.got_1, p.got_2, p.got_3} {}
+        got{p.got_0, p.got_1, p.got_2, p.got_3},
+        direct{p.direct_0, p.direct_1, p.direct_2, p.direct_3} {}
 };
 
 void RecordDecision(Wave& wave) {
@@ -60,6 +62,25 @@ void RecordVertex(Wave& wave) {
   });
 }
 
+// Records what unoccluded light samples add.
+void RecordLight(Wave& wave) {
+  const PathColumns& p = wave.path;
+  const VertexColumns v(p);
+  const PathValues& values = wave.run->tables->path_values;
+  ForEachBatch(wave, wave.queue(QueueId::kShadow), [&](const Slots& slots, MF) HWY_ATTR {
+    const VI next = Gather(p.depth, slots);  // the path has been scattered
+    const VI light = p.ls_light == nullptr ? hn::Zero(DI()) : Gather(p.ls_light, slots);
+    const VF direct = Brightness(values, Gather3(p.sh_r, p.sh_g, p.sh_b, slots));
+    for (int k = 0; k < kRecordedVertices; ++k) {
+      const auto here = hn::Eq(next, hn::Set(DI(), k + 1));
+      const MF mine = hn::RebindMask(DF(), here);
+      Scatter(hn::IfThenElse(here, light, Gather(v.light[k], slots)), v.light[k], slots);
+      Scatter(hn::IfThenElse(mine, direct, Gather(v.direct[k], slots)), v.direct[k],
+              slots);
+    }
+  });
+}
+
 // In the order of PlaneGroup::kRecord.
 void RecordPath(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -78,6 +99,8 @@ void RecordPath(Wave& wave) {
       store(hn::BitCast(DF(), Gather(v.cell[k], slots)));
       store(Gather(v.at[k], slots));
       store(Gather(v.got[k], slots));
+      store(hn::BitCast(DF(), Gather(v.light[k], slots)));
+      store(Gather(v.direct[k], slots));
     }
     store(Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots)));
     store(hn::ConvertTo(DF(), Gather(p.depth, slots)));
@@ -96,6 +119,17 @@ Stage RecordVertexStage() {
                    FieldSet{Field::depth},
           .writes = fields::kVertices,
           .resolve = Always<RecordVertex>};
+}
+Stage RecordLightStage() {
+  return {.name = "record_light",
+          .meaning = "records what light samples add",
+          .input = QueueId::kShadow,
+          .role = StageRole::kRecord,
+          .needs = {Feature::kRecordsPaths, Feature::kLights, Feature::kScatters},
+          .reads = fields::kShadow | fields::kVertices |
+                   FieldSet{Field::depth, Field::ls_light},
+          .writes = fields::kVertices,
+          .resolve = Always<RecordLight>};
 }
 Stage RecordDecisionStage() {
   return {.name = "record_decision",

@@ -107,6 +107,7 @@ class WaveFixture {
     wave.path.wavelength = nullptr;  // paths carry red, green and blue
     wave.path.eta = nullptr;
     wave.path.hit_weight = nullptr;  // no light subpaths
+    wave.path.light_row = nullptr;   // no light-selection=learned
     for (Queue& queue : wave.queues) queue.items = NewColumn(capacity);
     wave.lists = ColumnLists(wave.path, FeatureSet::All());
   }

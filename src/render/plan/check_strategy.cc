@@ -1,6 +1,6 @@
-
 #include "src/base/core/error.h"
 #include "src/render/plan/plan_features.h"
+#include "src/scene/compiled/lights.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/vocabulary/path/features.h"
@@ -83,6 +83,19 @@ void CheckLightPaths(const Strategy& s, const FeatureSet& plan,
   if (s.Splits()) {
     ThrowUnsupported(key + " needs paths that do not split, unlike those of roulette=" +
                      Name(s.roulette) + ": use roulette=throughput");
+  }
+}
+
+// Refuses what light-selection=learned does not work with.
+void CheckLearnedLights(const PreparedScene& scene, const FeatureSet& plan) {
+  if (!plan.Has(Feature::kLearnedLights)) return;
+  if (!scene.chances->tree.nodes.empty()) {  // in a trial run
+    ThrowUnsupported("light-selection=learned cannot replace light-selection=tree");
+  }
+  if (plan.Has(Feature::kMedia)) {
+    ThrowUnsupported(
+        "light-selection=learned does not support participating media: use power or "
+        "tree");
   }
 }
 
@@ -177,6 +190,7 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
+  CheckLearnedLights(scene, plan);
   CheckLightPaths(s, plan, scene.view->film.response);
   Notes notes;
   const Checked checked = {s, scene.features(), plan, options, notes};

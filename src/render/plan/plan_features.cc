@@ -131,8 +131,9 @@ FeatureSet LightPathFeatures(FeatureSet f) {
   // Shadow rays go to the camera, and lights are neither sampled nor hit.
   f.Remove({Feature::kManyLights, Feature::kMis, Feature::kProjectedHits,
             Feature::kLightCandidates, Feature::kLightTable, Feature::kLightTree,
-            Feature::kSampledHittableLights, Feature::kAreaLights,
-            Feature::kInfiniteLights, Feature::kEmissionImages, Feature::kPortals});
+            Feature::kLearnedLights, Feature::kSampledHittableLights,
+            Feature::kAreaLights, Feature::kInfiniteLights, Feature::kEmissionImages,
+            Feature::kPortals});
   for (int i = 0; i < int(LightShape::kCount); ++i) {
     f.Remove(LightFeature(static_cast<LightShape>(i)));
   }
@@ -182,6 +183,13 @@ bool RendersLightsSeparately(const PreparedScene& scene) {
          !f.Has(Feature::kMovingCamera) &&       // which blurs all edges
          !scene.view->film.response.limits() &&  // which are of single samples
          f.HasAny({Feature::kAreaLights, Feature::kInfiniteLights});
+}
+
+std::string UntrainedChanges(const PreparedScene& scene, const PlanOptions& options) {
+  const Strategy& strategy = options.strategy ? *options.strategy : scene.strategy;
+  const bool learns = strategy.light_selection == LightSelection::kLearned;
+  return std::string("roulette=throughput,decide=none") +
+         (learns ? ",light-selection=power" : "");
 }
 
 PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,

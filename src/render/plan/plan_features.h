@@ -20,6 +20,9 @@ Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options)
 PlanOptions WithChanges(const PreparedScene& scene, PlanOptions options,
                         std::string_view changes);
 
+/// Returns the changes with which a strategy renders before it has been trained.
+std::string UntrainedChanges(const PreparedScene& scene, const PlanOptions& options);
+
 /// Returns whether triangles or rectangles are sampled as lights.
 bool SamplesFlatLights(const FeatureSet& features);
 

@@ -17,6 +17,7 @@
 #include "src/scene/compiled/view.h"
 #include "src/scene/description/film.h"
 #include "src/scene/prepare/emission_guide.h"
+#include "src/scene/prepare/learned_lights.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
 
@@ -29,9 +30,8 @@ namespace {
 std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
   constexpr int kPasses = 5;
   constexpr std::uint64_t kSamples = 2048;
-  // Untrained strategies cannot render.
   pass.options =
-      WithChanges(pass.scene, std::move(pass.options), "roulette=throughput,decide=none");
+      WithChanges(pass.scene, pass.options, UntrainedChanges(pass.scene, pass.options));
   const TrainingWork work = MakeTrainingWork(pass.scene, kSamples, 16);
   double rate = INFINITY;
   // The first pass warms up: memory is touched, code and scene are read. Of the others
@@ -102,6 +102,7 @@ void RunStrategy::Restore(TrainingOutcome training,
                           const std::vector<TrainedTable>& tables) {
   training_ = std::move(training);
   tables_.emission = MakeEmissionGuide(scene_.compiled->lights);
+  tables_.lights = GroupLights(*scene_.compiled, scene_.chances->pmf);
   ImportTraining(tables, std::uint64_t{run_.width} * run_.height, tables_);
   UseTraining();
   CheckTrained(plan_, tables_);

@@ -34,6 +34,8 @@ PathRecord ReadRecord(const float* next) {
     v.cell = std::bit_cast<std::uint32_t>(*next++);
     v.at = *next++;
     v.got = *next++;
+    v.light = std::bit_cast<std::uint32_t>(*next++);
+    v.direct = *next++;
   }
   record.end = *next++;
   record.depth = *next++;

@@ -16,6 +16,8 @@ struct PathRecord {
   struct Vertex {
     std::uint32_t cell;
     float at, got;
+    std::uint32_t light;  // that was sampled
+    float direct;         // what it adds
   };
   Vertex vertices[kRecordedVertices];
   float end, depth;

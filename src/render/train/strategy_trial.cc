@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "src/render/plan/plan_features.h"
 #include "src/render/train/path_records.h"
@@ -42,18 +41,9 @@ TrialMeasure MeanOfMeasures(const TrialMeasure& own, TrialMeasure single) {
   return single;
 }
 
-// Returns whether only the roulette differs, and paths survive it with a higher
-// probability.
-bool HasMilderRoulette(Strategy changed, const Strategy& baseline) {
-  const bool longer =
-      changed.roulette == Roulette::kNone ||
-      (changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
-       changed.scale >= baseline.scale && changed.First() >= baseline.First());
-  if (baseline.roulette != Roulette::kThroughput || !longer) return false;
-  const auto roulette = [](const Strategy& s) {
-    return std::tuple(s.roulette, s.floor, s.first, s.scale);
-  };
-  if (roulette(changed) == roulette(baseline)) return false;
+// Returns whether the roulette differs, and nothing else.
+bool DiffersByRoulette(Strategy changed, const Strategy& baseline) {
+  if (changed == baseline) return false;
   changed.roulette = baseline.roulette;
   changed.floor = baseline.floor;
   changed.first = baseline.first;
@@ -61,13 +51,24 @@ bool HasMilderRoulette(Strategy changed, const Strategy& baseline) {
   return changed == baseline;
 }
 
+// Returns whether only the roulette differs, and paths survive it with a higher
+// probability.
+bool HasMilderRoulette(const Strategy& changed, const Strategy& baseline) {
+  const bool longer =
+      changed.roulette == Roulette::kNone ||
+      (changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
+       changed.scale >= baseline.scale && changed.First() >= baseline.First());
+  return baseline.roulette == Roulette::kThroughput && longer &&
+         DiffersByRoulette(changed, baseline);
+}
+
 // Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
-  const Strategy baseline_strategy = PlannedStrategy(baseline.scene, baseline.options);
-  return baseline_strategy.roulette == Roulette::kThroughput &&
-         baseline_strategy.Floor() == 0 && baseline_strategy.scale == 1 &&
-         baseline_strategy.First() == kThroughputFirst &&
-         tried.changes == "roulette=adjoint";
+  const Strategy changed = PlannedStrategy(tried.scene, tried.options);
+  const Strategy given = PlannedStrategy(baseline.scene, baseline.options);
+  return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
+         given.scale == 1 && given.First() == kThroughputFirst &&
+         changed.roulette == Roulette::kAdjoint && DiffersByRoulette(changed, given);
 }
 
 // Returns whether few pixels carry the error; without any error it is exact.

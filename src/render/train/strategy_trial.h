@@ -45,6 +45,8 @@ inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"roulette=adjoint", "gains where little of the scene carries the light", 1.17, 0.19},
     {"roulette=throughput:0:2:4", "gains where later events of paths carry much light",
      1.0, 0.13},
+    {"light-selection=learned",
+     "gains where lights are near, or hidden, in parts of the scene", 1.04, 0.1},
     // Only those above may be chosen without being asked for. With the next but one paths
     // may not end.
     {"roulette=throughput:0:5", "gains where bright light arrives after a few events",
@@ -54,7 +56,8 @@ inline constexpr DecisionCandidate kDecisionCandidates[] = {
     {"light-selection=tree", "gains with many lights, each near a part of the scene", 1.1,
      0.4},
 };
-inline constexpr std::size_t kNumDefaultCandidates = 2;  // the first ones
+inline constexpr std::size_t kNumRouletteCandidates = 2;  // the first ones
+inline constexpr const DecisionCandidate& kLearnedSelection = kDecisionCandidates[2];
 
 inline constexpr const char kGainOfSubpaths[] =
     "gains where caustics, hidden lamps or light through windows cause the noise";

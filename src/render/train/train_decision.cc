@@ -15,11 +15,12 @@
 // live longer and that is all, no sample of it varies more; where few pixels carry the
 // error all others decide.
 //
-// Path reuse and light subpaths are tried beside the chosen strategy, on whole tiles.
+// light-selection=learned comes first: all others are tried beside what has been chosen.
+// Path reuse and light subpaths are tried last, on whole tiles.
 //
-// Shares of the planned samples: 1/100 for each candidate that learns (adjoint), 1/120
+// Shares of the planned samples: 1/100 for each candidate that learns, 1/120
 // for each that is compared, up to five times 1/200 on tiles, 1/100 for subpaths from
-// infinity: 7 percent, before the chosen one learns. What is decided depends on scene,
+// infinity: 9 percent, before the chosen one learns. What is decided depends on scene,
 // settings and seed alone: costs are counted in rays.
 #include <fmt/format.h>
 
@@ -58,21 +59,20 @@ class Decider {
         trial_(scene_, training_, context.seed, planned_ / kLearned) {}
 
   TrainingOutcome Run() {
+    entries_.reserve(1 + std::size(kDecisionCandidates));
     Add("", 1);
-    for (const DecisionCandidate& c :
-         std::span(kDecisionCandidates, kNumDefaultCandidates)) {
-      Add(c.changes, c.price);
-    }
     TriedStrategy* chosen = &entries_.front();
-    if (entries_.size() == 1) {
-      note_ = "no candidate changes this render";
-    } else if (planned_ / kCompared < kMinComparedSamples) {
+    const TriedStrategy* base = chosen;
+    if (planned_ / kCompared < kMinComparedSamples) {
       note_ = "the image has too few samples to compare";
     } else {
-      chosen = Compare();
+      trial_.Begin(planned_ / kCompared);
+      base = chosen = Improve(*chosen, std::span(&kLearnedSelection, 1));
+      tables_.lights = chosen->tables.lights;
+      chosen = Improve(*chosen, std::span(kDecisionCandidates, kNumRouletteCandidates));
+      if (note_.empty()) note_ = "no candidate changes this render";
+      if (!trial_.IsStopped()) TryOnTilesBeside(*base, *chosen);
     }
-    if (!trial_.IsStopped() && planned_ / kCompared >= kMinComparedSamples)
-      TryOnTilesBeside(*chosen);
     if (!trial_.IsStopped()) TrainFor(*chosen);
     outcome_.samples = trial_.spent().samples;
     outcome_.rays = trial_.spent().rays;
@@ -80,34 +80,61 @@ class Decider {
   }
 
  private:
-  // Unless the scene refuses it, or another does the same there.
-  void Add(const std::string& changes, double price) {
+  // Adds an entry, unless the scene refuses it, or another does the same there.
+  TriedStrategy* Add(const std::string& changes, double price) {
     TriedStrategy entry = PrepareTrial(scene_, options_, changes, price);
     try {
       const std::string key = PlanKey(scene_, MakePlan(scene_, entry.options));
-      if (std::ranges::find(keys_, key) != keys_.end()) return;
+      if (std::ranges::find(keys_, key) != keys_.end()) return nullptr;
       keys_.push_back(key);
     } catch (const InputError&) {
       if (entries_.empty()) throw;
-      return;
+      return nullptr;
     }
-    entries_.push_back(std::move(entry));
+    return &entries_.emplace_back(std::move(entry));
   }
 
-  TriedStrategy* Compare() {
-    trial_.Begin(planned_ / kCompared);
-    for (TriedStrategy& entry : entries_) {
-      if (!trial_.Try(entry, entries_.front())) return &entries_.front();
+  // Compares changes beside a strategy. Returns the best, which may be the strategy
+  // itself.
+  TriedStrategy* Improve(TriedStrategy& base,
+                         std::span<const DecisionCandidate> candidates) {
+    TriedStrategy* best = &base;
+    double maximum = 0;
+    std::string gains;
+    for (const DecisionCandidate& c : candidates) {
+      TriedStrategy* const entry =
+          Add(JoinedChanges(base.changes, c.changes), base.price * c.price);
+      if (entry == nullptr) continue;
+      if (!base.has_learned && !trial_.Try(base, base)) return &base;
+      entry->tables.lights = base.tables.lights;
+      if (&c == &kLearnedSelection) {
+        // The render uses the same table.
+        trial_.TrainStrategy(*entry, training_.planned_samples, entry->tables);
+        entry->has_learned = true;
+      }
+      if (!trial_.Try(*entry, base)) return &base;
+      gains += fmt::format("{}{} {:.2f}", gains.empty() ? "" : ", ", c.changes,
+                           std::exp(entry->EfficiencyGain().log));
+      const double beyond = entry->SignificantLogGain(kMinChangeGain, kStandardErrors);
+      if (beyond <= maximum) continue;
+      maximum = beyond;
+      best = entry;
     }
-    return Choose();
+    if (gains.empty()) return best;
+    note_ += note_.empty()
+                 ? fmt::format("efficiency over the given strategy ({} samples)",
+                               trial_.samples())
+                 : "; beside what has been chosen";
+    note_ += ": " + gains;
+    return best;
   }
 
   // Tries path reuse and light subpaths beside what has been chosen, or in its place
   // where that splits paths.
-  void TryOnTilesBeside(TriedStrategy& chosen) {
-    const double gain = chosen.changes.empty() ? 1 : std::exp(chosen.Gain().log);
+  void TryOnTilesBeside(const TriedStrategy& base, TriedStrategy& chosen) {
+    const double gain = &base == &chosen ? 1 : std::exp(chosen.Gain().log);
     const std::vector<TriedOnTiles> tried =
-        trial_.TryOnTiles(entries_.front(), chosen, gain, planned_ / kTiled);
+        trial_.TryOnTiles(base, chosen, gain, planned_ / kTiled);
     for (const TriedOnTiles& t : tried) {
       note_ +=
           fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", t.candidate.changes,
@@ -115,34 +142,9 @@ class Decider {
     }
     const TriedOnTiles* const best = BestOf(tried);
     if (best == nullptr) return;
-    TriedStrategy beside = chosen.splits ? entries_.front() : chosen;
+    TriedStrategy beside = chosen.splits ? base : chosen;
     beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
     chosen = std::move(beside);
-  }
-
-  TriedStrategy* Choose() {
-    TriedStrategy* chosen = &entries_.front();
-    double maximum = 0;
-    for (TriedStrategy& entry : entries_) {
-      if (entry.changes.empty()) continue;
-      const double beyond = entry.SignificantLogGain(kMinChangeGain, kStandardErrors);
-      if (beyond <= maximum) continue;
-      maximum = beyond;
-      chosen = &entry;
-    }
-    Explain();
-    return chosen;
-  }
-
-  void Explain() {
-    std::string others;
-    for (const TriedStrategy& entry : entries_) {
-      if (entry.changes.empty()) continue;
-      others += fmt::format("{}{} {:.2f}", others.empty() ? "" : ", ", entry.changes,
-                            std::exp(entry.EfficiencyGain().log));
-    }
-    note_ = fmt::format("efficiency over the given strategy ({} samples): {}",
-                        trial_.samples(), others);
   }
 
   void TrainFor(TriedStrategy& chosen) {

@@ -21,6 +21,7 @@
 #include "src/render/wave/wavefront.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/geometry/geometry.h"
+#include "src/scene/prepare/cell_grid.h"
 
 namespace lanelight {
 namespace {

@@ -54,6 +54,7 @@ bool NeedsTraining(const Plan& plan);
 /// compares, and what it has chosen.
 TrainingOutcome Train(const TrainingContext& context);
 TrainingOutcome TrainPathValues(const TrainingContext& context);
+TrainingOutcome TrainLightSelection(const TrainingContext& context);
 TrainingOutcome TrainEmission(const TrainingContext& context);
 TrainingOutcome TrainDecision(const TrainingContext& context);
 

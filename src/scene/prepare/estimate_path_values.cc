@@ -5,39 +5,16 @@
 
 #include "src/base/core/check.h"
 #include "src/base/stat/relative_error.h"
+#include "src/scene/prepare/cell_grid.h"
 
 namespace lanelight {
 namespace {
 
-// Cells per side of a coarse cell.
-constexpr std::int32_t kCoarse = 4;
 // Weight, in records, of the coarser cell in the estimate of a finer one.
 constexpr double kCoarseCellWeight = 8;
 // Least value of a cell relative to the mean of all cells: a short training pass may have
 // missed its light.
 constexpr double kMinCellValue = 0.1;
-
-CellGrid Coarser(const CellGrid& fine) {
-  CellGrid coarse;
-  for (int a = 0; a < 3; ++a) coarse.size[a] = (fine.size[a] + kCoarse - 1) / kCoarse;
-  return coarse;
-}
-
-// Calls body(cell, coarse cell) for all cells in ascending order.
-template <class Body>
-void ForCells(const CellGrid& fine, const CellGrid& coarse, const Body& body) {
-  std::uint32_t cell = 0;
-  for (std::int32_t z = 0; z < fine.size[2]; ++z) {
-    for (std::int32_t y = 0; y < fine.size[1]; ++y) {
-      const std::int32_t row =
-          coarse.size[0] * (y / kCoarse + coarse.size[1] * (z / kCoarse));
-      for (std::int32_t x = 0; x < fine.size[0]; ++x) {
-        const auto around = static_cast<std::uint32_t>(row + x / kCoarse) * 6;
-        for (std::uint32_t face = 0; face < 6; ++face) body(cell++, around + face);
-      }
-    }
-  }
-}
 
 struct CellMeans {
   double value = 0, square = 0, cost = 1;
@@ -56,25 +33,6 @@ CellMeans Blend(const CellSums& s, const CellMeans& prior) {
 
 }  // namespace
 
-CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices) {
-  // Surfaces cross about six times as many cells as a side of the grid has; a dozen
-  // records tell something of a cell.
-  constexpr double kRecords = 12, kLongest = 48;
-  const double side =
-      std::clamp(std::sqrt(double(vertices) / (6 * kRecords)), 1.0, kLongest);
-  float longest = 0;
-  for (int a = 0; a < 3; ++a) longest = std::max(longest, high[a] - low[a]);
-  CellGrid grid;
-  if (!(longest > 0) || !std::isfinite(longest)) return grid;
-  for (int a = 0; a < 3; ++a) {
-    const double fraction = double(high[a] - low[a]) / longest;
-    grid.low[a] = low[a];
-    grid.size[a] = std::max(1, static_cast<std::int32_t>(std::ceil(fraction * side)));
-    grid.per_unit[a] = static_cast<float>(side / longest);
-  }
-  return grid;
-}
-
 CellRecords::Sums CellRecords::Sorted() const {
   Sums sorted = sums_;
   std::ranges::sort(sorted,
@@ -85,7 +43,7 @@ CellRecords::Sums CellRecords::Sorted() const {
 void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values) {
   const CellGrid& fine = values.grid;
   LL_CHECK_EQ(records.cells(), fine.cells());
-  const CellGrid coarse = Coarser(fine);
+  const CellGrid coarse = CoarserGrid(fine);
   const CellRecords::Sums sums = records.Sorted();
   std::vector<CellSums> coarse_sums(coarse.cells());
   CellSums all;

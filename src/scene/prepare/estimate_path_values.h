@@ -13,9 +13,6 @@
 
 namespace lanelight {
 
-/// The grid of a box with about as many cells on surfaces as `vertices` records can fill.
-CellGrid MakeCellGrid(Vec3f low, Vec3f high, std::uint64_t vertices);
-
 /// Sums over the recorded vertices of a cell: of the estimates of the brightness that a
 /// unit of throughput gathers from there on, of their squares, of the cost to come.
 struct CellSums {

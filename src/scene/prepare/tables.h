@@ -58,7 +58,31 @@ struct EmissionGuide {
   bool has_learned() const { return !pmf.empty(); }
 };
 
+/// Probabilities of selecting lights, learned from what they bring to cells of the scene:
+/// of groups of lights by cell, and of a light within its group by power.
+struct LearnedLights {
+  // These follow from the scene.
+  std::uint32_t num_groups = 0;
+  bool is_grouped = false;            // else group i is light i
+  AlignedVector<std::int32_t> group;  // by light
+  AlignedVector<float> within;        // by light: probability within its group; or 0
+  // The lights of one group after the other, and a Walker-Vose table of each group.
+  AlignedVector<std::int32_t> first, count;  // by group
+  AlignedVector<float> member_q;
+  AlignedVector<std::int32_t> member, member_alias;  // lights
+
+  CellGrid grid;
+  AlignedVector<std::int32_t> row;  // by cell: the row of its probabilities
+  // These have an entry for each row and group. The tables are made of the weights.
+  std::vector<double> weights;
+  AlignedVector<float> pmf, alias_q;
+  AlignedVector<std::uint32_t> alias;
+
+  bool has_learned() const { return !row.empty(); }
+};
+
 struct StrategyTables {
+  LearnedLights lights;    // light-selection=learned: by a training pass
   PathValues path_values;  // adjoint, efficiency: set by the training passes
   EmissionGuide emission;  // light-paths=splats: by a training pass
 };

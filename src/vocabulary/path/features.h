@@ -89,6 +89,7 @@ namespace lanelight {
   X(kSampledHittableLights, "light samples of shapes and environments")       \
   X(kLightTable, "light-selection=power or uniform")                          \
   X(kLightTree, "light-selection=tree")                                       \
+  X(kLearnedLights, "light-selection=learned")                                \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
   X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
   X(kPathValues, "path values from a training pass")                          \

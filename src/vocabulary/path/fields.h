@@ -138,6 +138,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_RGB(X, f32, ls, ({kLights}), kBounce, (), "radiance / pdf of the light sample (selection included); 0 = no light") \
   X(f32, ls_pdf, ({kLights}), kBounce, (), "pdf_sa of that direction, selection included; 0 = delta light") \
   X(f32, light_pmf, ({kLightTree}), kBounce, (), "probability of selecting the light that was hit, later of the selected light") \
+  X(u32, light_row, ({kLearnedLights}), kPath, (0u), "row of LearnedLights by which the last light was selected") \
   /* the light sample kept of several candidates */                                       \
   LANELIGHT_XYZ(X, f32, kept, ({kLightCandidates}), kBounce, (), "its direction")         \
   X(f32, kept_distance, ({kLightCandidates}), kBounce, (), "its distance")                \
@@ -158,6 +159,8 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_4(X, u32, cell, ({kRecordsPaths}), kPath, (kNoCell), "cache cell of vertex 0, 1, 2, 3; 0xffffffff = none") \
   LANELIGHT_4(X, f32, at, ({kRecordsPaths}), kPath, (0.0f), "luminance of the throughput there") \
   LANELIGHT_4(X, f32, got, ({kRecordsPaths}), kPath, (0.0f), "luminance gathered before it") \
+  LANELIGHT_4(X, u32, lit_by, ({kRecordsPaths}), kPath, (0u), "light sampled there") \
+  LANELIGHT_4(X, f32, direct, ({kRecordsPaths}), kPath, (0.0f), "luminance that it adds") \
   X(f32, risk_0, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/training_records.cc)") \
   X(f32, risk_1, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, linear part")         \
   X(f32, risk_2, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, constant part")       \
@@ -290,10 +293,11 @@ inline constexpr FieldSet kGbuffer = {
 inline constexpr FieldSet kShadow = {Field::sh_r, Field::sh_g, Field::sh_b};
 inline constexpr FieldSet kFirstNumbers = {Field::first_film, Field::first_bsdf,
                                            Field::first_light, Field::choices};
-inline constexpr FieldSet kVertices = {Field::cell_0, Field::cell_1, Field::cell_2,
-                                       Field::cell_3, Field::at_0,   Field::at_1,
-                                       Field::at_2,   Field::at_3,   Field::got_0,
-                                       Field::got_1,  Field::got_2,  Field::got_3};
+inline constexpr FieldSet kVertices = {
+    Field::cell_0,   Field::cell_1,   Field::cell_2,   Field::cell_3,   Field::lit_by_0,
+    Field::lit_by_1, Field::lit_by_2, Field::lit_by_3, Field::direct_0, Field::direct_1,
+    Field::direct_2, Field::direct_3, Field::at_0,     Field::at_1,     Field::at_2,
+    Field::at_3,     Field::got_0,    Field::got_1,    Field::got_2,    Field::got_3};
 inline constexpr FieldSet kSinglePath = {Field::copy_weight, Field::decided_at,
                                          Field::single_gathered, Field::single_l};
 inline constexpr FieldSet kRisk = {Field::risk_0, Field::risk_1, Field::risk_2};

@@ -83,7 +83,9 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(T, K, Power, PLAIN, ({kLightTable}), "power", "", "lights in proportion to their power (default)", \
     "p ~ power, by an alias table", "Walker 1977; Vose 1991")                             \
   X(T, K, Tree, PLAIN, ({kLightTree}), "tree", "", "descends a tree of lights by power, distance and orientation", \
-    "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018")
+    "p = product over levels of importance / sum of importances", "Conty Estevez and Kulla 2018") \
+  X(T, K, Learned, PLAIN, ({kLearnedLights}), "learned", "", "in proportion to what lights bring to a cell of the scene, shadows included; training pass", \
+    "p ~ sqrt(E[f^2]) by cells of space and normal, and a fifth by power", "Vevoda, Kondapaneni and Krivanek 2018")
 
 #define LANELIGHT_VISIBLE_LIGHTS(X, T, K)                                                          \
   X(T, K, Paths, PLAIN, ({}), "paths", "", "directly visible lights by the camera rays of the paths", \

@@ -2,6 +2,7 @@
 // than the better of them by more than a tenth; and the pieces it decides with.
 #include <catch2/catch.hpp>
 
+#include "src/scene/prepare/cell_grid.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/tables.h"
 #include "tests/agreement/agreement.h"

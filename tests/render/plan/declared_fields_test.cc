@@ -13,6 +13,8 @@
 #include "src/render/wave/block_reuse.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/prepare/cell_grid.h"
+#include "src/scene/prepare/learned_lights.h"
 #include "src/scene/prepare/estimate_path_values.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
@@ -85,7 +87,7 @@ class Checker {
     plan_ = MakePlan(scene_, options);
     run_ = MakeRunParameters(scene_, plan_);
     run_.tables = &tables_;
-    MakePathValues();
+    MakeTables();
     wavefront_ = std::make_unique<Wavefront>(scene_, plan_, run_);
     if (plan_.features.Has(Feature::kReuse)) reuse_.emplace(plan_, scene_.strategy);
     const PathColumns& p = wavefront_->wave().path;
@@ -153,14 +155,21 @@ class Checker {
            (splits ? kMaxSplitPaths : 1);
   }
 
-  // What training passes and the roulettes that split go by: any values do.
-  void MakePathValues() {
+  // What training has learned: any values do.
+  void MakeTables() {
     PathValues& v = tables_.path_values;
     const Geometry& g = scene_.compiled->geometry;
     v.grid = MakeCellGrid(g.bounds_min, g.bounds_max, 10000);
     v.survive.assign(v.grid.cells(), 1.5f);
     v.split.assign(v.grid.cells(), 1.5f);
     v.inverse_pixel.assign(std::size_t{run_.width} * run_.height * 3, 0.7f);
+    if (!plan_.features.Has(Feature::kLearnedLights)) return;
+    LearnedLights& lights = tables_.lights;
+    lights = GroupLights(*scene_.compiled, scene_.chances->pmf);
+    lights.grid = v.grid;
+    lights.row.assign(v.grid.cells(), 0);
+    lights.weights.assign(lights.num_groups, 1);
+    SetProbabilities(lights);
   }
 
   WaveState Save() const {
@@ -317,6 +326,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kForcedScene, "roulette=adjoint"},
       {kLampsScene, "points=sobol,light-paths=splats"},
       {kLampsScene, "light-paths=splats,roulette=none"},
+      {kLampsScene, "light-selection=learned"},
       {kMovingScene, "points=sobol"},
       {kMovingScene, "points=halton,pairs=antithetic"},
       {kSphericalScene, "points=sobol"},

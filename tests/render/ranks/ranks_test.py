@@ -18,7 +18,8 @@ import uuid
 
 SIZE = ["--resolution", "72x56"]
 STRATEGIES = ["points=sobol", "points=independent", "pairs=antithetic",
-              "control=regression", "roulette=adjoint", "light-paths=splats:3", "decide=pilot"]
+              "control=regression", "roulette=adjoint", "light-paths=splats:3",
+              "light-selection=learned", "decide=pilot"]
 INTERRUPTED = 6
 
 

@@ -35,7 +35,8 @@ TEST_CASE("ranks render an image bit-identical to a single process", "[ranks]") 
   for (const char* strategy :
        {"points=sobol", "points=independent,pairs=antithetic",
         "points=sobol,control=regression", "points=halton,roulette=adjoint",
-        "points=sobol,decide=pilot", "points=sobol,reuse=block:16"}) {
+        "points=sobol,light-selection=learned", "points=sobol,decide=pilot",
+        "points=sobol,reuse=block:16"}) {
     Request request;
     request.strategy = strategy;
     request.spp = 45;

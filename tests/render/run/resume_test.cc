@@ -23,6 +23,7 @@ const char* const kStrategies[] = {
     "points=sobol,reuse=block:16",
     "points=independent,pairs=antithetic,reuse=block:32:compact",
     "points=sobol,light-paths=splats:3",
+    "points=sobol,light-selection=learned",
 };
 
 }  // namespace

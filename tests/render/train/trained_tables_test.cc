@@ -7,6 +7,7 @@
 
 #include "src/render/train/training.h"
 #include "src/scene/prepare/emission_guide.h"
+#include "src/scene/prepare/learned_lights.h"
 #include "tests/support/input_error.h"
 
 namespace lanelight {
@@ -89,6 +90,46 @@ TEST_CASE("the guide of light subpaths round-trips bit-identically", "[state]") 
     StrategyTables other;
     other.emission = SmallGuide();
     CHECK_THROWS_AS(ImportTraining(bad, kPixels, other), InputError);
+  }
+}
+
+TEST_CASE("learned selection of lights round-trips bit-identically", "[state]") {
+  StrategyTables tables = SmallTables(), back;
+  LearnedLights& lights = tables.lights;
+  lights.num_groups = back.lights.num_groups = 3;
+  lights.grid.size[2] = 2;
+  lights.grid.low[1] = -0.3f;
+  lights.row.assign(lights.grid.cells(), 1);
+  lights.row[4] = 0;
+  lights.weights = {0.2, 0.5, 0.3, 1.0 / 3, 0.6, 0};
+  SetProbabilities(lights);
+  const std::vector<TrainedTable> trained = ExportTraining(tables);
+  ImportTraining(trained, kPixels, back);
+  CHECK(back.lights.grid.low[1] == lights.grid.low[1]);
+  CHECK(back.lights.row == lights.row);
+  CHECK(back.lights.pmf == lights.pmf);
+  CHECK(back.lights.alias_q == lights.alias_q);
+  CHECK(back.lights.alias == lights.alias);
+
+  const auto error_of = [&](const std::string& name, double value, bool longer) {
+    std::vector<TrainedTable> bad = trained;
+    for (TrainedTable& table : bad) {
+      if (table.name != name) continue;
+      table.values[0] = value;
+      if (longer) table.values.push_back(1);
+    }
+    StrategyTables other;
+    other.lights.num_groups = 3;
+    return InputErrorOf([&] { ImportTraining(bad, kPixels, other); });
+  };
+  CHECK_THAT(error_of("learned_light_grid", 0, true), Contains("expected 9"));
+  CHECK_THAT(error_of("learned_light_rows", 0, true), Contains("expected 12"));
+  CHECK_THAT(error_of("learned_light_weights", 1, true), Contains("expected 6"));
+  for (const double row : {-1.0, 2.0, 1e300, double(NAN)}) {
+    CHECK_THAT(error_of("learned_light_rows", row, false), Contains("indices of rows"));
+  }
+  for (const double weight : {-1.0, double(INFINITY), double(NAN)}) {
+    CHECK_THAT(error_of("learned_light_weights", weight, false), Contains("finite"));
   }
 }
 
