@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "src/base/core/aligned.h"
 #include "src/base/core/column.h"
 #include "src/base/core/vec.h"
 #include "src/base/image/pixel_rect.h"
@@ -37,7 +38,9 @@ struct PixelSplat {
 class SplatFilm {
  public:
   /// `unit`: of the light that is added, in units of the film.
-  SplatFilm(std::size_t pixels, double unit) : unit_(unit), sums_(pixels) {}
+  SplatFilm(std::size_t pixels, double unit) : unit_(unit) {
+    ResizeInHugePages(sums_, pixels);
+  }
   static constexpr std::size_t BytesPerPixel() { return sizeof(SplatSums); }
   double unit() const { return unit_; }
 

@@ -76,6 +76,8 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
   }
   if (file.HasTable("splats")) {
     merged.film->UseSplats(merged.head.at("splat_unit"));
+    merged.film->set_dependents(std::max(merged.film->groups().dependents,
+                                         merged.head.value("splat_pixels", 1.0)));
   }
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);

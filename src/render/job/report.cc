@@ -145,6 +145,7 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"scale", job.scene.scale()},
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"splat_unit", SplatUnit(job.scene)},
+          {"splat_pixels", SplatPixels(job.scene)},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},
           {"target", TargetJson(job.plan.options.target)},

@@ -11,6 +11,7 @@
 #include "src/render/train/rank_passes.h"
 #include "src/render/train/training.h"
 #include "src/render/train/training_pass.h"
+#include "src/render/wave/light_paths.h"
 #include "src/render/wave/profile.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/scene/compiled/scene.h"
@@ -118,7 +119,10 @@ void RunStrategy::UseTraining() {
 }
 
 double RunStrategy::Dependents() const {
-  return GroupsOf(PlannedStrategy(scene_, plan_.options)).dependents;
+  const Strategy strategy = PlannedStrategy(scene_, plan_.options);
+  const double pixels =
+      strategy.light_paths == LightPaths::kNone ? 1 : SplatPixels(scene_);
+  return std::max(GroupsOf(strategy).dependents, pixels);
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {

@@ -39,6 +39,15 @@ struct FilterAxis {
     }
     return first;
   }
+  double Pixels() const {
+    double sum = 0, squares = 0;
+    for (int bin = 0; bin < CompiledFilter::kSize; ++bin) {
+      const double f = At((float(bin) + 0.5f) / CompiledFilter::kSize);
+      sum += f;
+      squares += f * f;
+    }
+    return 2 * radius * sum * sum / (CompiledFilter::kSize * squares);
+  }
 
  private:
   float At(float place) const {
@@ -47,6 +56,13 @@ struct FilterAxis {
     return (cdf[bin + 1] - cdf[bin]) * CompiledFilter::kSize * sign[bin];
   }
 };
+
+FilterAxis AlongX(const CompiledFilter& f) {
+  return {f.x_radius, f.is_box, f.x_cdf, f.x_sign};
+}
+FilterAxis AlongY(const CompiledFilter& f) {
+  return {f.y_radius, f.is_box, f.y_cdf, f.y_sign};
+}
 
 // Returns the splat of a pixel, from `first` on.
 PixelSplat& SplatOf(std::uint32_t pixel, std::size_t first,
@@ -94,6 +110,11 @@ double SplatUnit(const PreparedScene& scene) {
   const double image = std::abs(pixel) * film.width * film.height;
   const double unit = kHeadroom * power / (kPi * image) * double(ExposureOf(scene));
   return unit > 0 && unit < 1e300 ? std::exp2(std::round(std::log2(unit))) : 1;
+}
+
+double SplatPixels(const PreparedScene& scene) {
+  const CompiledFilter& filter = scene.compiled->filter;
+  return AlongX(filter).Pixels() * AlongY(filter).Pixels();
 }
 
 LightSubpaths::LightSubpaths(const PreparedScene& scene, const Plan& plan,
@@ -189,11 +210,11 @@ bool LightSubpaths::IsApart(std::size_t entry, std::size_t path) const {
 
 void LightSubpaths::AddEntry(std::size_t entry, std::size_t first,
                              std::vector<PixelSplat>& out) {
-  const CompiledFilter& f = *light_.filter;
-  const FilterAxis along_x = {f.x_radius, f.is_box, f.x_cdf, f.x_sign};
-  const FilterAxis along_y = {f.y_radius, f.is_box, f.y_cdf, f.y_sign};
-  const int x = along_x.Weigh(splats_.x[entry] - 0.5f, window_.x0, window_.x1, column_);
-  const int y = along_y.Weigh(splats_.y[entry] - 0.5f, window_.y0, window_.y1, row_);
+  const CompiledFilter& filter = *light_.filter;
+  const int x =
+      AlongX(filter).Weigh(splats_.x[entry] - 0.5f, window_.x0, window_.x1, column_);
+  const int y =
+      AlongY(filter).Weigh(splats_.y[entry] - 0.5f, window_.y0, window_.y1, row_);
   const float light[3] = {splats_.light[0][entry] * scale_,
                           splats_.light[1][entry] * scale_,
                           splats_.light[2][entry] * scale_};

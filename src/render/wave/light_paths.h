@@ -20,6 +20,11 @@ namespace lanelight {
 /// if they start nowhere.
 double SplatUnit(const PreparedScene& scene);
 
+/// Returns the sum over all pixels of the correlation of their splats with those of one
+/// pixel, if subpaths splat once: (integral of f)^2 / integral of f^2, in pixels, f being
+/// the pixel filter. The sum of squared correlations (SampleGroups::dependents) is less.
+double SplatPixels(const PreparedScene& scene);
+
 class LightSubpaths {
  public:
   /// For a plan with kLightPaths, and an image of these pixels.

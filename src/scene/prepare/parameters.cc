@@ -14,8 +14,8 @@ constexpr std::uint64_t Bit(Dimension d) {
   return std::uint64_t{1} << static_cast<std::uint32_t>(d);
 }
 
-// More than the variance of an image's mean over that of independent pixels: 1.6 to 2.1
-// in a Cornell box with a Gaussian filter of radius 2.
+// The sum is 1.0 to 1.4 in five scenes, whose filters have a radius of 0.5 to 1.5.
+// Renders allow for wider ones (SplatPixels).
 constexpr double kPixelsOfLightPath = 3;
 
 // Errors of two pixels have no more in common than the share of samples in which they are

@@ -1,9 +1,12 @@
 // light-paths=splats renders what camera paths alone render: the image as a whole, and
 // tile by tile, as a subpath serves several pixels.
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
 
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/reuse/same_light.h"
+#include "tests/render/run/render_fixture.h"
 #include "tests/vocabulary/strategy/combinations.h"
 
 namespace lanelight::test {
@@ -176,6 +179,60 @@ TEST_CASE("splats: a wall that is 3 % darker is found", "[light_paths]") {
   const auto darker = TilesOf(
       RenderOften(room.description, "points=sobol,light-paths=splats:2", 8192, 7), 8);
   CHECK_FALSE(stat::CompareMeans(darker, truth, {1, 1e-6, kFloatTolerance, 1e-7}).same);
+}
+
+// Over renders, the variance of the mean of squared z-scores of n normal pixels is 2 / n
+// times the sum over all pixels of their squared correlations with one.
+double SquaredCorrelations(const std::vector<std::vector<double>>& renders) {
+  const double n = double(renders.size()), pixels = double(renders[0].size());
+  std::vector<double> squares(renders.size());
+  for (std::size_t p = 0; p < renders[0].size(); ++p) {
+    double sum = 0, scatter = 0;
+    for (const auto& render : renders) sum += render[p];
+    for (const auto& render : renders) scatter += std::pow(render[p] - sum / n, 2);
+    for (std::size_t i = 0; i < renders.size(); ++i) {
+      squares[i] += std::pow(renders[i][p] - sum / n, 2) / scatter * (n - 1) / pixels;
+    }
+  }
+  double variance = 0;
+  for (const double s : squares) variance += std::pow(s - (n - 1) / n, 2) / (n - 1);
+  return pixels / 2 * variance;
+}
+
+// A point light that reaches the floor by way of a mirror alone, on light subpaths.
+SceneDescription CausticAlone() {
+  SceneBuilder b(16, 16);
+  b.Depth(2).Perspective({0, 0, 4}, {0.3, 0, 0}, {0, 1, 0}, 20);
+  b.AddPlane({0, 0, 0}, {0, 0, 1}, b.AddDiffuse({0.7, 0.5, 0.3}));
+  b.AddPoint({0.25, 0, 0.9}, {1, 1, 1});
+  b.AddQuad({0.2, -0.05, 0.85}, {0, 0.1, 0}, {0.1, 0, 0}, b.AddDiffuse(Grey(0)));
+  b.AddQuad({1.2, -3, 0}, {0, 6, 0}, {0, 0, 2}, b.AddConductor(Grey(1e-3), Grey(1e4)));
+  return b.Build();
+}
+
+TEST_CASE("splats: errors of pixels are no more correlated than the film states",
+          "[light_paths]") {
+  SceneDescription scene = CausticAlone();
+  for (const double sigma : {0.5, 1.5}) {
+    scene.filter = {FilterKind::kGaussian, 3 * sigma, 3 * sigma};
+    scene.filter.sigma = sigma;
+    std::vector<std::vector<double>> renders;
+    double dependents = 0;
+    TestRender render;
+    render.spp = 32;
+    render.strategy = "light-paths=splats:1";
+    for (; render.seed <= 48; ++render.seed) {
+      const FilmAccumulator film = RenderDescription(scene, render).film;
+      dependents = film.groups().dependents;
+      renders.emplace_back();
+      ForEachPixel(film,
+                   [&](int x, int y) { renders.back().push_back(film.Mean(x, y).y); });
+    }
+    const double measured = SquaredCorrelations(renders);
+    INFO(measured << " of " << dependents);
+    CHECK(measured < dependents);
+    CHECK(measured > dependents / 6);
+  }
 }
 
 TEST_CASE("splats: what light subpaths do not support is refused, with a remedy",
