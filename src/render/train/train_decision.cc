@@ -47,6 +47,9 @@ constexpr std::uint64_t kMinComparedSamples = 256;
 // pixels, they find it in none.
 constexpr double kStandardErrors = 0.5;
 
+// Logarithms of gains have no limit where a trial sees no noise.
+double LimitedGain(double log) { return std::exp(std::clamp(log, -7.0, 7.0)); }
+
 class Decider {
  public:
   explicit Decider(const TrainingContext& context)
@@ -113,8 +116,15 @@ class Decider {
           fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", t.candidate.changes,
                       std::exp(t.per_pixel.log), std::exp(t.filtered.log));
     }
+    if (!chosen.changes.empty()) {
+      outcome_.gain = outcome_.filtered_gain = LimitedGain(chosen.EfficiencyGain().log);
+    }
     const TriedOnTiles* const best = BestOf(tried);
     if (best == nullptr) return;
+    const bool replaces = chosen.splits || chosen.changes.empty();
+    const double before = replaces ? 0 : chosen.EfficiencyGain().log;
+    outcome_.gain = LimitedGain(before + best->per_pixel.log);
+    outcome_.filtered_gain = LimitedGain(before + best->filtered.log);
     TriedStrategy beside = chosen.splits ? entries_.front() : chosen;
     beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
     chosen = std::move(beside);
