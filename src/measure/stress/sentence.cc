@@ -1,4 +1,4 @@
-// What a run came to, in a sentence.
+// Summarises a run in a sentence.
 #include <fmt/format.h>
 
 #include "src/base/core/text_layout.h"

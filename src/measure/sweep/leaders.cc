@@ -22,7 +22,7 @@ struct StrategyCosts {
   SeedCosts costs;
 };
 
-// The strategies of a context. Those that stopped (--race) have fewer seeds.
+// The strategies of a context. Strategies that stopped (--race) have fewer seeds.
 struct Contest {
   std::vector<StrategyCosts> ranked, stopped;
   const CellGroup* sample = nullptr;
@@ -53,8 +53,8 @@ Interval RatioOf(const SeedCosts& baseline, const SeedCosts& costs, double confi
   return stat::EfficiencyRatio(paired[0], paired[1], confidence);
 }
 
-// Returns the most efficient strategy but `best`; an empty name without any. Those that
-// stopped have fewer seeds.
+// Returns the most efficient strategy but `best`; an empty name without any. Strategies
+// that stopped have fewer seeds.
 Placed RunnerUp(const Contest& contest, const StrategyCosts& best,
                 const SeedCosts& baseline, double confidence) {
   Placed next;
@@ -73,7 +73,7 @@ Placed RunnerUp(const Contest& contest, const StrategyCosts& best,
 // Strategies that may be the most efficient.
 struct Undecided {
   std::vector<std::size_t> strategies;  // the best by its mean first
-  /// How much more time they may need for the error of the best: a fraction.
+  /// Largest extra time that they may need for the error of the best, as a fraction.
   std::optional<double> within;
 };
 
