@@ -1,15 +1,15 @@
 // light-paths=splats: continues the ratio of densities in the direction in which a path
-// has been scattered (kernels/light_paths/chain-inl.h). Of light subpaths the throughput
-// is corrected: they carry importance (Veach 1997, section 5.3).
+// has been scattered (kernels/light_paths/chain-inl.h). Corrects the throughput of light
+// subpaths, which carry importance (Veach 1997, section 5.3).
 #include "kernels/simd/each_target-inl.h"
 
 #include "kernels/light_paths/chain-inl.h"
 
 LANELIGHT_BEGIN_KERNELS
 
-// Returns the product without what depends on the next vertex. Of light subpaths, light
-// samples find the light at the first vertex as well. Of camera paths, a connection has
-// no density at the first vertex.
+// Returns the product without what depends on the next vertex. Light samples find the
+// light of a light subpath at its first vertex as well. A connection has no density at
+// the first vertex of a camera path.
 template <bool kLight>
 HWY_INLINE VF ChainThrough(VF chain, VF back, MF specular, VI number) {
   const VF one = Splat(1.0f);

@@ -1,5 +1,5 @@
-// How light subpaths start at lights, and the densities of that for MIS weights
-// (chain-inl.h). The light is chosen by the table of LightEmission.
+// Starts light subpaths at lights, and computes the densities of their starts for MIS
+// weights (chain-inl.h). The light is chosen by the table of LightEmission.
 //   shapes      point uniform over the area, direction by the cosine, to either side of
 //               two: pmf cos / (pi area), half of that with two sides
 //   positions   direction uniform in a cone: pmf / (2 pi versine)
@@ -208,9 +208,9 @@ HWY_INLINE VF SkyDensity(const Wave& wave, V3 toward) {
   return sum;
 }
 
-/// Densities with which the last step of a path, from x_k to the light y, is found. Those
-/// of light samples and subpaths are relative to the measure of y in which E has the
-/// density pdf_sa, or of the light alone if E cannot find it.
+/// Densities with which the last step of a path, from x_k to the light y, is found. The
+/// densities of light samples and subpaths are relative to the measure of y in which E
+/// has the density pdf_sa. If E cannot find y, they are relative to the light's measure.
 struct LastStep {
   VF subpath;  // of x_k and y, over the cosine at x_k; 0: no subpath starts there
   VF sample;   // of y

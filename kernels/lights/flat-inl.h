@@ -73,7 +73,7 @@ struct VisibleTriangle {
   }
 };
 
-/// As VisibleTriangle.
+/// A rectangle as a light sample sees it, like VisibleTriangle.
 struct VisibleRectangle {
   static constexpr LightShape kShape = LightShape::kRectangle;
   const LightRectangle& rectangle;

@@ -132,9 +132,10 @@ void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
   AddOption(command, "--budget TIME", options.budget,
             "Give all cells the same time, so that one process takes TIME (7200, 2h); "
             "default: the amounts of the grid");
-  command.add_flag(
-      "--race", options.sweep.race,
-      "Stop strategies that are clearly less efficient than the best; seed by seed");
+  command.add_flag("--race", options.sweep.race,
+                   "Render seed by seed; stop strategies that are clearly less efficient "
+                   "than the best, "
+                   "and all where more seeds would hardly decide");
   command.add_flag_callback("--resume", [] {}, "Skip finished cells (always on)");
 }
 

@@ -16,8 +16,8 @@ using Json = nlohmann::json;
 
 ProcessResult Bench(const TempDirectory& directory, std::vector<std::string> flags) {
   std::vector<std::string> arguments = {
-      "bench", WriteSphereScene(directory), "--spp", "2", "--threads", "1", "--time",
-      "0.01"};
+      "bench", WriteSphereScene(directory), "--spp", "2", "--threads", "1", "--within",
+      "1"};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
   return RunLanelight(arguments);
 }
@@ -47,7 +47,7 @@ TEST_CASE("bench prints rates and writes JSON", "[cli]") {
   REQUIRE(r.exit_code == kExitGood);
   CHECK_THAT(r.out,
              Contains("Msamples/CPU s") && Contains("machine") && Contains("lanes"));
-  CHECK_THAT(r.err, Contains("(1 of 1), about ") && Contains(" s left"));
+  CHECK_THAT(r.err, Contains("(1 of 1), ") && Contains(" s left"));
   const Json json = ReadJson(directory / "b.json");
   CHECK(json.at("schema") == 1);
   CHECK(json.at("machine").contains("processor"));
@@ -110,6 +110,18 @@ TEST_CASE("bench lists stored results, alone and beside a measured one", "[cli]"
   const ProcessResult other =
       Bench(directory, {"--resolution", "8x8", "--list", results.path()});
   CHECK_THAT(other.out, Contains("* not comparable"));
+}
+
+TEST_CASE("bench refuses a time that is too short for its work", "[cli]") {
+  const TempDirectory directory;
+  const ProcessResult r =
+      Bench(directory, {"--time", "0.01", "--json", directory / "b.json"});
+  CHECK(r.exit_code == kExitUsage);
+  CHECK_THAT(r.err,
+             Contains("6 renders of each row take about ") && Contains("; use --time "));
+  CHECK(r.out.empty());
+  CHECK_FALSE(std::filesystem::exists(directory / "b.json"));
+  CHECK(Bench(directory, {"--time", "20"}).exit_code == kExitGood);
 }
 
 TEST_CASE("bench refuses invalid input", "[cli]") {

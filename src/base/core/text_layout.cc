@@ -110,6 +110,17 @@ std::string TextTable(const std::vector<Cells>& lines, const TableLayout& layout
   return text;
 }
 
+std::string ListText(const std::vector<std::string>& names, std::size_t max_names) {
+  std::string text;
+  const std::size_t shown = names.size() > max_names ? max_names : names.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool last = i + 1 == names.size();
+    text += (i == 0 ? "" : last ? " and " : ", ") + names[i];
+  }
+  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
 std::string DurationText(double seconds) {
   if (!(seconds >= 0) || seconds > 1e9) return "unknown";
   if (seconds > 0 && seconds < 0.00995) return fmt::format("{:.2g} ms", 1e3 * seconds);

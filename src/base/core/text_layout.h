@@ -36,6 +36,9 @@ struct TableLayout {
 std::string TextTable(const std::vector<std::vector<std::string>>& lines,
                       const TableLayout& layout);
 
+/// "a", "a and b", "a, b and 3 more" for at most two names.
+std::string ListText(const std::vector<std::string>& names, std::size_t max_names);
+
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 07 min".
 std::string DurationText(double seconds);
 

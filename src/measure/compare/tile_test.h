@@ -16,7 +16,7 @@ inline constexpr double kFloatRounding = 1e-6;
 inline constexpr double kBiasLevel = 1e-3;
 
 /// Squares over an image, row by row: of 8 x 8 pixels, or larger, so that there are at
-/// most about 1024. Those at the right and bottom may be cut.
+/// most about 1024. Squares at the right and bottom may be cut.
 struct TileLayout {
   int side = 0, columns = 0, rows = 0;
 

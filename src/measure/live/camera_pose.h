@@ -1,4 +1,4 @@
-// Where the camera stands, what it looks at, and its lens: what a page moves.
+// Position, target and lens of the camera, which a page moves.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
-// What a page has open, and what all connections share. Boost.Beast is long to compile:
-// only the two files of the server include this, and are compiled together.
+// The connection of a page, and the state that all connections share. Boost.Beast is long
+// to compile: only the two files of the server include this, and are compiled together.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

@@ -47,7 +47,8 @@ class PassObserver {
   virtual ~PassObserver() = default;
   /// Called often, from any thread: whether Observe is due, true until it is called.
   virtual bool IsDue() const = 0;
-  /// By the thread that renders, with nothing in flight: films may be read.
+  /// Called by the rendering thread while no task is in flight, so that films may be
+  /// read.
   virtual void Observe() = 0;
 };
 
@@ -75,7 +76,7 @@ class PassRenderer {
   const FilmAccumulator& film() const { return film_; }
   const CostMap& cost() const { return cost_; }
   const RunRecord& record() const { return record_; }
-  /// Of all passes, by stage and part of tasks.
+  /// Returns the costs of all passes, by stage and part of tasks.
   const std::vector<StageProfile>& stages() const { return stages_; }
   /// Errors, estimated now and then, the last one some time ago.
   const std::vector<EstimateSnapshot>& snapshots() const { return snapshots_; }
@@ -85,7 +86,7 @@ class PassRenderer {
   double cpu_seconds() const { return record_.counts.cpu_seconds - observed_seconds_; }
   /// Samples per pixel and second of the last passes; 0 before the first.
   double rate() const { return rate_; }
-  /// What it has learned before, if it has: one line.
+  /// Returns the note of the training in one line; empty without training.
   const std::string& training() const { return record_.training.note; }
   std::size_t Bytes() const;
 

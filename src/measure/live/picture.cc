@@ -65,7 +65,7 @@ std::uint64_t SamplesOf(const FilmAccumulator& film, const PixelRect& square) {
   return sum;
 }
 
-// As the PNG of a render is made (FilmImage), as a matrix.
+// Returns the conversion to sRGB that the PNG of a render uses (FilmImage).
 ColorMatrix SrgbOf(const std::string& space) {
   const auto column = [&](Rgb primary) {
     return ToSrgb(space, primary, SpectrumUse::kUnbounded);
@@ -93,7 +93,7 @@ void PutSquare(const PassRenderer& renderer, Layer layer, const PixelRect& squar
                [&](int x, int y) { PutHalf(at, LayerAt(renderer, layer, x, y)); });
 }
 
-// What has changed, and what is then sent.
+// Returns the squares that have changed, and marks them as sent.
 std::vector<PixelRect> Changed(const FilmAccumulator& film, SentPicture& sent) {
   const std::vector<PixelRect> all = Squares(WindowOf(film));
   sent.samples.resize(all.size());

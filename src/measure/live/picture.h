@@ -1,4 +1,4 @@
-// What a page is shown of a film: half floats, in squares, only those that have changed.
+// Encodes a film for a page: half floats, in squares, only those that have changed.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct SentPicture {
 
 inline constexpr int kSquare = 64;  // pixels of a side
 
-/// How a binary message begins: four bytes, the length n of what follows, low byte first;
-/// n bytes of JSON, filled up with spaces so that the rest begins at a multiple of 8.
+/// Returns the head of a binary message: four bytes with the length n, low byte first,
+/// then n bytes of JSON. Spaces at its end let the rest begin at a multiple of 8.
 std::string BinaryHead(const nlohmann::json& head);
 
 /// A binary message; behind its head, of each square that "squares" names ([x, y, width,
@@ -46,8 +46,8 @@ std::string BinaryHead(const nlohmann::json& head);
 std::string EncodePicture(const PassRenderer& renderer, nlohmann::json head,
                           SentPicture& sent);
 
-/// What is known of one pixel of the whole image, whose numbers a page asks for: "value",
-/// "error" (standard errors, null if there are fewer than two observations), "samples".
+/// Returns the numbers of one pixel of the whole image: "value", "error" (standard
+/// errors, null if there are fewer than two observations), "samples".
 nlohmann::json PixelJson(const PassRenderer& renderer, int x, int y);
 
 }  // namespace lanelight::live

@@ -28,7 +28,7 @@ class RenderThread : private PassObserver {
   /// A page opens; the number of its session. `send` is called by the render_thread's
   /// thread, until RemoveSession has returned.
   int Enter(Send send);
-  /// A message of the page. What is wrong with it is sent back.
+  /// A message of the page. Sends an error back if it is invalid.
   void Receive(int session, const std::string& message);
   /// The page is closed: what it has asked for is stopped and forgotten.
   void RemoveSession(int session);
@@ -48,7 +48,7 @@ class RenderThread : private PassObserver {
 
   void Loop();
   void Push(Request request);
-  /// Those that do not change what is being rendered, or all.
+  /// Handles all requests, or only those that do not change the current render.
   void HandleRequests(bool all);
   void Serve(const Request& request);
   std::optional<Running> Choose();
@@ -74,7 +74,7 @@ class RenderThread : private PassObserver {
   std::atomic<bool> stop_all_{false};        // and previews, which are short, too
   std::atomic<bool> waiting_{false};         // requests are
   std::atomic<std::int64_t> publish_at_{0};  // microseconds of the steady clock
-  // Of the thread alone:
+  // Only the thread uses these:
   std::map<int, std::shared_ptr<Session>> sessions_;
   int last_session_ = 0;  // that something was rendered for
   std::thread thread_;    // the last to be made

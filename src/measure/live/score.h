@@ -10,7 +10,7 @@
 
 namespace lanelight::live {
 
-/// What two renderers have in common: the other may cost more, or need more.
+/// The quantity that two renderers have in common.
 enum class Pace { kTime, kSamples };
 
 /// Who is ahead, as far as the intervals show it.
@@ -26,12 +26,12 @@ struct Ratio {
   std::uint64_t since = 0;  // samples per pixel of A at the first look that showed it
 };
 
-/// The efficiency of `b` relative to `a`: of 1 / (relMSE x processor time), or of
-/// 1 / (relMSE x samples); above 1, `b` is better. Errors fall as 1 / cost, so that the
-/// two need not have cost the same. The interval joins those of two independent errors:
-/// their logarithms are a difference, of whose ends the distances add as squares
-/// (variance estimates recovery, Zou and Donner 2008). How much the clock scatters is not
-/// in it. `stretch` multiplies the distances; with 1 the interval holds at one look that
+/// The efficiency of `b` relative to `a`: of 1 / (relMSE x processor time), or of 1 /
+/// (relMSE x samples); above 1, `b` is better. Errors fall as 1 / cost, so that the two
+/// need not have cost the same. The interval joins those of two independent errors: their
+/// logarithms are a difference, of whose ends the distances add as squares (variance
+/// estimates recovery, Zou and Donner 2008). It does not include the scatter of the
+/// clock. `stretch` multiplies the distances; with 1 the interval holds at one look that
 /// was chosen beforehand, with kEstimateConfidence.
 Ratio EfficiencyOf(const EstimateSnapshot& a, const EstimateSnapshot& b, Pace pace,
                    double stretch = 1);

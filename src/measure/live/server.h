@@ -14,7 +14,7 @@ namespace lanelight::live {
 /// Sockets at once, and pages that are being fetched.
 inline constexpr int kMaxPages = 8;
 inline constexpr int kMaxConnections = 32;
-/// Of these, from one address: others get in while one client holds on to all it can.
+/// Maximum number of connections from one address, so that one client cannot take all.
 inline constexpr int kMaxPerAddress = kMaxConnections / 2;
 
 /// Returns whether a client may connect, given how many connections each address has.
@@ -35,7 +35,7 @@ class Server {
   Server(const LiveScene& live_scene, std::string command, std::uint16_t port);
   ~Server();
 
-  /// Where the page is, with the token.
+  /// Returns the address of the page, with the token.
   std::string address() const;
   /// Serves until `stop` is set; then it says goodbye to all pages.
   void Run(const std::atomic<bool>& stop);

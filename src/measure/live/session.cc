@@ -19,7 +19,8 @@ using nlohmann::json;
 
 // Without a move for so long, the camera stands.
 constexpr auto kCameraSettleTime = std::chrono::milliseconds(120);
-// Of strategies that have been left, so that coming back renders nothing again.
+// Memory for strategies that a page has left, so that returning to one renders nothing
+// again.
 constexpr std::size_t kMaxKeptBytes = std::size_t{256} << 20;
 
 int IndexOf(const json& message, const char* member, int max_index) {

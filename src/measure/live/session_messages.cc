@@ -1,4 +1,4 @@
-// What a page is sent: pictures, how far they are, and what it has asked for.
+// Sends pictures, their progress and replies to a page.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>

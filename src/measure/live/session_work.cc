@@ -1,4 +1,5 @@
-// What a page has rendered next: previews while the camera moves, then passes, in turn.
+// Chooses the next work of a session: previews while the camera moves, then passes in
+// turn.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of a preview, at most: it has to be there before the next move of the mouse.
+// Maximum time of a preview, which has to end before the next move of the mouse.
 constexpr double kPreviewSeconds = 0.04;
 // The first one, of which no rate is known.
 constexpr double kFirstPreviewSamples = 16384;
@@ -45,8 +46,8 @@ std::optional<Work> Session::Next() {
   return NextPass();
 }
 
-// Where the first pass is as quick, it is the preview. The whole film is not made before:
-// it takes longer than a preview.
+// If the first pass is as fast as a preview, it replaces the preview. The whole film is
+// made later, because that takes longer than a preview.
 std::optional<Work> Session::NextPreview() {
   for (int i = 0; i < kSlots; ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(i)];

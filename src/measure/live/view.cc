@@ -10,7 +10,8 @@
 namespace lanelight::live {
 namespace {
 
-// How far in front of the camera the middle of the scene is: what a mouse turns about.
+// Returns the distance from the camera to the middle of the scene, around which the mouse
+// rotates the camera.
 double DistanceToMiddle(const Job& job) {
   const CompiledScene& scene = *job.scene.compiled;
   const Transform& t = job.loaded->description.camera.world_from_camera;

@@ -10,8 +10,9 @@
 namespace lanelight::stress {
 namespace {
 
-// What crosses the coat of a thickness from outside at `cosine`, or, with 1 / eta, from
-// inside: the way through it is as long as its direction inside is slant.
+// Returns the fraction of light that crosses a coat of this thickness from outside at
+// `cosine`, or, with 1 / eta, from inside. The distance inside depends on the refracted
+// direction.
 double Passes(double cosine, double eta, double thickness, bool from_inside) {
   const double inside = from_inside ? cosine : RefractedCosine(cosine, eta);
   return (1 - FresnelDielectric(cosine, eta)) * std::exp(-thickness / inside);

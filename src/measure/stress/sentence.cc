@@ -1,6 +1,7 @@
-// What a run came to, in a sentence.
+// Summarises a run in a sentence.
 #include <fmt/format.h>
 
+#include "src/base/core/text_layout.h"
 #include "src/measure/stress/stress_json.h"
 
 namespace lanelight::stress {
@@ -8,18 +9,6 @@ namespace {
 
 std::string Cases(int count) {
   return fmt::format("{} case{}", count, count == 1 ? "" : "s");
-}
-
-// "a", "a and b", "a, b and 3 more".
-std::string List(const std::vector<std::string>& names, std::size_t max_names) {
-  std::string text;
-  const std::size_t shown = names.size() > max_names ? max_names : names.size();
-  for (std::size_t i = 0; i < shown; ++i) {
-    const bool last = i + 1 == names.size();
-    text += (i == 0 ? "" : last ? " and " : ", ") + names[i];
-  }
-  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
 }
 
 std::vector<std::string> NamesOf(const SuiteResult& result, Outcome outcome) {
@@ -33,7 +22,7 @@ std::vector<std::string> NamesOf(const SuiteResult& result, Outcome outcome) {
 }  // namespace
 
 std::string Sentence(const SuiteResult& result) {
-  const std::string on = " on " + List(result.options.targets, 8);
+  const std::string on = " on " + ListText(result.options.targets, 8);
   const std::vector<std::string> failed = NamesOf(result, Outcome::kFailed);
   const int total = static_cast<int>(result.cases.size());
   const int judged = total - result.Count(Outcome::kUnfinished);
@@ -44,7 +33,7 @@ std::string Sentence(const SuiteResult& result) {
            " good" + on;
   } else {
     text = fmt::format("{} of {} fail{}{}: {}", failed.size(), Cases(judged),
-                       failed.size() == 1 ? "s" : "", on, List(failed, 3));
+                       failed.size() == 1 ? "s" : "", on, ListText(failed, 3));
   }
   const int weak = result.Count(Outcome::kWeak);
   if (weak > 0) {

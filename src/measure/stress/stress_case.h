@@ -1,5 +1,5 @@
-// What the stress suite is made of: a case takes something to an extreme and says what
-// must be true there.
+// Cases of the stress suite. A case takes a parameter to an extreme and states what must
+// be true there.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,15 @@ inline const char* Name(Truth truth) {
   return kNames[static_cast<int>(truth)];
 }
 
-/// One measurement, at one value of the parameter. What has no meaning stays as it is.
+/// One measurement, at one value of the parameter. Members without a meaning keep their
+/// defaults.
 struct Point {
   double parameter = std::numeric_limits<double>::quiet_NaN();
   std::string series;  // a curve of the map (a strategy, a shape); empty: there is one
   double expected = 0, measured = 0;
   double standard_error = 0;  // of `measured` (and of `expected`, if it has one)
-  /// What `measured` may be off by besides noise: the error bound that the documentation
-  /// promises, absolute. Never made wider to pass.
+  /// Largest absolute error of `measured` besides noise: the bound that the documentation
+  /// promises. Never made wider to pass.
   double tolerance = 0;
   std::uint64_t invalid = 0;  // NaN, infinite or negative samples
   std::uint64_t samples = 0, rays = 0;
@@ -44,10 +45,10 @@ struct Point {
   /// sampled, a choice that does not fit the scene. Such a point is in neither the map
   /// nor the verdict, but in the report.
   std::string not_measured;
-  /// Of `standard_error`, which is an estimate itself; infinite: it is known.
+  /// Degrees of freedom of `standard_error`, which is an estimate; infinite: it is known.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
-  /// What errors are relative to where `expected` is 0, the size of what is subtracted,
-  /// say. 0: `expected` is.
+  /// Errors are relative to this if it is not 0 (e.g. the size of the terms of a
+  /// difference that is 0), else to `expected`.
   double scale = 0;
 
   bool operator==(const Point&) const = default;

@@ -1,4 +1,5 @@
-// What a run came to, for programs and for the page: stress.json (docs/stress.md).
+// Writes the results of a run for programs and for the page: stress.json
+// (docs/stress.md).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -37,7 +37,7 @@ struct PointVerdict {
   /// Standard errors by which the error exceeds the tolerance: 0 within it, infinite
   /// where there is no noise.
   double z = 0;
-  /// How far `measured` may be from `expected`, noise included.
+  /// Largest difference between `measured` and `expected` that passes, noise included.
   double allowance = 0;
   /// Error, relative to the expected value, that would be found with a probability of
   /// kPower. Infinite: nothing would be.
@@ -56,7 +56,7 @@ struct PointVerdict {
 /// noise is normal. Invalid samples are a fault.
 PointVerdict Judge(const Point& point, double level);
 
-/// What errors of a point are relative to: |expected|, or its scale.
+/// Returns the value that errors of a point are relative to: |expected|, or its scale.
 double ScaleOf(const Point& point);
 
 }  // namespace lanelight::stress

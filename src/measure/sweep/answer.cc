@@ -1,8 +1,10 @@
 // Writes the best strategies of a sweep for the terminal.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "src/base/core/text_layout.h"
 #include "src/base/stat/values.h"
 #include "src/measure/sweep/results.h"
 
@@ -35,30 +37,42 @@ std::string BestText(const Json& leader) {
                             RatioText(leader.at("next_efficiency")));
 }
 
-std::string OpenText(const Json& leader) {
-  std::string text;
-  const Json& equals = leader.at("equals");
-  if (equals.is_number() && equals > 0) {
-    const auto n = equals.get<long>();
-    text = fmt::format("; not decided: {} {} may be as efficient", n,
-                       n == 1 ? "other" : "others");
-  }
-  const auto stopped = leader.at("stopped").get<std::size_t>();
-  if (stopped > 0) text += fmt::format("; {} stopped early", stopped);
-  return text;
+// Returns e.g. "not decided between a, b and 3 more (within 12 %)".
+std::string UndecidedText(const Json& leader) {
+  constexpr std::size_t kMaxNames = 4;
+  const std::vector<std::string> names = leader.at("undecided");
+  const std::string text = "not decided between " + ListText(names, kMaxNames);
+  const Json& within = leader.at("within");
+  if (within.is_null()) return text;
+  const double excess = within.get<double>();
+  return text + (excess < 1 ? fmt::format(" (within {:.2g} %)", 100 * excess)
+                            : fmt::format(" (within a factor of {:.{}f})", 1 + excess,
+                                          excess < 9 ? 1 : 0));
+}
+
+// The ratio to the baseline is left out where that may be as efficient.
+std::string VerdictText(const Json& leader) {
+  const std::vector<std::string> undecided = leader.at("undecided");
+  if (undecided.empty()) return BestText(leader);
+  const std::string text = UndecidedText(leader);
+  const std::string baseline = leader.at("baseline");
+  const bool has_baseline = std::ranges::count(undecided, baseline) > 0;
+  return has_baseline ? text : BestText(leader) + "; " + text;
 }
 
 std::string LineText(const Json& leader) {
   const auto seeds = leader.at("seeds").get<int>();
   const std::string where = ValuesText(leader.at("values"));
-  if (seeds < kMinRankedSeeds) {
+  const std::string count = seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds);
+  if (seeds < kMinRankedSeeds && leader.at("within").is_null()) {
     return fmt::format(
         "{}: {} {} not rank strategies; give at least {}: seed = [1, 2, 3, 4]", where,
-        seeds == 1 ? "one seed" : fmt::format("{} seeds", seeds),
-        seeds == 1 ? "does" : "do", kMinRankedSeeds);
+        count, seeds == 1 ? "does" : "do", kMinRankedSeeds);
   }
-  return fmt::format("{}: {}{} ({} seeds)", where, BestText(leader), OpenText(leader),
-                     seeds);
+  const auto stopped = leader.at("stopped").get<std::size_t>();
+  return fmt::format("{}: {}{} ({})", where, VerdictText(leader),
+                     stopped > 0 ? fmt::format("; {} stopped early", stopped) : "",
+                     count);
 }
 
 }  // namespace

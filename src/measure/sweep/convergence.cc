@@ -136,7 +136,8 @@ struct WorstPixels {
   std::vector<double> shares;
 };
 
-// What all images say: errors by count and seed, and the grey values of the worst pixels.
+// Measures over all images: errors by count and seed, and the grey values of the worst
+// pixels.
 struct Measured {
   std::vector<stat::Level> levels;
   std::vector<std::vector<std::vector<double>>> greys;  // by count, pixel and seed

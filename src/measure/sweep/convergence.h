@@ -1,5 +1,5 @@
-// How the error of a strategy falls with the number of samples: as 1 / N or more slowly,
-// why, and because of which pixels.
+// Finds how the error of a strategy falls with the number of samples: as 1 / N or more
+// slowly, and which pixels cause that.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,7 @@ struct CellGroup {
   std::size_t context = 0;         // equal for groups that differ in strategy only
   std::vector<std::size_t> cells;  // finished ones, by index
   bool lost = false;               // by --race: it is not among the best
+  std::optional<double> within;    // of an undecided race (RaceResult::within)
 };
 
 /// Returns all groups in the order of the grid, with or without finished cells. A
@@ -74,7 +76,7 @@ nlohmann::json GroupsJson(const std::vector<CellGroup>& groups,
                           const std::vector<nlohmann::json>& cells,
                           const std::string& baseline);
 
-/// Writes the most efficient strategy, and how many may be as efficient, for the last
+/// Writes the most efficient strategy, and which may be as efficient, for the last
 /// context of each scene with several strategies of known error; docs/sweep.md.
 nlohmann::json LeadersJson(const std::vector<CellGroup>& groups,
                            const std::vector<nlohmann::json>& cells,

@@ -131,7 +131,7 @@ SceneDescription ReadBenchScene(const std::string& scene) {
 
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_scene) {
+    const std::function<bool(const BenchProgress&)>& on_scene) {
   std::vector<ThroughputRow> rows;
   const Stopwatch all;
   for (std::size_t i = 0; i < options.scenes.size() && !stop; ++i) {
@@ -141,7 +141,7 @@ std::vector<ThroughputRow> MeasureThroughput(
     const double round = watch.Seconds(), left = options.seconds - all.Seconds();
     const auto scenes = double(options.scenes.size() - i);
     const double minimum = round * ((kMinRepeats + 1) * scenes - 1);
-    on_scene({i, minimum, std::max(minimum, left)});
+    if (!on_scene({i, minimum, std::max(minimum, left)})) break;
     const double max_seconds = round + left / scenes;
     for (int repeats = 0; !stop; ++repeats) {
       const bool enough = repeats >= kMinRepeats;

@@ -55,7 +55,8 @@ struct ThroughputOptions {
   std::vector<int> threads;          // one row each
   std::vector<std::string> targets;  // one row each
   double within = 0.01;  // ends when RelativeHalfWidth() of all rows is at most this
-  double seconds = 60;   // of all rows together, unless kMinRepeats take longer
+  /// Seconds of all rows together, unless kMinRepeats take longer.
+  double seconds = 60;
 };
 
 /// One scene, on one SIMD target, with one number of threads.
@@ -120,10 +121,11 @@ struct BenchProgress {
 /// Returns rows by scene, then target, then threads. Before timing, compares every image
 /// with the first one of its scene; throws CheckFailure if they differ. Setting `stop`
 /// ends it early and returns the rows measured so far. Calls `on_scene` for each scene
-/// after its first renders, which are a warm-up.
+/// after its first renders, which are a warm-up; if it returns false, the measurement
+/// ends.
 std::vector<ThroughputRow> MeasureThroughput(
     const ThroughputOptions& options, const std::atomic<bool>& stop,
-    const std::function<void(const BenchProgress&)>& on_scene);
+    const std::function<bool(const BenchProgress&)>& on_scene);
 
 /// Returns BusyReasons() of the machine (src/base/core/machine_info.h), for the row that
 /// waited longest.

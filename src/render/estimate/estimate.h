@@ -1,4 +1,4 @@
-// How far a render is from the converged image, estimated from its own samples.
+// Estimates the error of a render from its own samples.
 #pragma once
 
 #include <atomic>

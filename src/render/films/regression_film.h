@@ -19,8 +19,8 @@
 //               scene, and O(functions / n) of it for the errors of the coefficients
 //
 // Sums are of a half's samples in their order, so that they do not depend on how these
-// come in. Those of single precision that only coefficients need end with
-// kMaxFittedSamples samples: nothing more is to be learned.
+// come in. Single-precision sums that only coefficients need end with kMaxFittedSamples
+// samples, after which coefficients hardly change.
 #pragma once
 
 #include <array>
@@ -132,7 +132,7 @@ class RegressionFilm {
   };
   template <class T>
   using Halves = std::array<T, 2>;
-  // What comes of a fit, by channel.
+  // Results of a fit, by channel.
   struct Fitted {
     float corrections[kReplicates][3] = {};
     float products[3] = {}, squares[3] = {};  // sums of f times the fit, of its square

@@ -1,5 +1,5 @@
-// What decides the pixels of a render, as JSON: two renders of the same identity have the
-// same samples, however they are cut, stopped and resumed.
+// Writes all inputs that determine the pixels of a render as JSON. Two renders of the
+// same identity have the same samples for any split, stop and resume.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -58,8 +58,8 @@ std::string WhyNoLightPaths(const InputError& error) {
   return "light subpaths do not support " + text.substr(begin, end - begin);
 }
 
-// Plans the render. Where light subpaths are not supported that only the scene's
-// integrator asks for, the scene loses them.
+// Plans the render. Removes light subpaths if only the scene's integrator asks for them
+// and the scene does not support them.
 Plan PlanOf(const RenderSettings& settings, SceneDescription& description,
             PreparedScene& scene) {
   const PlanOptions options = PlanOptionsOf(settings, description);

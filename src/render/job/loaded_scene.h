@@ -1,4 +1,4 @@
-// What a scene file says, and how long reading and compiling it took.
+// A compiled scene file, and the seconds that reading and compiling it took.
 #pragma once
 
 #include <cstdint>

@@ -109,8 +109,9 @@ void AddSums(ProfileReport& report) {
 
 constexpr double kLineBytes = 64;
 
-// Misses fetch a line each from the level behind: those of the first cache from the
-// second, those of the last from main memory. As parts of what was measured.
+// Returns the larger fraction of a measured bandwidth that cache misses take. Each
+// fetches a line: misses of the first cache from the second, those of the last from main
+// memory.
 double CacheMissTraffic(const Peaks& peaks, const ProfileRow& row) {
   const double ns = row.NsPerItem();
   if (peaks.levels.size() < 2 || !(ns > 0)) return 0;

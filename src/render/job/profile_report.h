@@ -1,5 +1,5 @@
-// Where the time of a render went, and how far from the limits of the machine: the rows
-// of `lanelight profile`.
+// Rows of `lanelight profile`: the time of each stage, relative to the limits of the
+// machine.
 #pragma once
 
 #include <cstddef>

@@ -183,6 +183,8 @@ Json ToJson(const RenderReport& report, const Json& head) {
         {"rays", r.training.rays},
         {"note", r.training.note},
         {"changes", r.training.changes},
+        {"gain", r.training.gain > 0 ? Json(r.training.gain) : Json()},
+        {"filtered_gain", r.training.gain > 0 ? Json(r.training.filtered_gain) : Json()},
         {"roulette", Name(r.roulette)}}},
       {"rays_per_second", double(rays) / seconds},
       {"stopped_early", r.stopped_early},

@@ -23,6 +23,8 @@ void ForEachCount(Counts& counts, const Do& with_member) {
 template <class Training, class Do>
 void ForEachOutcome(Training& training, const Do& with_member) {
   with_member("note", training.note);
+  with_member("gain", training.gain);
+  with_member("filtered_gain", training.filtered_gain);
   with_member("samples", training.samples);
   with_member("rays", training.rays);
   with_member("seconds", training.seconds);

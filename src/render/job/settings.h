@@ -1,4 +1,4 @@
-// What a render is asked to do beyond what the scene file says, and the limits of both.
+// Settings of a render that are not in the scene file, and the limits of both.
 #pragma once
 
 #include <array>

@@ -38,7 +38,7 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   }
 }
 
-// What light-paths=splats does not work with: features, and what to use instead.
+// Features that light-paths=splats does not support, and what to use instead.
 struct Unsupported {
   FeatureSet any;
   const char* what;

@@ -130,8 +130,8 @@ void AddPhases(const PreparedScene& scene, const Stages& registered, Plan& plan)
   AddPhase(PhaseId::kFindEdges, features, registered, plan);
 }
 
-// Shadow rays through interfaces use the kernels of the path's rays. Of a surface they
-// need the point and both normals, nothing else of its columns.
+// Shadow rays through interfaces use the kernels of the path's rays. They need only the
+// point and both normals of a surface.
 RayKernels FindRayKernels(const Plan& plan) {
   RayKernels found;
   if (!plan.features.Has(Feature::kInterfaces)) return found;

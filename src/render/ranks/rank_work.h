@@ -69,7 +69,7 @@ class RankWork : public RoundRunner {
   const RunClock& clock_;
   ThreadWork& threads_;
   Films& films_;
-  // Of the other ranks, as of the last round or Gather().
+  // Counts and levels of the other ranks at the last round or Gather().
   RunCounts other_counts_;
   TileLevels other_levels_;
   std::atomic<std::uint64_t> rendered_elsewhere_{0};

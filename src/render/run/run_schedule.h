@@ -1,5 +1,5 @@
-// What a run renders next, and when a run with a target checks its own error: at certain
-// numbers of samples per pixel (src/render/schedule/schedule.h).
+// Decides what a run renders next, and when a run with a target checks its error: at
+// certain numbers of samples per pixel (src/render/schedule/schedule.h).
 #pragma once
 
 #include <cmath>

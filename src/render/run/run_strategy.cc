@@ -35,8 +35,8 @@ std::uint64_t SamplesWithin(double seconds, TrainingPass pass) {
       WithChanges(pass.scene, pass.options, UntrainedChanges(pass.scene, pass.options));
   const TrainingWork work = MakeTrainingWork(pass.scene, kSamples, 16);
   double rate = INFINITY;
-  // The first pass warms up: memory is touched, code and scene are read. Of the others
-  // the slowest counts: where others use the machine too, one may have it for itself.
+  // The first pass warms up: memory is touched, code and scene are read. The slowest of
+  // the others counts: if other programs use the machine, one pass may run without them.
   for (int i = 0; i < kPasses; ++i) {
     const Stopwatch watch;
     RunTrainingPass(pass, work);

@@ -70,8 +70,8 @@ double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixe
 ///
 /// The two differ by the second moments of independent samples: what stratified points
 /// take off is variance of the mean given the first numbers of a path, which decisions on
-/// its way leave as it is. A difference is taken to have the colour of the image. Of
-/// single pixels the result may be negative.
+/// its way leave as it is. A difference is taken to have the colour of the image. Results
+/// of single pixels may be negative.
 std::vector<double> SinglePathVariances(const TrainingSamples& samples,
                                         const TrainingWork& work, const PilotImage& image,
                                         const PathValues& values, float exposure,

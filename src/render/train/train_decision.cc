@@ -48,6 +48,9 @@ constexpr std::uint64_t kMinComparedSamples = 256;
 // pixels, they find it in none.
 constexpr double kStandardErrors = 0.5;
 
+// Logarithms of gains have no limit where a trial sees no noise.
+double LimitedGain(double log) { return std::exp(std::clamp(log, -7.0, 7.0)); }
+
 class Decider {
  public:
   explicit Decider(const TrainingContext& context)
@@ -140,8 +143,17 @@ class Decider {
           fmt::format("; {} gains {:.2f}x, {:.2f}x after a filter", t.candidate.changes,
                       std::exp(t.per_pixel.log), std::exp(t.filtered.log));
     }
+    // Over the strategy as given.
+    const double of_base = base.changes.empty() ? 0 : base.EfficiencyGain().log;
+    const double own = &base == &chosen ? 0 : chosen.EfficiencyGain().log;
+    if (!chosen.changes.empty()) {
+      outcome_.gain = outcome_.filtered_gain = LimitedGain(of_base + own);
+    }
     const TriedOnTiles* const best = BestOf(tried);
     if (best == nullptr) return;
+    const double before = of_base + (chosen.splits ? 0 : own);
+    outcome_.gain = LimitedGain(before + best->per_pixel.log);
+    outcome_.filtered_gain = LimitedGain(before + best->filtered.log);
     TriedStrategy beside = chosen.splits ? base : chosen;
     beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
     chosen = std::move(beside);

@@ -1,4 +1,4 @@
-// How much of a plan is to be run, and how.
+// Options of a run: how much of a plan is rendered, and how.
 #pragma once
 
 #include <atomic>

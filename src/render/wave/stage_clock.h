@@ -71,7 +71,7 @@ class StageClock {
     Finish(stages_ + std::size_t(part), items, 0);
   }
 
-  /// By stage, then by TaskPart; both of the same size.
+  /// Return rows by stage, then by TaskPart; both have the same size.
   const std::vector<StageCounters>& rows() const { return rows_; }
   const std::vector<StageTotals>& totals() const { return totals_; }
   /// Returns costs with vectors for kBounceSlots. Empty without ProfileOptions::bounces.

@@ -1,4 +1,4 @@
-// How the tasks of a run are stopped, and when tasks in flight are cancelled.
+// Stops the tasks of a run, and decides when tasks in flight are cancelled.
 #pragma once
 
 #include <algorithm>

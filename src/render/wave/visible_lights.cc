@@ -27,7 +27,7 @@ constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kVisibleLightRays
 
 /// Largest finite values: a light's edge is added to the largest light.
 constexpr double kLargest = std::numeric_limits<float>::max();
-/// Where small lights lie, which may be hidden or be part of a larger one.
+/// Rays for pixels with small lights, which may be hidden or be part of a larger light.
 constexpr std::uint32_t kSmallLightRays = 256;
 
 constexpr std::uint32_t kFindSeed = 0x2545f491u;

@@ -1,7 +1,7 @@
 // seen-lights=apart: in pixels at the edge of a light that the camera sees, the light's
 // own emission is integrated by further camera rays, which cost a small part of a path.
-// Of all that scatters in an image the edges of bright lights are the rarest and
-// brightest: a lamp of radiance 17 that covers a hundredth of a pixel, say.
+// Edges of bright lights are the rarest and brightest noise of an image: a lamp of
+// radiance 17 that covers a hundredth of a pixel, say.
 //
 // Which pixels these are is a property of the scene. A few camera rays of each pixel and
 // its neighbours tell, and more around lights smaller than pixels; they have their own
@@ -80,7 +80,8 @@ struct VisibleLightSamples {
   std::uint32_t SamplesPerRound() const {
     return groups.unit * (groups.replicates ? kReplicates : 1);
   }
-  /// Of the stream, for the paths [begin, end) and those that take turns with them.
+  /// Return the range of the stream for the paths [begin, end) and those that take turns
+  /// with them.
   std::uint64_t Begin(std::uint64_t begin) const {
     return begin / SamplesPerRound() * SamplesPerRound() * rays;
   }

@@ -54,4 +54,11 @@ TEST_CASE("tables fit their width and keep all columns", "[core]") {
   CHECK(TextTable(lines, {1, 1, 0}).find("second") != std::string::npos);
 }
 
+TEST_CASE("a list names so many and counts the others", "[core]") {
+  CHECK(ListText({"a"}, 2) == "a");
+  CHECK(ListText({"a", "b"}, 2) == "a and b");
+  CHECK(ListText({"a", "b", "c"}, 3) == "a, b and c");
+  CHECK(ListText({"a", "b", "c", "d"}, 2) == "a, b and 2 more");
+}
+
 }  // namespace lanelight

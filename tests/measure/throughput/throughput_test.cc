@@ -30,7 +30,7 @@ ThroughputOptions SmallBench() {
 
 std::vector<ThroughputRow> Measure(const ThroughputOptions& options) {
   const std::atomic<bool> stop{false};
-  return MeasureThroughput(options, stop, [](const BenchProgress&) {});
+  return MeasureThroughput(options, stop, [](const BenchProgress&) { return true; });
 }
 
 }  // namespace

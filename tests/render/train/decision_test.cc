@@ -45,6 +45,13 @@ Rendered Decide(const SceneDescription& scene, const std::string& strategy,
   return RenderDescription(scene, t);
 }
 
+// Returns the number behind the last place of `words` in a note.
+double NumberAfter(const std::string& note, const std::string& words) {
+  const std::size_t place = note.rfind(words);
+  return place == std::string::npos ? NAN
+                                    : std::strtod(&note[place + words.size()], nullptr);
+}
+
 bool SameImage(const Rendered& a, const Rendered& b) {
   return Identical(a.film, b.film) && a.result.rays_closest == b.result.rays_closest &&
          a.result.rays_shadow == b.result.rays_shadow;
@@ -74,6 +81,10 @@ TEST_CASE("the trial run chooses a milder roulette where late light dominates",
   INFO(r.result.training.note);
   CHECK(r.result.roulette == Roulette::kThroughput);
   CHECK(r.result.training.changes == "roulette=throughput:0:2:4,decide=none");
+  CHECK(r.result.training.gain ==
+        Approx(NumberAfter(r.result.training.note, "roulette=throughput:0:2:4 "))
+            .epsilon(0.01));
+  CHECK(r.result.training.filtered_gain == r.result.training.gain);
   CHECK_THAT(r.result.training.note,
              Catch::Contains("rendered with roulette=throughput:0:2:4") &&
                  Catch::Contains("roulette=adjoint"));
@@ -104,12 +115,20 @@ TEST_CASE("the trial run chooses path reuse where indirect light dominates",
   INFO(r.result.training.note);
   CHECK(r.result.training.changes == "roulette=throughput:0:2:4,reuse=block,decide=none");
   CHECK(r.film.groups().dependents > 10);  // of pixels that share paths
+  // The gain of the roulette, times that of path reuse beside it.
+  const std::string& note = r.result.training.note;
+  const double roulette = NumberAfter(note, "roulette=throughput:0:2:4 ");
+  CHECK(r.result.training.gain ==
+        Approx(roulette * NumberAfter(note, "reuse=block gains ")).epsilon(0.01));
+  CHECK(r.result.training.filtered_gain <
+        r.result.training.gain);  // a filter removes less noise of shared paths
   CHECK(SameImage(r, Decide(Room(0.9, 100), "roulette=throughput:0:2:4,reuse=block")));
   // Nothing is shared by what leaves after one event, nor by mirrors.
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
   const Rendered none = Decide(plane, "decide=pilot");
   CHECK(none.result.training.changes == "decide=none");
+  CHECK(none.result.training.gain == 0);
   CHECK(none.film.groups().dependents == 1);
 }
 

@@ -7,8 +7,8 @@ function whereText(values) {
   return axes.map((axis) => valueLabel(axis, values[axis.name])).join(", ");
 }
 
-function certaintyText({ equals, seeds, strategies, stopped }) {
-  if (seeds < 4) {
+function certaintyText({ equals, seeds, strategies, stopped, within }) {
+  if (seeds < 4 && !known(within)) {
     const are = seeds === 1 ? "1 seed is" : `${seeds} seeds are`;
     return `${are} too few to rank strategies; use 4 or more`;
   }
@@ -43,7 +43,7 @@ function leadersText(leaders) {
   const parts = order.slice(0, 3).map(([name, n]) => `${name} on ${n}`);
   const more = order.length > 3 ? ", other strategies on the rest" : "";
   const head = `Most efficient on ${leaders.length} scenes: ${parts.join(", ")}${more}`;
-  const few = leaders.filter((l) => l.seeds < 4);
+  const few = leaders.filter((l) => l.seeds < 4 && !known(l.within));
   if (few.length === leaders.length) return `${head}; ${certaintyText(few[0])}.`;
   const alone = leaders.filter((l) => l.seeds >= 4 && l.equals === 0).length;
   const better = leaders.filter((l) => l.best !== l.baseline && l.efficiency.low > 1);

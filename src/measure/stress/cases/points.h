@@ -1,4 +1,4 @@
-// What cases are made of: axes, renders of a text held against an expected value, rates
+// Parts of cases: axes, renders of a text that are compared with an expected value, rates
 // and bounds.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace lanelight::stress {
 
-/// What means of images may be off by besides noise, of themselves (docs/numbers.md).
+/// Largest relative error of the mean of an image besides noise (docs/numbers.md).
 inline constexpr double kFloatError = 1e-5;
 
 /// The part of an axis that is promised.

@@ -28,8 +28,8 @@ double MetalFurnace(double alpha_x, double alpha_y, double cosine) {
   return IntegrateGgx(alpha_x, alpha_y, cosine, 0, MetalFresnel).reflected;
 }
 
-// What is seen of a sky of radiance 1 on both sides of a face of glass: refraction from
-// above spreads radiance by 1 / eta^2.
+// Returns the radiance of a glass surface under a sky of radiance 1 on both sides.
+// Refraction from above divides radiance by eta^2.
 double GlassFurnace(double alpha, double eta, double cosine) {
   const auto fresnel = [eta](double c) { return FresnelDielectric(c, eta); };
   const double f = fresnel(cosine);

@@ -1,5 +1,5 @@
-// What every choice of every axis of a strategy makes of stiff scenes: does the mean
-// hold, and what does an answer cost?
+// Renders stiff scenes with every choice of every axis of a strategy. Checks the
+// mean, and measures the cost of a precise answer.
 #include <fmt/format.h>
 
 #include <algorithm>

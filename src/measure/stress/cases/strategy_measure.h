@@ -9,7 +9,7 @@
 
 namespace lanelight::stress {
 
-/// What is rendered, and what is known beforehand of how strategies fare.
+/// A scene that is rendered, and how strategies are known to perform on it.
 struct StrategyScene {
   std::string text;
   double expected = 0;
@@ -29,9 +29,9 @@ bool FindsLightsByChance(const std::string& strategy);
 /// Renders a pilot of its own first.
 bool HasTraining(const std::string& strategy);
 
-/// One point for each choice, all others as by default; series are called what
-/// --strategy takes. Seconds are without pilots, which are the same for any length.
-/// What a scene refuses, or what too few samples say nothing of, is not measured.
+/// One point for each choice, all others as by default; series are called what --strategy
+/// takes. Seconds are without pilots, which are the same for any length. Omits strategies
+/// that the scene does not support or that too few samples cannot judge.
 std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort);
 
 }  // namespace lanelight::stress
