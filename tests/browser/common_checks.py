@@ -8,9 +8,9 @@ from checks import NAMES, STATES, check, pictures, require, theme
 
 
 def states(page):
-    """Opens the page in each of the ways in which it can be seen."""
+    """Shows the page in each of the ways in which it can be seen."""
+    page.open()
     for number, enter in enumerate(STATES or [lambda _: None]):
-        page.open()
         enter(page)
         page.draw_all()
         yield number
@@ -53,11 +53,12 @@ def every_state_shows_names_as_text_and_fits_a_phone(page):
 
 @check
 def nothing_is_wider_than_the_window(page):
-    for width, height in ((360, 740), (390, 844), (1440, 900), (1920, 1080)):
-        page.resize(width, height, mobile=width < 500)
+    for opened, resized in (((360, 740), (390, 844)), ((1920, 1080), (1440, 900))):
+        page.resize(*opened, mobile=opened[0] < 500)
         page.open()
         page.draw_all()
-        require_width(page, width, height, "when opened")
+        require_width(page, *opened, "when opened")
+        require_width(page, *resized, "when resized")
 
 
 def require_theme_when_opened(page, wanted, what):
@@ -74,7 +75,7 @@ def require_theme_when_opened(page, wanted, what):
 @check
 def dark_changes_everything(page):
     page.open()
-    page.scroll_through()
+    page.draw_all()
 
     def colours():
         drawing = page.find("main svg, main canvas.pane")
@@ -92,7 +93,7 @@ def dark_changes_everything(page):
     page.prefer("dark")
     require_theme_when_opened(page, "dark", "the system's preference is ignored")
     page.prefer("light")
-    page.open()
+    page.reset()
 
 
 @pictures

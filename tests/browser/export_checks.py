@@ -5,7 +5,6 @@ import io
 import xml.etree.ElementTree as xml
 
 from checks import check, require
-from hero_checks import open_crowd
 from saved import saved
 
 
@@ -70,7 +69,7 @@ def the_winner_and_its_rivals_are_told_apart(page):
         if "may be equally efficient" in sentence and "others" not in sentence:
             for name in sentence.split("; ")[1].split(" may be")[0].split(", "):
                 require(name in names, name, "has no label:", names)
-    page.open()
+    page.reset()
 
 
 @check
@@ -90,19 +89,6 @@ def difference_has_content_at_once(page):
     ink = page.ink(page.find('[data-pane="difference"]'))
     require(ink["coloured"] > 0.01 * ink["pixels"], "the difference is blank:", ink)
     page.click('#compare [data-value="side"]')
-
-
-@check
-def many_strategies_do_not_make_it_endless(page):
-    open_crowd(page)
-    page.scroll_through()
-    height = page.js("return document.documentElement.scrollHeight")
-    require(height < 14000, "the page is", height, "pixels high")
-    others = "#maps .others"
-    few = len(page.all("#maps .map-row"))
-    page.click(f"{others} summary")
-    require(len(page.all("#maps .map-row")) > few, "the others do not come")
-    page.open()
 
 
 @check

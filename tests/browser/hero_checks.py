@@ -11,9 +11,9 @@ def scene(page, index):
     return data(page)["scenes"][index]
 
 
-def open_crowd(page):
-    page.open()
-    page.click("#scenes a", CROWD)
+def show_crowd(page):
+    if page.js("return document.querySelector('#content').dataset.scene") != "crowd":
+        page.click("#scenes a", CROWD)
 
 
 @check
@@ -21,7 +21,6 @@ def the_first_screen_answers_with_a_picture(page):
     for width, height in ((1920, 1080), (1280, 800)):
         page.resize(width, height)
         page.open()
-        page.settle(20)
         data = scene(page, 0)
         winner = data["strategies"][data["ranking"][0]]
         sentence = page.find("#summary .verdict").text
@@ -34,12 +33,12 @@ def the_first_screen_answers_with_a_picture(page):
         ink = page.ink(plot(page, "hero"))
         require(ink["coloured"] > 800, "no curves:", ink)
         require(page.box('[data-plot="hero"]')[3] < height, "below the first screen")
-    page.open()
+    page.reset()
 
 
 @check
 def warnings_are_said_once(page):
-    open_crowd(page)
+    show_crowd(page)
     items = [item.text for item in page.all("#summary .warnings li")]
     require(0 < len(items) <= 8, len(items), "warnings:", items)
     titles = [item.text for item in page.all("#summary .warnings li > b")]
@@ -47,14 +46,20 @@ def warnings_are_said_once(page):
     text = " ".join(items)
     require("at 16 samples per pixel. Ranks change." in text, "no caution:", text)
     require("may be wrong" in text, "no word of it:", text)
-    page.open()
+
+
+@check
+def refused_intervals_are_told(page):
+    show_crowd(page)
+    text = page.find("#calibration").text
+    require("no interval" in text, "the text says:", text)
 
 
 @check
 def the_ranking_fits(page):
     for width in (1280, 1920):
         page.resize(width, 1000)
-        open_crowd(page)
+        show_crowd(page)
         page.show("#ranking")
         inner, outer = page.js(WIDTHS)
         require(inner <= outer, "main columns clipped at", width, inner, outer)
@@ -66,16 +71,14 @@ def the_ranking_fits(page):
         require(len(page.all("#ranking thead th")) > few + 5, "not all columns")
         require(page.js("return document.documentElement.scrollWidth") <= width,
                 "the page scrolls sideways at", width)
-        if width < 1900:
-            continue
         inner, outer = page.js(WIDTHS)
-        require(inner <= outer, "all columns clipped at", width, inner, outer)
-    page.open()
+        require(inner <= outer or width < 1900, "all columns clipped at", width, inner, outer)
+        page.click('#ranking [data-value="main"]')
 
 
 @check
 def full_texts_are_there_on_demand(page):
-    open_crowd(page)
+    show_crowd(page)
     page.show("#ranking")
     full = "#ranking details.name .full-text"
     require(not page.find(full).is_displayed(), "the full text is there at once")
@@ -84,12 +87,23 @@ def full_texts_are_there_on_demand(page):
     require("light-selection=power" in page.find(full).text, "not the full text")
     rows = [row.text for row in page.all("#ranking tr.not-run")]
     require(any("points=sobol, scene" in row for row in rows), "no twins:", rows)
-    page.open()
+
+
+@check
+def many_strategies_do_not_make_it_endless(page):
+    show_crowd(page)
+    page.scroll_through()
+    height = page.js("return document.documentElement.scrollHeight")
+    require(height < 14000, "the page is", height, "pixels high")
+    others = "#maps .others"
+    few = len(page.all("#maps .map-row"))
+    page.click(f"{others} summary")
+    require(len(page.all("#maps .map-row")) > few, "the others do not come")
 
 
 @check
 def many_curves_fade_and_filter(page):
-    open_crowd(page)
+    show_crowd(page)
     page.show("#curves")
 
     def pressed():
@@ -112,12 +126,4 @@ def many_curves_fade_and_filter(page):
     page.click('[data-show="none"]')
     none = page.ink(plot(page, "spp"))
     require(none["ink"] > 0.3 * first["ink"], "the others are gone, not grey:", none)
-    page.open()
-
-
-@check
-def refused_intervals_are_told(page):
-    open_crowd(page)
-    text = page.find("#calibration").text
-    require("no interval" in text, "the text says:", text)
-    page.open()
+    page.reset()

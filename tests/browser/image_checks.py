@@ -89,7 +89,7 @@ def exposure_and_tone_change_pixels(page):
         seen.append(page.ink(page.find("#compare canvas.pane"))["hash"])
     require(len(set(seen)) == 5, "some looks are equal:", seen)
     page.screenshot("comparator-false-colour", "#compare")
-    page.open()
+    page.reset()
 
 
 @check

@@ -65,6 +65,8 @@ def two_pages_have_their_own_cameras(page):
 
 @check
 def every_width_holds_the_page(page):
+    page.click("#pause")  # drawing the picture takes long where it is wide
+    until(page, "return page.state.paused", "it goes on")
     for width in WIDTHS:
         for scheme in ("light", "dark"):
             page.resize(width, 900, mobile=width < 500)
@@ -77,7 +79,7 @@ def every_width_holds_the_page(page):
                   .filter((e) => e.getBoundingClientRect().right > innerWidth + 1)
                   .map((e) => e.tagName + '.' + e.className).slice(0, 5)""")
             require(not outside, f"at {width} cut off:", outside)
-    page.prefer("light")
+    page.click("#pause")
 
 
 @check
@@ -120,6 +122,7 @@ def without_webgl_2_it_says_so(page):
 @check
 def minutes_of_use_leave_no_memory(page):
     fresh(page)
+    page.resize(400, 300)  # a small picture is drawn fast
     program = live_program.THE_ONE[0]
 
     def use():

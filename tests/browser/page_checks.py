@@ -16,10 +16,12 @@ def scenes_switch(page):
         page.click("#scenes a", index)
         require(page.find("#content").get_attribute("data-scene") == name, "not", name)
         require(page.find("h1").text == name, "wrong title for", name)
+    for index in (1, 4):  # a name that has to be quoted in an address, and one that has not
+        page.click("#scenes a", index)
         page.driver.refresh()
         page.settle()
-        require(page.find("h1").text == name, name, "is not remembered")
-    page.open()
+        require(page.find("h1").text == names[index], names[index], "is not remembered")
+    page.reset()
 
 
 @check
@@ -28,7 +30,7 @@ def machines_are_named(page):
     require("<b>Synthetic</b> 1000, 4 cores, 8.0 GiB, load 1.50; unknown" in text, text)
     page.click("#scenes a", 1)
     require("Synthetic 2000, 2 cores" in page.find("#summary").text, "not the writer's")
-    page.open()
+    page.reset()
 
 
 @check

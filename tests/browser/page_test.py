@@ -24,4 +24,4 @@ MODULES = {
 
 kind, path, folder, *chosen = sys.argv[1:]
 modules = [*MODULES[kind].split(), "common_checks"]
-run_checks.main(browser.start(), path, folder, modules, chosen)
+run_checks.main(browser.Page(browser.start(), path, folder), modules, chosen)

@@ -50,7 +50,7 @@ def choices_of_an_axis_are_rows(page):
     for name in ("default", "sobol", "independent", "lattice"):
         require(name in text, name, "is not in", text)
     require("[" in text, "no intervals:", text)
-    page.open()
+    page.reset()
 
 
 @check

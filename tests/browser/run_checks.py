@@ -5,7 +5,6 @@ import sys
 import time
 import traceback
 
-import browser
 import checks
 
 
@@ -13,7 +12,7 @@ def run(page, function):
     """Returns whether the check failed."""
     start = time.monotonic()
     try:
-        page.resize(1280, 900)
+        page.resize(*page.window)
         page.prefer("light")
         function(page)
     except Exception as error:  # one failed check must not hide the others
@@ -26,19 +25,18 @@ def run(page, function):
     return False
 
 
-def main(driver, path, folder, modules, chosen=()):
+def main(page, modules, chosen=()):
     """Of all checks of these modules, or those that are chosen by name. Ends the process."""
     for module in modules:
         importlib.import_module(module)
     wanted = [function for function in checks.CHECKS if function.__module__ in modules
               and (not chosen or function.__name__ in chosen)]
     try:
-        page = browser.Page(driver, path, folder)
         page.open()
         failed = sum(run(page, function) for function in wanted)
         for message in page.console() if failed else []:
             print("console:", message)
     finally:
-        driver.quit()
-    print(f"{len(wanted)} checks, {failed} failed; screenshots: {folder}")
+        page.driver.quit()
+    print(f"{len(wanted)} checks, {failed} failed; screenshots: {page.folder}")
     sys.exit(1 if failed or not wanted else 0)

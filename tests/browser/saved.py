@@ -16,4 +16,4 @@ SAVED = """
 
 
 def saved(page, name, kind):
-    return page.driver.execute_async_script(SAVED, name, kind)
+    return page.js_async(SAVED, name, kind)

@@ -31,7 +31,6 @@ def check_widths(page):
     """Checks that the page fits every screen: what is wider scrolls by itself."""
     for width, height in WIDTHS.items():
         page.resize(width, height, mobile=width < 500)
-        page.settle(1)
         wide = page.js("return document.documentElement.scrollWidth")
         require(wide <= width, page.driver.current_url, "is", wide, "pixels wide")
 
@@ -86,7 +85,7 @@ def check_colours(page):
 def main():
     maker, lanelight, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
     site = make(maker, lanelight, folder)
-    driver = browser.start()
+    driver = browser.start(logs=("browser",))
     try:
         page = browser.Page(driver, str(site / "index.html"), folder / "screenshots")
         pages = sorted(site.rglob("*.html"))

@@ -166,7 +166,7 @@ def targets_change_everything(page):
     ys = [(math.log10(p["seconds"]), c[1]) for p, c in zip(numbers, drawn(page, "cost")[1])]
     require_linear(ys, "cost on EMU128")
     require(len(before) == len(drawn(page, "cost")), "other curves")
-    page.open()
+    page.reset()
 
 
 @check

@@ -35,7 +35,7 @@ def the_table_filters_and_sorts(page):
     filter_by(page, "outcome", "")
     page.click('#cases [data-key="outcome"]')
     require(rows(page)[:2] == ["wrong-inside", "noisy"], rows(page))
-    page.open()
+    page.reset()
 
 
 @check

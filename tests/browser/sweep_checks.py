@@ -113,7 +113,7 @@ def any_two_axes_can_be_chosen(page):
     choose(page, "along", "spp")
     require(page.find('[data-menu="lines"]').get_attribute("value") == "threads",
             "they do not change places")
-    page.open()
+    page.reset()
 
 
 @check
@@ -135,7 +135,7 @@ def axes_without_positions_get_rows(page):
     for (text, x), rate in zip(rows, rates):
         share = (x - x0) / (x1 - x0)
         require(abs(share - (rate - rates[0]) / (rates[1] - rates[0])) < 0.05, text, x)
-    page.open()
+    page.reset()
 
 
 @check
@@ -146,7 +146,7 @@ def without_known_errors_there_is_no_plot(page):
     choose(page, "spp", "1")
     require(plot(page, "panel-0") is None, "an empty plot")
     require("Relative MSE was not measured for this selection" in page.text(), "no word of it")
-    page.open()
+    page.reset()
 
 
 @check
