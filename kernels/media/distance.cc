@@ -6,7 +6,7 @@
 //   unbiased    a channel that scatters has sigma_t > 0, so its distances are drawn
 //   variance    none from T if all channels are equal
 //   absorbers   sigma_s = 0: there are no events, and T is the weight
-//   distances=equiangular  half of the points by the angle around a light
+//   distances=equiangular  half of the first points of a path by the angle around a light
 //   emission    what the medium emits along the ray is known in closed form, and added
 //   interfaces  the remaining optical depth is again exponential: the number is reused
 //   source      Novak et al. 2018, "Monte Carlo Methods for Volumetric Light Transport

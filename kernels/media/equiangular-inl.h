@@ -60,9 +60,14 @@ struct Equiangular {
   }
 };
 
-/// Samples one half of the events in media by the angle around a light. Transmittance
-/// decides whether there is an event, so surfaces behind are found as often as before.
-/// For a channel with extinction sigma, on a ray of length t, the density is (sigma T(d)
+/// Number of events of a path of which lights draw the distances. Such an event can
+/// double the weight of a path, so that many of them would make rare bright samples.
+inline constexpr int32_t kEquiangularEvents = 2;
+
+/// Samples one half of the first events in media by the angle around a light.
+/// Transmittance decides whether there is an event, so surfaces behind are found as often
+/// as before. For a channel with extinction sigma, on a ray of length t, the density is
+/// (sigma T(d)
 /// + (1 - T(t)) p_angle(d)) / 2.
 struct EquiangularHalf {
   Equiangular around;
@@ -93,7 +98,11 @@ struct EquiangularHalf {
  private:
   LANELIGHT_INLINE EquiangularHalf(const Wave& wave, const Slots& slots, VF drawn, VF t,
                                    WalkRandom random)
-      : around(Around(wave, slots, drawn, t, random)), jitter(Jitter(random)) {}
+      : around(Around(wave, slots, drawn, t, random)), jitter(Jitter(random)) {
+    const VI limit = hn::Set(DI(), kEquiangularEvents);
+    const auto early = hn::Lt(Gather(wave.path.depth, slots), limit);
+    around.possible = hn::And(around.possible, hn::RebindMask(DF(), early));
+  }
   LANELIGHT_INLINE static Equiangular Around(const Wave& wave, const Slots& slots,
                                              VF drawn, VF t, WalkRandom& random) {
     const PathColumns& p = wave.path;

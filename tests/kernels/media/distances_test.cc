@@ -96,6 +96,23 @@ TEST_CASE("media: equiangular distances agree with the reference", "[media][agre
   check(FilledGlass(), 4096, 2500, 0.12);
 }
 
+// Each event that lights draw can double the weight of a path.
+TEST_CASE("media: equiangular distances make no rare bright samples of long paths",
+          "[media]") {
+  SceneBuilder b(4, 4);
+  b.Depth(200).Perspective({0, -4, 0}, {0, 0, 0}, {0, 0, 1}, 25);
+  b.AddSphere({0, 0, 0}, 1, AddInterface(b));
+  Bound(b, AddMedium(b, MakeMedium(Grey(0.01), Grey(20))), kNone);
+  b.AddPoint({2, -2, 2}, Grey(10));
+  const auto variance = [&](const char* strategy) {
+    const auto image = RenderWavefront(b.Build(), 4096, strategy);
+    double sum = 0;
+    for (const Rgb& v : image.variance) sum += v.y;
+    return sum;
+  };
+  CHECK(variance(kEquiangular) < 4 * variance(kIndependent));
+}
+
 TEST_CASE("media: equiangular distances exist only where they have an effect",
           "[media][plan]") {
   constexpr Feature kFeature = Feature::kEquiangularDistances;
