@@ -23,8 +23,6 @@ void ForEachCount(Counts& counts, const Do& with_member) {
 template <class Training, class Do>
 void ForEachOutcome(Training& training, const Do& with_member) {
   with_member("note", training.note);
-  with_member("gain", training.gain);
-  with_member("filtered_gain", training.filtered_gain);
   with_member("samples", training.samples);
   with_member("rays", training.rays);
   with_member("seconds", training.seconds);
@@ -43,6 +41,8 @@ Json TrainingJson(const RunRecord& run) {
   if (!run.trained) return nullptr;
   Json json = {{"tables", Json::object()}};
   ForEachOutcome(run.training, To(json));
+  json["gain"] = run.training.gain;
+  json["filtered_gain"] = run.training.filtered_gain;
   for (const TrainedTable& table : run.tables) json["tables"][table.name] = table.meaning;
   return json;
 }
@@ -76,6 +76,9 @@ RunRecord ReadRecord(const StateFile& file, const Json& report) {
   run.trained = !training.is_null();
   if (!run.trained) return run;
   ForEachOutcome(run.training, From(training));
+  // States of earlier programs do not have these.
+  run.training.gain = training.value("gain", 0.0);
+  run.training.filtered_gain = training.value("filtered_gain", 0.0);
   for (const auto& [name, meaning] : training.at("tables").items()) {
     TrainedTable table = {name, meaning, std::vector<double>(file.TableRows(name))};
     file.ReadTable(MakeStateColumn<double>(name, meaning, table.values));

@@ -1,6 +1,8 @@
 // A training pass, from which light-selection=learned learns what lights bring to the
 // cells of the scene, shadows included. It takes 1/40 of the planned samples and
 // selects lights by power.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -27,7 +29,7 @@ CellGrid GridOf(const PreparedScene& scene, const TrainingWork& work) {
   return MakeCellGrid(geometry.bounds_min, geometry.bounds_max, work.samples() * 2);
 }
 
-// What a sample brings is weighted as a relative error of its pixel. One bright sample
+// The light of a sample is weighted as a relative error of its pixel. One bright sample
 // must not decide for a cell.
 LightRecords RecordsOf(const PreparedScene& scene, const PathSamples& samples,
                        const TrainingWork& work, const CellGrid& grid,
@@ -72,6 +74,7 @@ TrainingOutcome TrainLightSelection(const TrainingContext& context) {
   TrainingOutcome outcome;
   outcome.samples = samples.colors.size();
   outcome.rays = samples.rays();
+  outcome.note = fmt::format("{} training samples", outcome.samples);
   if (watcher.IsStopped()) return outcome;
   const AlignedVector<float>& power = scene.chances->pmf;
   LearnedLights learned = GroupLights(*scene.compiled, power);
