@@ -33,17 +33,17 @@ std::vector<std::filesystem::path> OwnScenes(bool with_long) {
 }  // namespace
 
 TEST_CASE("own scenes: no strategy is biased in any tile", "[bias]") {
-  const BiasPower power =
-      CheckSceneBias(OwnScenes(false), BiasCoverage::kRotating, ScreeningRounds());
+  BiasPower power(0.03, 0.003);
+  CheckSceneBias(OwnScenes(false), BiasCoverage::kRotating, ScreeningRounds(), power);
   CHECK(power.choices() > 30);
-  power.Check(0.03, 0.003);
+  power.Check();
 }
 
 TEST_CASE("own scenes: no choice is biased in any tile, at length", "[bias][slow]") {
-  const BiasPower power =
-      CheckSceneBias(OwnScenes(true), BiasCoverage::kEveryChoice, LongRounds());
+  BiasPower power(0.02, 0.002);
+  CheckSceneBias(OwnScenes(true), BiasCoverage::kEveryChoice, LongRounds(), power);
   CHECK(power.choices() > 30);
-  power.Check(0.02, 0.002);
+  power.Check();
 }
 
 }  // namespace lanelight::test

@@ -86,16 +86,13 @@ void CheckLightPaths(const Strategy& s, const FeatureSet& plan,
   }
 }
 
-// Refuses what light-selection=learned does not work with.
-void CheckLearnedLights(const PreparedScene& scene, const FeatureSet& plan) {
-  if (!plan.Has(Feature::kLearnedLights)) return;
-  if (!scene.chances->tree.nodes.empty()) {  // in a trial run
+// Refuses a trial of light-selection=learned in a scene that has been prepared for a
+// light tree, and has no probabilities by power.
+void CheckLearnedLights(const PreparedScene& scene, const Strategy& s,
+                        const FeatureSet& plan) {
+  if (s.light_selection == LightSelection::kLearned && plan.Has(Feature::kManyLights) &&
+      scene.chances->alias.empty()) {
     ThrowUnsupported("light-selection=learned cannot replace light-selection=tree");
-  }
-  if (plan.Has(Feature::kMedia)) {
-    ThrowUnsupported(
-        "light-selection=learned does not support participating media: use power or "
-        "tree");
   }
 }
 
@@ -116,6 +113,9 @@ void NoteLights(const Checked& c) {
   if (s.light_selection != LightSelection::kPower && !c.scene.Has(Feature::kManyLights)) {
     c.Note(std::string("light-selection=") + Name(s.light_selection),
            ": the scene has fewer than two lights");
+  } else if (s.light_selection == LightSelection::kLearned &&
+             c.scene.Has(Feature::kMedia)) {
+    c.Note("light-selection=learned", ": there are media; lights are selected by power");
   }
   if (s.light_points != LightPoints::kArea && !SamplesFlatLights(c.plan)) {
     c.Note(std::string("light-points=") + Name(s.light_points),
@@ -190,7 +190,7 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
-  CheckLearnedLights(scene, plan);
+  CheckLearnedLights(scene, s, plan);
   CheckLightPaths(s, plan, scene.view->film.response);
   Notes notes;
   const Checked checked = {s, scene.features(), plan, options, notes};

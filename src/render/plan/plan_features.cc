@@ -69,7 +69,12 @@ void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
       f.Remove({Feature::kLights, Feature::kManyLights});
     }
   }
-  if (f.Has(Feature::kManyLights)) f.Add(TurnsOn(strategy.light_selection));
+  if (f.Has(Feature::kManyLights)) {
+    // Events in media have no normal, by which cells are told apart.
+    const bool learns = strategy.light_selection == LightSelection::kLearned;
+    f.Add(TurnsOn(learns && f.Has(Feature::kMedia) ? LightSelection::kPower
+                                                   : strategy.light_selection));
+  }
   if (!f.Has(Feature::kLights)) return;
   if (SamplesFlatLights(f)) f.Add(TurnsOn(strategy.light_points));
   // directions=light counts no hit of what it samples.

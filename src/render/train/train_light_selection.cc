@@ -1,5 +1,5 @@
 // A training pass, from which light-selection=learned learns what lights bring to the
-// cells of the scene, shadows included. It takes 1/40 of the planned samples and
+// cells of the scene, shadows included. It takes 1/80 of the planned samples and
 // selects lights by power.
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@
 namespace lanelight {
 namespace {
 
-constexpr std::uint64_t kTrainingShare = 40, kMaxSelectionSamples = 240'000;
+constexpr std::uint64_t kTrainingShare = 80, kMaxSelectionSamples = 240'000;
 
 CellGrid GridOf(const PreparedScene& scene, const TrainingWork& work) {
   const Geometry& geometry = scene.compiled->geometry;
