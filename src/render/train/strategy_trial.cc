@@ -62,6 +62,15 @@ bool HasMilderRoulette(const Strategy& changed, const Strategy& baseline) {
          DiffersByRoulette(changed, baseline);
 }
 
+// Returns whether learned selection of lights is all that differs.
+bool DiffersByLearnedLights(Strategy changed, const Strategy& baseline) {
+  if (changed.light_selection != LightSelection::kLearned || changed == baseline) {
+    return false;
+  }
+  changed.light_selection = baseline.light_selection;
+  return changed == baseline;
+}
+
 // Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
   const Strategy changed = PlannedStrategy(tried.scene, tried.options);
@@ -109,7 +118,7 @@ double TriedStrategy::SignificantLogGain(double must_gain, double standard_error
   if (gain.minimum - standard_errors * gain.standard_error <= must || MissesLight()) {
     return 0;
   }
-  if (IsCarriedByFew() && !IgnoresWorstPixels()) return 0;
+  if (IsCarriedByFew() && !IgnoresWorstPixels() && !is_bounded) return 0;
   // A pass without the baseline strategy's bright samples may owe its gain to one of
   // them.
   if (!paired && !IsClearlyBetter(measure, baseline, 1 / must_gain, standard_errors)) {
@@ -210,6 +219,9 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   tried.milder_roulette =
       HasMilderRoulette(PlannedStrategy(tried.scene, tried.options),
                         PlannedStrategy(baseline.scene, baseline.options));
+  tried.is_bounded =
+      DiffersByLearnedLights(PlannedStrategy(tried.scene, tried.options),
+                             PlannedStrategy(baseline.scene, baseline.options));
   tried.paired = records && !IsConverged(baseline.measure.variances);
   if (!tried.paired) return;
   TrialMeasure single = baseline.measure;

@@ -90,6 +90,9 @@ struct TriedStrategy {
   /// A path that survives with a higher probability is divided by a larger number, so no
   /// sample varies more.
   bool milder_roulette = false;
+  /// It only selects lights differently, and each with at least a tenth of its
+  /// probability by power: a sample is at most ten times as bright.
+  bool is_bounded = false;
   TrialMeasure measure;   // of its own pass
   bool paired = false;    // its paths have told of `baseline` as well
   TrialMeasure baseline;  // of the baseline strategy: what `measure` is compared with
