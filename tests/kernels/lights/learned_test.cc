@@ -7,9 +7,9 @@
 namespace lanelight::test {
 namespace {
 
-// Two rooms without a ceiling beside each other. The camera sees the first, with one
-// lamp; all other lamps are in the second.
-SceneBuilder Rooms(int hidden) {
+// Two rooms without a ceiling beside each other, x < 0 and x > 0. The camera sees the
+// first, with one large lamp; small ones hang between x = `left` and 1.8.
+SceneBuilder Rooms(int lamps, double left) {
   SceneBuilder b(8, 8);
   b.Depth(4).Perspective({-1, -0.9, 1}, {-1.2, 0.5, 0.6}, {0, 0, 1}, 70);
   const Index white = b.AddDiffuse({0.7, 0.6, 0.5}), red = b.AddDiffuse({0.8, 0.3, 0.2});
@@ -20,10 +20,10 @@ SceneBuilder Rooms(int hidden) {
   b.AddSphere({-1.4, 0.2, 0.4}, 0.3, b.AddConductor(Grey(0.2), Grey(3), 0.2));
   b.AddQuad({-1.2, -0.2, 1.99}, {0.3, 0, 0}, {0, -0.3, 0}, white,
             b.AddEmission({3, 2, 1}));
-  for (int i = 0; i < hidden; ++i) {
-    const double at = 0.3 + 1.5 * i / hidden;
+  for (int i = 0; i < lamps; ++i) {
+    const double at = left + (1.8 - left) * i / lamps;
     b.AddSphere({at, -0.5 + 0.9 * (i % 2), 0.5 + 0.1 * (i % 9)}, 0.01, 0,
-                b.AddEmission(Grey(3000.0 / hidden)));
+                b.AddEmission(Grey(3e4 / lamps)));
   }
   return b;
 }
@@ -32,12 +32,12 @@ SceneBuilder Rooms(int hidden) {
 
 TEST_CASE("learned selection of lights is unbiased in every tile", "[strategy]") {
   // One light for each group, and many for each.
-  for (const int hidden : {3, 150}) {
-    INFO(hidden << " hidden lights");
-    SceneBuilder b = Rooms(hidden);
-    b.AddEnvironment({0.3, 0.4, 0.5});
+  for (const int lamps : {3, 150}) {
+    INFO(lamps << " lamps");
+    SceneBuilder b = Rooms(lamps, lamps == 3 ? 0.3 : -1.8);
+    b.AddEnvironment({0.9, 1.2, 1.5});
     b.AddDistant({0.3, 0.1, 1}, {1, 1, 1});
-    ReuseScene scene = {b.Build(), 4096, 0.02};
+    ReuseScene scene = {b.Build(), 4096, 0.03};
     CheckSame(scene, "points=sobol", "light-selection=learned");
     CheckSame(scene, "points=sobol,light-candidates=resampled",
               "light-selection=learned");
@@ -48,7 +48,7 @@ TEST_CASE("learned selection of lights is unbiased in every tile", "[strategy]")
 
 TEST_CASE("a trial run learns to select lights where walls hide most of them",
           "[strategy][decision]") {
-  SceneDescription scene = Rooms(8).Build();
+  SceneDescription scene = Rooms(8, 0.3).Build();
   scene.film.width = scene.film.height = 32;
   TestRender options;
   options.spp = 8;
