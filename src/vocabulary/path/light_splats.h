@@ -26,7 +26,7 @@ struct LightSplats {
   float* x = nullptr;                // film position in pixels
   float* y = nullptr;
   float* light[3] = {};  // radiance times pixels^2 per subpath, before the pixel filter
-  /// By subpath, in a training pass: where it has started (StoreStart,
+  /// A training pass stores here where each subpath has started (StoreStart,
   /// kernels/light_paths/emit.cc).
   std::uint32_t* starts = nullptr;
   float* share = nullptr;  // MIS weight of camera paths there: 1 less that of the subpath

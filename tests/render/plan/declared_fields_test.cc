@@ -155,7 +155,7 @@ class Checker {
            (splits ? kMaxSplitPaths : 1);
   }
 
-  // What training has learned: any values do.
+  // Fills the tables that training would fill. Any values do.
   void MakeTables() {
     PathValues& v = tables_.path_values;
     const Geometry& g = scene_.compiled->geometry;

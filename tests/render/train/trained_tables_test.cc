@@ -39,6 +39,17 @@ std::string ErrorOf(const std::vector<TrainedTable>& trained, std::uint64_t pixe
   return InputErrorOf([&] { ImportTraining(trained, pixels, tables); });
 }
 
+// Returns the tables with another first value in one, and one value more if `longer`.
+std::vector<TrainedTable> WithFault(std::vector<TrainedTable> trained,
+                                    const std::string& name, double value, bool longer) {
+  for (TrainedTable& table : trained) {
+    if (table.name != name) continue;
+    table.values[0] = value;
+    if (longer) table.values.push_back(1);
+  }
+  return trained;
+}
+
 // A guide of one sun and one lamp.
 EmissionGuide SmallGuide() {
   LightTable table;
@@ -68,12 +79,7 @@ TEST_CASE("the guide of light subpaths round-trips bit-identically", "[state]") 
   CHECK(back.emission.lights.pmf == tables.emission.lights.pmf);
 
   const auto error_of = [&](const std::string& name, double value, bool longer) {
-    std::vector<TrainedTable> bad = trained;
-    for (TrainedTable& table : bad) {
-      if (table.name != name) continue;
-      table.values[0] = value;
-      if (longer) table.values.push_back(1);
-    }
+    const std::vector<TrainedTable> bad = WithFault(trained, name, value, longer);
     StrategyTables other;
     other.emission = SmallGuide();
     return InputErrorOf([&] { ImportTraining(bad, kPixels, other); });
@@ -112,12 +118,7 @@ TEST_CASE("learned selection of lights round-trips bit-identically", "[state]") 
   CHECK(back.lights.alias == lights.alias);
 
   const auto error_of = [&](const std::string& name, double value, bool longer) {
-    std::vector<TrainedTable> bad = trained;
-    for (TrainedTable& table : bad) {
-      if (table.name != name) continue;
-      table.values[0] = value;
-      if (longer) table.values.push_back(1);
-    }
+    const std::vector<TrainedTable> bad = WithFault(trained, name, value, longer);
     StrategyTables other;
     other.lights.num_groups = 3;
     return InputErrorOf([&] { ImportTraining(bad, kPixels, other); });
