@@ -105,6 +105,8 @@ void AddMergeCommand(CLI::App& root, Command& chosen) {
       "  lanelight merge seed-1.state seed-2.state -o both.exr");
   command->callback([options, &chosen] {
     ResolveOutputs(options->outputs, options->settings);
+    // An image of interrupted parts is what the command asks for.
+    options->outputs.targets.keeps_others = false;
     if (options->outputs.targets.exr.empty() && options->state.empty()) {
       throw CLI::RequiredError("--output or --state");
     }

@@ -7,6 +7,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/texts.h"
 #include "src/render/job/loaded_scene.h"
+#include "src/render/job/partial_outputs.h"
 #include "src/scene/description/note.h"
 
 namespace lanelight {
@@ -45,18 +46,21 @@ int CheckAmount(const RenderReport& report, const Job& job, bool quiet) {
   return kExitTargetMissed;
 }
 
-// Says where the result of a render is that left pixels without a sample.
+// Says where the results are that are not in the files asked for.
 void PrintPartial(const RenderReport& report, const Job& job,
                   const RenderOutputs& options) {
   const std::string& requested = options.targets.exr;
-  std::string text;
+  std::string text =
+      report.has_holes ? "error: " + report.error.why : "error: the render ended early";
   if (report.unsampled_pixels == job.window.pixels()) {
     text = "error: the render was stopped before its first sample: no image is written";
-  } else {
-    text = "error: " + report.error.why;
-    if (!report.exr.empty()) text += "; the partial image is '" + report.exr + "'";
+  } else if (!report.exr.empty()) {
+    text += "; the partial image is '" + report.exr + "'";
+  } else if (!options.targets.json.empty()) {
+    text += "; the report is '" +
+            PartialPath(options.targets.json, report.partial_number) + "'";
   }
-  if (report.result.stop_reason != StopReason::kInterrupted) {
+  if (report.has_holes && report.result.stop_reason != StopReason::kInterrupted) {
     text += fmt::format("; paths there may not end (the maximum depth is {})",
                         job.plan.options.max_depth);
   }
@@ -159,28 +163,29 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   const bool good = PrintProblems(rendering.problems);
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
-  } else if (!options.quiet && (!report.partial || report.result.samples > 0)) {
+  } else if (!options.quiet && (!report.has_holes || report.result.samples > 0)) {
     Print(preface + SummaryText(report, job, {options.verbose, kept}));
   }
+  if (good && report.partial_number > 0) PrintPartial(report, job, options);
   if (report.result.health.Total() > 0) {
     PrintError(fmt::format("error: {} samples were invalid and count as zero",
                            report.result.health.Total()));
     return kExitInvalidSamples;
   }
-  if (!report.partial && report.black) PrintError(fmt::format("warning: {}", kNoLight));
+  if (!report.has_holes && report.black) PrintError(fmt::format("warning: {}", kNoLight));
   const CheckpointSettings& checkpoint = options.targets.checkpoint;
   if (!checkpoint.path.empty() && !rendering.is_checkpoint_saved) {
     PrintError("error: the last state could not be written to '" + checkpoint.path + "'");
     return kExitBadInput;
   }
   if (!good) return kExitBadInput;
-  if (report.partial) PrintPartial(report, job, options);
   if (!checkpoint.path.empty() && report.result.stopped_early) {
     PrintError("interrupted: continue with --resume '" + checkpoint.path + "'");
     return kExitInterrupted;
   }
-  if (report.partial) return kExitInterrupted;
+  if (report.has_holes) return kExitInterrupted;
   const int code = CheckAmount(report, job, options.quiet);
+  if (report.partial_number > 0) return kExitInterrupted;
   return code == kExitGood ? CheckImageChanges(job, options) : code;
 }
 

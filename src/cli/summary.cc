@@ -221,7 +221,7 @@ std::string SummaryText(const RenderReport& report, const Job& job,
                         const SummaryChoice& choice) {
   const RunResult& r = report.result;
   const bool is_part = report.exr.empty() && report.unsampled_pixels > 0 &&
-                       !report.partial && !choice.checkpoint.empty();
+                       !report.has_holes && !choice.checkpoint.empty();
   std::string text = is_part ? PartRow(report, job.window, choice.checkpoint)
                              : ImageRow(report, job.window) + ErrorRow(report.error);
   text += SpeedRows(r) + StrategyRow(r, job, choice.verbose);

@@ -1,5 +1,5 @@
-// What an interruption leaves behind: an image that exists is replaced by one without
-// holes or not at all.
+// What an interruption leaves behind: an image that exists is replaced by one of the same
+// render with more samples, or not at all.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -117,6 +117,41 @@ TEST_CASE("an interruption after the first pass leaves an image without holes", 
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) CHECK(image.At(x, y, samples) > 0);
   }
+}
+
+TEST_CASE("an interrupted render keeps the image of another render", "[cli]") {
+  TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory), exr = directory / "x.exr";
+  const std::string json = directory / "x.json", partial = directory / "x.partial.exr";
+  std::vector<std::string> render = {"render",      scene,    "-o", exr,
+                                     "--png",       "--json", json, "--strategy",
+                                     "decide=none", "--spp"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), render.begin(), render.end());
+    return more;
+  };
+  REQUIRE(RunLanelight(with({"16", "--seed", "7"})).exit_code == kExitGood);
+  std::map<std::string, std::string> before;
+  for (const char* name : {"x.exr", "x.png", "x.json"}) {
+    before[name] = BytesOf(directory / name);
+  }
+  const ProcessResult r = InterruptAt("rendering", SIGTERM, with({"1000000"}));
+  INFO(r.out << r.err);
+  CHECK(r.exit_code == kExitInterrupted);
+  for (const auto& [name, bytes] : before) CHECK(BytesOf(directory / name) == bytes);
+  CHECK_THAT(r.err, Contains("x.partial.exr") && Contains("x.exr' is unchanged"));
+  CHECK_THAT(r.out, Contains("x.partial.exr") && Contains("x.partial.png"));
+  CHECK(ReadExr(partial).width == 32);
+  const nlohmann::json report = test::ReadJson(directory / "x.partial.json");
+  CHECK(report.at("partial") == true);
+  CHECK(report.at("unsampled_pixels") == 0);
+  CHECK(report.at("output").at("exr") == partial);
+  // A render of the same seed with fewer samples is part of the new image.
+  REQUIRE(RunLanelight(with({"1"})).exit_code == kExitGood);
+  const ProcessResult same = InterruptAt("rendering", SIGINT, with({"1000000"}));
+  INFO(same.err);
+  CHECK(same.exit_code == kExitGood);
+  CHECK(std::get<double>(ReadExr(exr).attributes.at("spp")) > 1);
 }
 
 TEST_CASE("an interrupted advise keeps the image", "[cli]") {

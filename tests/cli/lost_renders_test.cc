@@ -196,6 +196,12 @@ TEST_CASE("only the next checkpoint may overwrite a checkpoint", "[cli]") {
                     directory / "b.state", "--json", state, "--spp", "32"});
   CHECK(r.exit_code == kExitBadInput);
   CHECK_THAT(r.err, Contains("would overwrite") && Contains("a.state"));
+  const std::string other = directory / "other.state";
+  fs::copy_file(state, other);
+  const ProcessResult replaced = RunLanelight(
+      {"render", scene, "-o", exr, "--resume", state, "--checkpoint", other});
+  CHECK(replaced.exit_code == kExitBadInput);
+  CHECK_THAT(replaced.err, Contains("other.state' exists"));
   for (const char* flag : {"--json", "--state"}) {
     const ProcessResult merge = RunLanelight({"merge", state, "-o", exr, flag, state});
     CHECK(merge.exit_code == kExitBadInput);

@@ -99,6 +99,13 @@ AttributeEnd
   std::ifstream in(json);
   CHECK(nlohmann::json::parse(in).at("stop_reason") == "hopeless");
   CHECK(ReadExr(directory / "dot.exr").width == 16);
+  // An image of another render is kept.
+  const ProcessResult other =
+      RunLanelight({"render", scene, "-o", directory / "dot.exr", "--seed", "2",
+                    "--target-relmse", "0.1", "--strategy", "seen-lights=paths"});
+  CHECK(other.exit_code == kExitInterrupted);
+  CHECK_THAT(other.err, Contains("more samples will not help") &&
+                            Contains("dot.partial.exr") && Contains("is unchanged"));
 }
 
 TEST_CASE("an interrupted render misses its target", "[cli]") {

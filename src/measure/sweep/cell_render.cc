@@ -141,6 +141,7 @@ Rendering CellRenderer::Render(const SweepCell& cell, const std::string& folder,
   targets.exr = folder + "/image.exr";
   if (targets.image.png) targets.png = folder + "/image.png";
   targets.json = "-";
+  targets.keeps_others = false;  // the folder has images of this cell only
   targets.checkpoint.path = folder + "/state";
   targets.checkpoint.resume = Resume::kIfAny;
   targets.checkpoint.finished = false;

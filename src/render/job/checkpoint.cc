@@ -82,21 +82,23 @@ Checkpoint::~Checkpoint() {
   if (writing_.valid()) writing_.wait();
 }
 
-// Neither restarts silently, nor overwrites an existing state.
+// Neither restarts silently, nor overwrites a state other than the resumed one.
 void Checkpoint::Open() {
-  const bool exists = Exists(settings_.path);
-  if (settings_.resume == Resume::kNever) {
-    if (!exists || settings_.path.empty()) return;
+  const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
+  if (settings_.resume == Resume::kMust ||
+      (settings_.resume == Resume::kIfAny && Exists(from))) {
+    auto file = std::make_unique<StateFile>(from);
+    CheckSame(*file);
+    from_ = std::move(file);
+  }
+  std::error_code ignored;  // of a missing file
+  const bool updates = resumed() && fs::equivalent(from, settings_.path, ignored);
+  if (!settings_.path.empty() && Exists(settings_.path) && !updates) {
     throw InputError(
         "'" + settings_.path +
         "' exists: continue it with --resume if it is a state of this render, or "
         "give --checkpoint another name");
   }
-  const std::string& from = settings_.from.empty() ? settings_.path : settings_.from;
-  if (settings_.resume == Resume::kIfAny && !Exists(from)) return;
-  auto file = std::make_unique<StateFile>(from);
-  CheckSame(*file);
-  from_ = std::move(file);
 }
 
 void Checkpoint::CheckSame(const StateFile& file) {

@@ -1,6 +1,5 @@
 #include "src/render/job/render.h"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "src/render/job/identity.h"
 #include "src/render/job/loaded_scene.h"
 #include "src/render/job/output.h"
+#include "src/render/job/partial_outputs.h"
 #include "src/render/job/saving.h"
 #include "src/render/wave/tiles.h"
 
@@ -22,22 +22,38 @@ namespace {
 
 using Json = nlohmann::json;
 
+void AddProblems(const ResultWriter& writer, Rendering& out) {
+  const std::vector<std::string>& problems = writer.problems();
+  out.problems.insert(out.problems.end(), problems.begin(), problems.end());
+}
+
 void SaveImages(const FilmAccumulator& film, const RenderFacts& facts,
-                const RenderTargets& targets, ResultWriter& writer,
-                RenderReport& report) {
+                const RenderTargets& targets, const ExrOptions& options, Rendering& out) {
   const Stopwatch watch;
+  ResultWriter writer;
+  RenderReport& report = out.report;
   report.exr = targets.exr;
   writer.Save(report.exr, [&](const std::string& path) {
-    WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale),
-             OutputOptions(facts.identity, facts.head,
-                           {report.result, report.result.training.changes, report.error},
-                           film, targets.image.half));
+    WriteExr(path, film.width(), film.height(), FilmPlanes(film, facts.scale), options);
   });
   report.png = targets.png;
   writer.Save(report.png, [&](const std::string& path) {
     WritePng(path, FilmImage(film, facts.color_space), targets.image.exposure);
   });
   report.write_seconds = watch.Seconds();
+  AddProblems(writer, out);
+}
+
+void SaveReport(const RenderFacts& facts, const RenderTargets& targets,
+                const Json& members, Rendering& out) {
+  if (!targets.json.empty()) {
+    out.json = ToJson(out.report, facts.head);
+    out.json.update(members);
+  }
+  if (targets.json == "-") return;
+  ResultWriter writer;
+  writer.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
+  AddProblems(writer, out);
 }
 
 // Every sample is black; false without samples.
@@ -50,12 +66,18 @@ bool IsBlack(const FilmAccumulator& film) {
   return black && sampled;
 }
 
-RenderTargets PartialTargets(RenderTargets targets, bool any) {
-  for (std::string* path : {&targets.exr, &targets.png}) {
-    *path = any ? PartialPath(*path) : "";
+// Chooses files so that no image replaces one with more samples.
+RenderTargets ChooseTargets(RenderTargets targets, const ExrOptions& image,
+                            RenderReport& report) {
+  const StopReason reason = report.result.stop_reason;
+  const bool early =
+      reason == StopReason::kInterrupted || reason == StopReason::kHopeless;
+  if (report.has_holes && report.result.samples == 0) targets.exr = targets.png = "";
+  if (report.has_holes || (early && targets.keeps_others)) {
+    report.partial_number =
+        FreePartialNumber(targets, image, /*first=*/report.has_holes ? 1 : 0);
   }
-  targets.json = PartialPath(targets.json);
-  return targets;
+  return PartialTargets(targets, report.partial_number);
 }
 
 // Throws InputError if a rank would render something else.
@@ -167,37 +189,26 @@ void ServeRender(const Job& job, RankGroup& group, const std::atomic<bool>* stop
   ServeRun(job.scene, job.plan, options, film);
 }
 
-std::string PartialPath(const std::string& path) {
-  if (path.empty() || path == "-") return path;
-  const std::filesystem::path whole = path;
-  return whole.parent_path() /
-         (whole.stem().string() + ".partial" + whole.extension().string());
-}
-
 void WriteRendering(const FilmAccumulator& film, const RenderFacts& facts,
                     const RenderTargets& requested, const Json& members, Rendering& out) {
   const std::uint64_t sampled = SampledPixels(film);
   out.report.unsampled_pixels =
       std::uint64_t(film.width()) * std::uint64_t(film.height()) - sampled;
-  out.report.partial = sampled < facts.pixels && !facts.partial;
+  out.report.has_holes = sampled < facts.pixels && !facts.partial;
   if (sampled >= facts.pixels) {
     out.report.error = EstimateError(film);
   } else {
     out.report.error.why =
         fmt::format("{} pixels have no sample", facts.pixels - sampled);
   }
-  const RenderTargets targets =
-      out.report.partial ? PartialTargets(requested, sampled > 0) : requested;
   out.report.black = IsBlack(film);
-  ResultWriter writer;
-  SaveImages(film, facts, targets, writer, out.report);
-  if (!targets.json.empty()) {
-    out.json = ToJson(out.report, facts.head);
-    out.json.update(members);
-  }
-  if (targets.json != "-") writer.SaveText(targets.json, DumpJson(out.json, 2) + "\n");
-  const std::vector<std::string>& problems = writer.problems();
-  out.problems.insert(out.problems.end(), problems.begin(), problems.end());
+  const RunResult& result = out.report.result;
+  const ExrOptions options = OutputOptions(
+      facts.identity, facts.head, {result, result.training.changes, out.report.error},
+      film, requested.image.half);
+  const RenderTargets targets = ChooseTargets(requested, options, out.report);
+  SaveImages(film, facts, targets, options, out);
+  SaveReport(facts, targets, members, out);
 }
 
 }  // namespace lanelight

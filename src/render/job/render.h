@@ -23,6 +23,8 @@ struct RenderTargets {
   ImageSettings image;
   CheckpointSettings checkpoint;
   std::optional<Endpoint> display;  // a viewer that shows the image so far
+  /// A render that ends early replaces an earlier image of the same render only.
+  bool keeps_others = true;
 };
 
 struct RenderHooks {
@@ -45,8 +47,9 @@ struct Rendering {
 };
 
 /// Renders the job, estimates the error, and writes images and report; `scene`: name of
-/// the scene in the report. What cannot be written is kept in the temporary directory; an
-/// image with pixels without samples goes to PartialPath(). With a checkpoint the state
+/// the scene in the report. What cannot be written is kept in the temporary directory. An
+/// image with pixels without samples goes to PartialTargets(), and so does one of a
+/// render that ended early if it would replace another file. With a checkpoint the state
 /// is kept, and the render may resume. Throws InputError for a state that it cannot
 /// resume.
 Rendering RenderToFiles(const Job& job, const std::string& scene,
@@ -61,14 +64,10 @@ struct RenderFacts {
   double scale = 1;               // CompiledScene::scale
   std::string color_space;        // that the film holds (src/base/image/color_spaces.h)
   /// Pixels that should have samples: all of the film, or those of a part. Images with
-  /// fewer go to PartialPath(), unless `partial` is set.
+  /// fewer go to PartialTargets(), unless `partial` is set.
   std::uint64_t pixels = 0;
   bool partial = false;
 };
-
-/// Returns the path of an image with pixels without samples, out.partial.exr for out.exr,
-/// so that it never replaces a complete one.
-std::string PartialPath(const std::string& path);
 
 /// Estimates the error and writes images and report of any film; out.report.result is its
 /// result. `members`: further members of the report.

@@ -175,7 +175,7 @@ Json ToJson(const RenderReport& report, const Json& head) {
       {"cpu_seconds", r.cpu_seconds},
       {"samples", r.samples},
       {"unsampled_pixels", report.unsampled_pixels},
-      {"partial", report.partial},
+      {"partial", report.partial_number > 0},
       {"samples_per_second", double(r.samples) / seconds},
       {"rays", {{"closest", r.rays_closest}, {"shadow", r.rays_shadow}, {"total", rays}}},
       {"pilot",

@@ -21,9 +21,11 @@ struct RenderReport {
   RunResult result;
   ErrorEstimate error;
   std::uint64_t unsampled_pixels = 0;  // of the film: without a sample, black
-  /// Some pixels have no sample: images and report are in partial files, and the files
-  /// asked for are unchanged. Without any sample there is no image.
-  bool partial = false;
+  bool has_holes = false;              // pixels that should have samples have none
+  /// Images and report are in the PartialTargets() of this number, and the files asked
+  /// for are unchanged; 0: they are in the files asked for. Without any sample there is
+  /// no image.
+  int partial_number = 0;
   bool black = false;  // all samples are black
   double load_seconds = 0, build_seconds = 0, write_seconds = 0;
   BvhReport trees;
