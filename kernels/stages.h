@@ -24,6 +24,7 @@ namespace lanelight {
   X(LatticeCamera)                             \
   X(AntitheticCamera)                          \
   X(FirstFilm)                                 \
+  X(FilterPlace)                               \
   X(PerspectiveCamera)                         \
   X(OrthographicCamera)                        \
   X(SphericalCamera)                           \

@@ -14,11 +14,15 @@
 
 LANELIGHT_BEGIN_KERNELS
 
-/// Returns an offset in [-radius, radius) distributed like the piecewise-constant |f|,
-/// and the sign of f there. Monotone in u, so it keeps the stratification of the sample
-/// points.
-HWY_INLINE VF SampleFilterAxis(const float* cdf, const float* signs, float radius, VF u,
-                               VF* sign) {
+/// A place in the pixel filter along an axis, in bins, and the bin.
+struct FilterPlace {
+  VF at;
+  VI bin;
+};
+
+/// Returns a place distributed like the piecewise-constant |f|. Monotone in u, so it
+/// keeps the stratification of the sample points.
+HWY_INLINE FilterPlace SampleFilterAxis(const float* cdf, VF u) {
   const DI di;
   VI bin = hn::Zero(di);
   for (int step = CompiledFilter::kSize / 2; step > 0; step /= 2) {
@@ -30,10 +34,13 @@ HWY_INLINE VF SampleFilterAxis(const float* cdf, const float* signs, float radiu
   const VF width = hn::Sub(high, low);
   const VF inside = hn::IfThenElse(hn::Gt(width, Splat(0)),
                                    hn::Div(hn::Sub(u, low), width), Splat(0.5f));
-  *sign = Gather(signs, bin);
-  const VF position = hn::Add(hn::ConvertTo(DF(), bin), inside);
+  return {hn::Add(hn::ConvertTo(DF(), bin), inside), bin};
+}
+
+/// Returns the offset from the centre of the pixel, in [-radius, radius).
+HWY_INLINE VF OffsetOf(const FilterPlace& place, float radius) {
   const float bin_width = 2 * radius / CompiledFilter::kSize;
-  return hn::MulAdd(position, Splat(bin_width), Splat(-radius));
+  return hn::MulAdd(place.at, Splat(bin_width), Splat(-radius));
 }
 
 /// Returns the film position in pixels: pixel centre plus a point distributed like
@@ -49,13 +56,14 @@ HWY_INLINE void FilmPosition(const Wave& wave, const StoreSlots& slots, VF* x, V
     dx = hn::Mul(hn::MulAdd(u0, Splat(2.0f), Splat(-1.0f)), Splat(filter.x_radius));
     dy = hn::Mul(hn::MulAdd(u1, Splat(2.0f), Splat(-1.0f)), Splat(filter.y_radius));
   } else {
-    VF sign_x, sign_y;
-    dx = SampleFilterAxis(filter.x_cdf.data(), filter.x_sign.data(), filter.x_radius, u0,
-                          &sign_x);
-    dy = SampleFilterAxis(filter.y_cdf.data(), filter.y_sign.data(), filter.y_radius, u1,
-                          &sign_y);
+    const FilterPlace along_x = SampleFilterAxis(filter.x_cdf.data(), u0);
+    const FilterPlace along_y = SampleFilterAxis(filter.y_cdf.data(), u1);
+    dx = OffsetOf(along_x, filter.x_radius);
+    dy = OffsetOf(along_y, filter.y_radius);
     if (p.weight != nullptr) {
-      Scatter(hn::Mul(hn::Mul(sign_x, sign_y), Splat(filter.weight)), p.weight, slots);
+      const VF sign = hn::Mul(Gather(filter.x_sign.data(), along_x.bin),
+                              Gather(filter.y_sign.data(), along_y.bin));
+      Scatter(hn::Mul(sign, Splat(filter.weight)), p.weight, slots);
     }
   }
   const PixelPlace place(pixel, wave.run->width);

@@ -91,10 +91,13 @@ template <class Policy, bool kPlain>
 LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
+  const bool by_tile = run.features.Has(Feature::kSharedPixelSamples);
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
                [&](const StoreSlots& slots, MF) HWY_ATTR {
                  const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kFilm, p.u_film_0,
+                 Drawer film = drawer;
+                 if (by_tile) film.pixel = SplatU(wave.work.tile_pixel);
+                 Draw<Policy, kPlain, false>(run, film, Dimension::kFilm, p.u_film_0,
                                              p.u_film_1);
                  Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
                                              p.u_lens_1);

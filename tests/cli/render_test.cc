@@ -240,7 +240,7 @@ TEST_CASE(
   CHECK_FALSE(decides(render({"-o", exr, "--spp", "2047"})));
   const nlohmann::json report = render({"-o", exr, "--spp", "2048"});
   CHECK(decides(report));
-  CHECK(report["pilot"]["changes"] == "decide=none");
+  CHECK(report["pilot"]["changes"] == "pixel-samples=shared,decide=none");
   CHECK_THAT(report["pilot"]["note"].get<std::string>(), Contains("roulette=adjoint"));
   // The image says what rendered it, not what was to be found out.
   CHECK_THAT(RunLanelight({"info", exr}).out,

@@ -47,7 +47,7 @@ std::vector<PixelRect> TilesToRender(const Job& job, const Part& part) {
     return MakePartition(job.window, job.OpenEnded() ? kTrainingSpp : job.spp, strategy)
         .tiles;
   }
-  return TilesOfPart(job.window, part, strategy.MayReuse() ? kReuseTile : 1);
+  return TilesOfPart(job.window, part, strategy.MayShare() ? kReuseTile : 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "src/render/job/machine_json.h"
 #include "src/render/job/setting.h"
 #include "src/render/wave/light_paths.h"
+#include "src/render/wave/shared_samples.h"
 #include "src/scene/description/note.h"
 #include "src/scene/prepare/parameters.h"
 #include "src/scene/prepare/prepared_scene.h"
@@ -137,6 +138,7 @@ Json TargetJson(SimdTarget target) {
 }
 
 Json HeadJson(const Job& job, const std::string& scene, bool half) {
+  const FilterReach reach = ReachOfFilter(job.scene);
   Json versions = Json::object();
   for (const auto& [name, version] : LibraryVersions()) versions[name] = version;
   return {{"schema", kReportSchema},
@@ -145,7 +147,10 @@ Json HeadJson(const Job& job, const std::string& scene, bool half) {
           {"scale", job.scene.scale()},
           {"chance_of_light", ChanceOfLight(job.scene)},
           {"splat_unit", SplatUnit(job.scene)},
-          {"splat_pixels", SplatPixels(job.scene)},
+          {"filter_reach",
+           {{"splats", reach.splats},
+            {"shared", reach.shared},
+            {"shared_variance", reach.shared_variance}}},
           {"plan", ToJson(job.plan)},
           {"settings", ReportedSettings(job, half)},
           {"target", TargetJson(job.plan.options.target)},

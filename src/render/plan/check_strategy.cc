@@ -38,6 +38,23 @@ void CheckReuse(const Strategy& s, const FeatureSet& plan) {
   }
 }
 
+// Refuses what needs samples of single pixels.
+void CheckSharing(const Strategy& s, const FeatureSet& plan, const FilmResponse& film) {
+  if (!plan.Has(Feature::kSharedPixelSamples)) return;
+  const char* const why = plan.Has(Feature::kRegressionControl)
+                              ? "control=regression, which fits samples of single pixels"
+                          : plan.Has(Feature::kSpectralFilm)
+                              ? "Film \"spectral\", whose buckets have samples of single "
+                                "pixels"
+                          : film.limits()
+                              ? "\"maxcomponentvalue\" of the film, which limits single "
+                                "samples"
+                              : nullptr;
+  if (why == nullptr) return;
+  ThrowUnsupported(std::string("pixel-samples=") + Name(s.pixel_samples) +
+                   " does not support " + why + ": use pixel-samples=own");
+}
+
 // Features that light-paths=splats does not support, and what to use instead.
 struct Unsupported {
   FeatureSet any;
@@ -173,6 +190,10 @@ void NotePaths(const Checked& c) {
                ? ": shapes move, and paths of a block have different times"
                : ": no path scatters a second time from a diffuse surface");
   }
+  if (s.pixel_samples == PixelSamples::kShared &&
+      !c.plan.Has(Feature::kSharedPixelSamples)) {
+    c.Note("pixel-samples=shared", ": the pixel filter reaches no other pixel");
+  }
   if (s.light_paths != LightPaths::kNone && !c.plan.Has(Feature::kLightPaths)) {
     c.Note(std::string("light-paths=") + Name(s.light_paths),
            s.directions != Directions::kMis
@@ -190,6 +211,7 @@ Notes CheckStrategy(const PreparedScene& scene, const PlanOptions& options) {
   const Strategy s = PlannedStrategy(scene, options);
   const FeatureSet plan = PlanFeatures(scene, options);
   CheckReuse(s, plan);
+  CheckSharing(s, plan, scene.view->film.response);
   CheckLearnedLights(scene, s, plan);
   CheckLightPaths(s, plan, scene.view->film.response);
   Notes notes;

@@ -55,6 +55,13 @@ void AddLightPaths(const PreparedScene& scene, const Strategy& strategy, Feature
   }
 }
 
+// Adds shared samples where pixel filters overlap.
+void AddSharing(const PreparedScene& scene, const Strategy& strategy, FeatureSet& f) {
+  const CompiledFilter& filter = scene.compiled->filter;
+  if (filter.x_radius <= 0.5f && filter.y_radius <= 0.5f) return;
+  f.Add(TurnsOn(strategy.pixel_samples));
+}
+
 bool HasDeltaLights(const FeatureSet& f) { return f.HasAny(LightsWith(kDeltaLight)); }
 
 void AddLightSampling(const Strategy& strategy, FeatureSet& f) {
@@ -123,6 +130,7 @@ FeatureSet PlanFeatures(const PreparedScene& scene, const PlanOptions& options) 
   if (f.Has(Feature::kGbuffer) && HasSurfaces(f)) f.Add(Feature::kUv);
   f.Add(TurnsOn(strategy.sampler));
   f.Add(TurnsOn(strategy.pairs));
+  AddSharing(scene, strategy, f);
   if (strategy.control != Control::kNone && f.Has(Feature::kScatters)) {
     f.Add(TurnsOn(strategy.control));
   }
@@ -144,7 +152,7 @@ FeatureSet LightPathFeatures(FeatureSet f) {
   }
   f.Remove({Feature::kPerspective, Feature::kLens, Feature::kFiltered,
             Feature::kSignedFilter, Feature::kAov, Feature::kGbuffer,
-            Feature::kRegressionControl});
+            Feature::kRegressionControl, Feature::kSharedPixelSamples});
   for (std::size_t i = 0; i < std::size(kSampleSequenceNames); ++i) {
     f.Remove(TurnsOn(static_cast<SampleSequence>(i)));
   }
@@ -167,6 +175,8 @@ Strategy PlannedStrategy(const PreparedScene& scene, const PlanOptions& options)
     strategy.reuse = Reuse::kNone;
     strategy.light_paths = LightPaths::kNone;
   }
+  // Passes have single pixels, not whole images.
+  strategy.pixel_samples = PixelSamples::kOwn;
   strategy.pairs = Pairs::kNone;
   strategy.control = Control::kNone;
   return strategy;
@@ -178,6 +188,7 @@ FeatureSet VisibleLightFeatures(const PreparedScene& scene, const PlanOptions& o
   RemoveScattering(f);
   f.Add(TurnsOn(strategy.sampler));
   f.Add(TurnsOn(strategy.pairs));
+  AddSharing(scene, strategy, f);
   return f;
 }
 

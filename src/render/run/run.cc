@@ -33,7 +33,7 @@ struct Runner {
     LL_CHECK_EQ(film.groups().unit, GroupsOf(scene.strategy).unit);
     films.UseResponse(scene.view->film.response);
     MakeRoomForSplats();
-    min_tile_side = scene.strategy.MayReuse() ? kReuseTile : 1;
+    min_tile_side = scene.strategy.MayShare() ? kReuseTile : 1;
     if (options.group != nullptr && options.group->ranks() > 1) {
       LL_CHECK(options.windows.empty());
       ranks = std::make_unique<RankWork>(*options.group, clock, threads, films);

@@ -13,6 +13,7 @@
 #include "src/render/train/training_pass.h"
 #include "src/render/wave/light_paths.h"
 #include "src/render/wave/profile.h"
+#include "src/render/wave/shared_samples.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/scene/compiled/scene.h"
 #include "src/scene/compiled/view.h"
@@ -119,10 +120,7 @@ void RunStrategy::UseTraining() {
 }
 
 double RunStrategy::Dependents() const {
-  const Strategy strategy = PlannedStrategy(scene_, plan_.options);
-  const double pixels =
-      strategy.light_paths == LightPaths::kNone ? 1 : SplatPixels(scene_);
-  return std::max(GroupsOf(strategy).dependents, pixels);
+  return DependentsOf(PlannedStrategy(scene_, plan_.options), ReachOfFilter(scene_));
 }
 
 std::vector<TrainedTable> RunStrategy::Tables() const {

@@ -21,7 +21,7 @@ void Add(const StageCounters& counters, const StageTotals& totals, int lanes,
 
 const char* Name(TaskPart part) {
   static constexpr const char* kNames[] = {"task set-up", "sum of split paths",
-                                           "visible lights", "film"};
+                                           "shared samples", "visible lights", "film"};
   return kNames[int(part)];
 }
 
@@ -67,8 +67,9 @@ std::vector<StageProfile> EmptyProfiles(const Plan& plan) {
 std::vector<StageProfile> EmptyParts() {
   std::vector<StageProfile> parts(kNumTaskParts);
   for (int i = 0; i < kNumTaskParts; ++i) parts[i].name = Name(static_cast<TaskPart>(i));
-  parts[int(TaskPart::kCopies)].group = parts[int(TaskPart::kFilm)].group =
-      ProfileGroup::kFilm;
+  for (const TaskPart part : {TaskPart::kCopies, TaskPart::kSharing, TaskPart::kFilm}) {
+    parts[int(part)].group = ProfileGroup::kFilm;
+  }
   parts[int(TaskPart::kVisibleLights)].group = ProfileGroup::kVisibleLights;
   return parts;
 }

@@ -76,6 +76,7 @@ inline constexpr std::size_t kMaxBounces = 16;
 enum class TaskPart : int {
   kSetUp,          // lists the pixels of the tile, empties the wavefront
   kCopies,         // adds up the copies of paths that split
+  kSharing,        // adds samples to the pixels that they count for
   kVisibleLights,  // directly visible lights, with seen-lights=apart
   kFilm,           // adds the samples to the film
   kCount

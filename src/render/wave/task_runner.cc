@@ -9,11 +9,32 @@
 #include "src/render/wave/profile.h"
 #include "src/render/wave/tiles.h"
 #include "src/render/wave/wavefront.h"
+#include "src/scene/compiled/scene.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/prepared_scene.h"
 #include "src/scene/prepare/tables.h"
 
 namespace lanelight {
+
+Workspace::Workspace(const PreparedScene& scene, const Plan& plan,
+                     const RunParameters& run, const RunOptions& options,
+                     const PixelRect& window)
+    : wavefront(scene, plan, run) {
+  if (options.profile) clock.emplace(plan.rows(), options.profiling);
+  if (plan.features.Has(Feature::kReuse)) {
+    reuse.emplace(plan, PlannedStrategy(scene, plan.options));
+  }
+  if (plan.features.Has(Feature::kLightPaths)) {
+    light_paths.emplace(scene, plan, window, wavefront);
+  }
+  if (plan.features.Has(Feature::kSharedPixelSamples)) {
+    sharing.emplace(scene.compiled->filter);
+  }
+  if (plan.Find(PhaseId::kVisibleLights) != nullptr) {
+    visible_lights.emplace(scene, plan, run, wavefront);
+  }
+}
+
 std::uint32_t SamplesTogether(const PreparedScene& scene, const Plan& plan) {
   constexpr std::uint32_t kMaxTogether = 16;
   const std::uint32_t together = std::min(kMaxTogether, plan.wavefront);
@@ -59,6 +80,11 @@ TileWork TaskRunner::SetUp(const SampleRange& range, const PixelRect& rect,
   work.first_sample = std::uint32_t(range.first % kSamplesPerSeed);
   work.samples = range.count;
   work.together = SamplesTogether(scene_, plan_);
+  if (space.sharing) {
+    space.filter_places.resize(std::size_t{2} * range.count);
+    work.tile_pixel = space.pixels.front();
+    work.filter_places = space.filter_places.data();
+  }
   Wave& wave = space.wavefront.wave();
   wave.rays_closest = wave.rays_shadow = 0;
   wave.health = {};
@@ -105,22 +131,35 @@ bool TaskRunner::Run(const SampleRange& range, const PixelRect& rect,
       SumSplitPaths(out.values.data(), buffer.stride, run_.planes);
       if (clock) clock->FinishPart(TaskPart::kCopies, stride);
     }
-    if (visible_lights_) AddVisibleLights(range, rect, out, space);
+    ShareSamples(range, rect, out, space);
   }
   if (clock) out.cpu_seconds = clock->EndTask();
   return ended;
 }
 
-void TaskRunner::AddVisibleLights(const SampleRange& range, const PixelRect& rect,
-                                  TaskSamples& out, Workspace& space) const {
-  const VisibleLightTask seen = {
-      range.tile,  space.pixels,      range.first % kSamplesPerSeed,
-      range.count, out.values.data(), space.pixels.size() * range.count};
+// Light that the camera sees at the edges of lamps has samples of its own, which are
+// shared by themselves.
+void TaskRunner::ShareSamples(const SampleRange& range, const PixelRect& rect,
+                              TaskSamples& out, Workspace& space) const {
+  const std::size_t stride = space.pixels.size() * range.count;
+  const TilePlanes planes = {rect, space.pixels, range.count, out.values.data(), stride};
+  const VisibleLightTask seen = {range.tile, planes, range.first % kSamplesPerSeed};
   StageClock* const clock = space.Clock();
-  visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
-  const bool corrected =
-      visible_lights_->CorrectSamples(seen, *space.visible_lights, clock, out.counts);
-  if (clock && corrected) clock->FinishPart(TaskPart::kVisibleLights, seen.stride);
+  bool corrected = false;
+  if (visible_lights_) {
+    visible_lights_->Find(range.tile, rect, *space.visible_lights, clock);
+    corrected = visible_lights_->RemoveOwn(seen, *space.visible_lights, clock);
+    if (clock && corrected) clock->FinishPart(TaskPart::kVisibleLights, stride);
+  }
+  if (space.sharing) {
+    space.sharing->Share(planes, space.filter_places.data());
+    if (clock) clock->FinishPart(TaskPart::kSharing, stride);
+  }
+  if (!corrected) return;
+  SampleSharing* const sharing = space.sharing ? &*space.sharing : nullptr;
+  visible_lights_->AddOthers(seen, sharing, *space.visible_lights, clock);
+  out.counts.rays_closest += visible_lights_->RaysOf(range.tile, range.count);
+  if (clock) clock->FinishPart(TaskPart::kVisibleLights, stride);
 }
 
 void TaskRunner::Merge(const PixelRect& place, TaskSamples& samples, Films& films) {

@@ -15,6 +15,7 @@
 #include "src/render/wave/run_result.h"
 #include "src/render/wave/run_state.h"
 #include "src/render/wave/visible_lights.h"
+#include "src/render/wave/shared_samples.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/task_watcher.h"
 #include "src/render/wave/tiles.h"
@@ -25,20 +26,7 @@ namespace lanelight {
 /// Memory that a thread keeps between tasks.
 struct Workspace {
   Workspace(const PreparedScene& scene, const Plan& plan, const RunParameters& run,
-            const RunOptions& options, const PixelRect& window)
-      : wavefront(scene, plan, run) {
-    if (options.profile) {
-      clock.emplace(plan.rows(), options.profiling);
-    }
-    if (plan.features.Has(Feature::kReuse)) {
-      reuse.emplace(plan, PlannedStrategy(scene, plan.options));
-    }
-    if (plan.features.Has(Feature::kLightPaths)) {
-      light_paths.emplace(scene, plan, window, wavefront);
-    }
-    if (plan.Find(PhaseId::kVisibleLights))
-      visible_lights.emplace(scene, plan, run, wavefront);
-  }
+            const RunOptions& options, const PixelRect& window);
   /// Null if nothing is timed.
   StageClock* Clock() { return clock ? &*clock : nullptr; }
 
@@ -46,8 +34,10 @@ struct Workspace {
   std::optional<BlockReuse> reuse;
   std::optional<LightSubpaths> light_paths;
   std::optional<VisibleLightRays> visible_lights;
+  std::optional<SampleSharing> sharing;
   std::optional<StageClock> clock;
   std::vector<std::uint32_t> pixels;
+  std::vector<float> filter_places;
   TaskSamples samples;
 };
 
@@ -88,8 +78,8 @@ class TaskRunner {
   Workspace& ThreadWorkspace();
   TileWork SetUp(const SampleRange& range, const PixelRect& rect, Workspace& space) const;
   SampleBuffer Buffer(const TileWork& work, TaskSamples& out) const;
-  void AddVisibleLights(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
-                        Workspace& space) const;
+  void ShareSamples(const SampleRange& range, const PixelRect& rect, TaskSamples& out,
+                    Workspace& space) const;
 
   const PreparedScene& scene_;
   const Plan& plan_;

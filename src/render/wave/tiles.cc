@@ -114,7 +114,7 @@ TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp) {
 
 TilePartition MakePartition(const PixelRect& pixels, std::uint64_t spp,
                             const Strategy& strategy) {
-  return Partition(pixels, spp, strategy.MayReuse() ? kReuseTile : kLargestTile);
+  return Partition(pixels, spp, strategy.MayShare() ? kReuseTile : kLargestTile);
 }
 
 std::uint32_t SamplesPerTask(std::uint64_t pixels, std::uint64_t spp) {

@@ -26,7 +26,7 @@ constexpr std::uint64_t kMaxRays = 1u << 15;
 constexpr std::uint64_t kSamplesPerRaySeed = kSamplesPerSeed / kVisibleLightRays;
 
 /// Largest finite values: a light's edge is added to the largest light.
-constexpr double kLargest = std::numeric_limits<float>::max();
+constexpr float kLargest = std::numeric_limits<float>::max();
 /// Rays for pixels with small lights, which may be hidden or be part of a larger light.
 constexpr std::uint32_t kSmallLightRays = 256;
 
@@ -102,6 +102,26 @@ class VisibleRanges {
   std::vector<std::array<Range, kColorPlanes>> ranges_;
 };
 
+// Light that camera rays have found: rows of one pixel after the other, by plane.
+struct FoundLight {
+  const std::vector<float>& values;
+  std::size_t stride = 0;
+
+  std::array<float, kColorPlanes> At(std::size_t row) const {
+    return {values[row], values[stride + row], values[2 * stride + row]};
+  }
+};
+
+// Adds light to one sample of a pixel.
+void AddTo(const TilePlanes& planes, std::size_t at,
+           const std::array<double, kColorPlanes>& light) {
+  for (std::size_t c = 0; c < kColorPlanes; ++c) {
+    float& value = planes.values[c * planes.stride + at];
+    value = float(
+        std::clamp(double(value) + light[c], -double(kLargest), double(kLargest)));
+  }
+}
+
 }  // namespace
 
 VisibleLightRays::VisibleLightRays(const PreparedScene& scene, const Plan& plan,
@@ -126,6 +146,9 @@ void VisibleLightRays::Trace(const Work& rays, StageClock* clock,
   work.together = SamplesTogether(scene_, plan_);
   const std::size_t rows = rays.num_pixels * rays.count;
   out.resize(std::max(out.size(), rows * kColorPlanes));
+  filter_places.resize(std::size_t{2} * rays.count);
+  work.tile_pixel = rays.tile_pixel;
+  work.filter_places = filter_places.data();
   run_ = image_run_;
   run_.seed = rays.seed;
   run_.max_depth = 0;
@@ -162,14 +185,14 @@ void VisibleLightEdges::FindIn(const PixelRect& rect, VisibleLightRays& rays,
   std::vector<std::uint32_t>& pixels = rays.pixels;
   TilePixels(all, scene_.view->film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
-  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, true}, clock,
-             rays.others);
+  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, pixels.front(), true},
+             clock, rays.others);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
   }
   for (const std::uint32_t pixel : pixels) {
     if (!std::ranges::binary_search(small_lights_, pixel)) continue;
-    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, true}, clock, rays.own);
+    rays.Trace({&pixel, 1, kFindSeed, 0, kSmallLightRays, pixel, true}, clock, rays.own);
     ranges.Add(pixel, rays.own.data(), kSmallLightRays, kSmallLightRays);
   }
   TilePixels(rect, scene_.view->film.width, &pixels);
@@ -179,58 +202,83 @@ void VisibleLightEdges::FindIn(const PixelRect& rect, VisibleLightRays& rays,
   }
 }
 
-bool VisibleLightEdges::CorrectSamples(const VisibleLightTask& task,
-                                       VisibleLightRays& rays, StageClock* clock,
-                                       RunCounts& counts) const {
+template <class Visit>
+void VisibleLightEdges::ForEachGroup(const VisibleLightTask& task, VisibleLightRays& rays,
+                                     const Visit& visit) const {
   const std::vector<std::uint32_t>& edges = edges_[task.tile];
-  if (edges.empty()) return false;
   const std::uint64_t each =
-      samples_.End(task.begin + task.count) - samples_.Begin(task.begin);
+      samples_.End(task.begin + task.planes.count) - samples_.Begin(task.begin);
   const std::size_t maximum = std::max<std::size_t>(1, kMaxRays / each);
   for (std::size_t first = 0; first < edges.size(); first += maximum) {
-    CorrectPixels({edges.data() + first, std::min(maximum, edges.size() - first)}, task,
-                  rays, clock);
+    const Places places = {edges.data() + first, std::min(maximum, edges.size() - first)};
+    rays.pixels.clear();
+    for (std::size_t p = 0; p < places.count; ++p) {
+      rays.pixels.push_back(task.planes.pixels[places.at[p]]);
+    }
+    visit(places);
   }
-  // Counts the same rays for any split; rays that others of a turn need are traced again.
-  counts.rays_closest += edges.size() * task.count * (1 + kVisibleLightRays);
-  return true;
 }
 
-void VisibleLightEdges::CorrectPixels(const Places& places, const VisibleLightTask& task,
-                                      VisibleLightRays& rays, StageClock* clock) const {
-  const std::uint32_t seed = rays.image_run().seed;
-  std::vector<std::uint32_t>& pixels = rays.pixels;
-  pixels.clear();
-  for (std::size_t p = 0; p < places.count; ++p) {
-    pixels.push_back(task.pixels[places.at[p]]);
-  }
-  rays.Trace({pixels.data(), places.count, seed, task.begin, task.count}, clock,
-             rays.own);
-  const std::uint64_t end = task.begin + task.count;
-  for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
-    const std::uint64_t round = begin / kSamplesPerRaySeed;
-    next = std::min(end, (round + 1) * kSamplesPerRaySeed);
-    const std::uint64_t base = round * kSamplesPerRaySeed;
-    const std::uint64_t first = samples_.Begin(begin - base);
-    const auto count = std::uint32_t(samples_.End(next - base) - first);
-    rays.Trace({pixels.data(), places.count, RaySeed(seed, round), first, count}, clock,
-               rays.others);
+bool VisibleLightEdges::RemoveOwn(const VisibleLightTask& task, VisibleLightRays& rays,
+                                  StageClock* clock) const {
+  const TilePlanes& planes = task.planes;
+  ForEachGroup(task, rays, [&](const Places& places) {
+    rays.Trace({rays.pixels.data(), places.count, rays.image_run().seed, task.begin,
+                planes.count, planes.pixels.front()},
+               clock, rays.own);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t p = 0; p < places.count; ++p) {
-        const float* const own = rays.own.data() + (c * places.count + p) * task.count;
-        const float* const others = rays.others.data() + (c * places.count + p) * count;
+        const float* const own =
+            rays.own.data() + (c * places.count + p) * planes.count;
         float* const values =
-            task.values + c * task.stride + std::size_t{places.at[p]} * task.count;
-        for (std::uint64_t i = begin; i < next; ++i) {
-          double sum = 0;
-          samples_.ForEach(i - base,
-                           [&](std::uint64_t s) { sum += double(others[s - first]); });
-          const auto at = std::size_t(i - task.begin);
-          const double corrected =
-              double(values[at]) - double(own[at]) + sum / samples_.Count();
-          values[at] = float(std::clamp(corrected, -kLargest, kLargest));
+            planes.values + c * planes.stride + std::size_t{places.at[p]} * planes.count;
+        for (std::size_t i = 0; i < planes.count; ++i) {
+          values[i] = std::clamp(values[i] - own[i], -kLargest, kLargest);
         }
       }
+    }
+  });
+  return !edges_[task.tile].empty();
+}
+
+void VisibleLightEdges::AddOthers(const VisibleLightTask& task, SampleSharing* sharing,
+                                  VisibleLightRays& rays, StageClock* clock) const {
+  ForEachGroup(task, rays, [&](const Places& places) {
+    const std::uint64_t end = task.begin + task.planes.count;
+    for (std::uint64_t begin = task.begin, next = 0; begin < end; begin = next) {
+      const std::uint64_t round = begin / kSamplesPerRaySeed;
+      next = std::min(end, (round + 1) * kSamplesPerRaySeed);
+      const std::uint64_t base = round * kSamplesPerRaySeed;
+      Stream stream = {begin - base, next - base, begin - task.begin};
+      stream.first = samples_.Begin(stream.begin);
+      stream.count = std::uint32_t(samples_.End(stream.end) - stream.first);
+      rays.Trace({rays.pixels.data(), places.count, RaySeed(rays.image_run().seed, round),
+                  stream.first, stream.count, task.planes.pixels.front()},
+                 clock, rays.others);
+      AddStream(stream, places, task.planes, rays, sharing);
+    }
+  });
+}
+
+void VisibleLightEdges::AddStream(const Stream& stream, const Places& places,
+                                  const TilePlanes& planes, const VisibleLightRays& rays,
+                                  SampleSharing* sharing) const {
+  const FoundLight found = {rays.others, places.count * stream.count};
+  const double share = 1 / samples_.Count();
+  for (std::size_t p = 0; p < places.count; ++p) {
+    for (std::uint64_t i = stream.begin; i < stream.end; ++i) {
+      const auto at = std::uint32_t(i - stream.begin + stream.offset);
+      std::array<double, kColorPlanes> mean = {};
+      samples_.ForEach(i, [&](std::uint64_t s) {
+        const auto ray = std::size_t(s - stream.first);
+        const auto light = found.At(p * stream.count + ray);
+        for (std::size_t c = 0; c < kColorPlanes; ++c) mean[c] += double(light[c]) * share;
+        if (sharing == nullptr) return;
+        const float* const place = rays.filter_places.data() + ray;
+        sharing->Add(planes, {places.at[p], at}, place[0], place[stream.count], mean);
+        mean = {};
+      });
+      AddTo(planes, std::size_t{places.at[p]} * planes.count + at, mean);
     }
   }
 }

@@ -16,21 +16,18 @@
 #include <vector>
 
 #include "src/render/wave/run_state.h"
+#include "src/render/wave/shared_samples.h"
 #include "src/render/wave/stage_clock.h"
 #include "src/render/wave/wavefront.h"
 #include "src/vocabulary/path/replicates.h"
 
 namespace lanelight {
 
-/// The samples of a task: values[plane * stride + pixel * count + i] is plane `plane` of
-/// sample begin + i of pixels[pixel].
+/// The samples of a task.
 struct VisibleLightTask {
   std::size_t tile = 0;
-  const std::vector<std::uint32_t>& pixels;  // y * image width + x
-  std::uint64_t begin = 0;                   // of the run's seed
-  std::uint32_t count = 0;
-  float* values = nullptr;
-  std::size_t stride = 0;
+  const TilePlanes& planes;
+  std::uint64_t begin = 0;  // the first sample, of the run's seed
 };
 
 /// Traces camera rays to the light that they see; one object per thread.
@@ -42,6 +39,7 @@ class VisibleLightRays {
     std::uint32_t seed = 0;
     std::uint64_t first = 0;
     std::uint32_t count = 0;
+    std::uint32_t tile_pixel = 0;  // TileWork::tile_pixel
     bool finds_edges = false;  // by PhaseId::kFindEdges, if the plan has it
   };
 
@@ -57,6 +55,7 @@ class VisibleLightRays {
   // Scratch memory of the caller.
   std::vector<std::uint32_t> pixels;
   std::vector<float> own, others;
+  std::vector<float> filter_places;  // of the last Trace(), with pixel-samples=shared
 
  private:
   const PreparedScene& scene_;
@@ -112,10 +111,19 @@ class VisibleLightEdges {
   /// from several threads, each with its own rays. Before Correct() of this tile.
   void Find(std::size_t tile, const PixelRect& rect, VisibleLightRays& rays,
             StageClock* clock);
-  /// Corrects the samples of a task if its tile has edges, and counts the rays. Safe from
-  /// several threads. Returns whether anything was done.
-  bool CorrectSamples(const VisibleLightTask& task, VisibleLightRays& rays,
-                      StageClock* clock, RunCounts& counts) const;
+  /// Takes the emission that their own camera rays see from the samples of a task, if its
+  /// tile has edges. Safe from several threads. Returns whether anything was done.
+  bool RemoveOwn(const VisibleLightTask& task, VisibleLightRays& rays,
+                 StageClock* clock) const;
+  /// Adds the mean emission that other camera rays see; by `sharing` to all pixels that
+  /// these count for, unless it is null. Safe from several threads.
+  void AddOthers(const VisibleLightTask& task, SampleSharing* sharing,
+                 VisibleLightRays& rays, StageClock* clock) const;
+  /// Returns the rays of both for so many samples. They are the same for any split of the
+  /// work; rays that others of a turn need are traced again.
+  std::uint64_t RaysOf(std::size_t tile, std::uint32_t samples) const {
+    return edges_[tile].size() * samples * (1 + std::uint64_t{kVisibleLightRays});
+  }
 
   /// Returns the pixels of a tile with edges, as places in its TilePixels.
   const std::vector<std::uint32_t>& Of(std::size_t tile) const { return edges_[tile]; }
@@ -128,8 +136,20 @@ class VisibleLightEdges {
   };
   void FindIn(const PixelRect& rect, VisibleLightRays& rays, StageClock* clock,
               std::vector<std::uint32_t>& edges) const;
-  void CorrectPixels(const Places& places, const VisibleLightTask& task,
-                     VisibleLightRays& rays, StageClock* clock) const;
+  // A range of a stream's samples [begin, end), whose camera rays begin with `first` and
+  // number `count` for each pixel; `offset`: of `begin` in the task.
+  struct Stream {
+    std::uint64_t begin = 0, end = 0, offset = 0;
+    std::uint64_t first = 0;
+    std::uint32_t count = 0;
+  };
+  void AddStream(const Stream& stream, const Places& places, const TilePlanes& planes,
+                 const VisibleLightRays& rays, SampleSharing* sharing) const;
+  /// Calls visit(places) for groups of the tile's edges that are traced together, whose
+  /// pixels are then listed in `rays`.
+  template <class Visit>
+  void ForEachGroup(const VisibleLightTask& task, VisibleLightRays& rays,
+                    const Visit& visit) const;
 
   const PreparedScene& scene_;
   const VisibleLightSamples samples_;

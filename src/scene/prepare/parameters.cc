@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "src/scene/prepare/pmj02.h"
 
@@ -14,16 +16,16 @@ constexpr std::uint64_t Bit(Dimension d) {
   return std::uint64_t{1} << static_cast<std::uint32_t>(d);
 }
 
-// The sum is 1.0 to 1.4 in five scenes, whose filters have a radius of 0.5 to 1.5.
-// Renders allow for wider ones (SplatPixels).
+// The least sum of light subpaths: it is 1.0 to 1.4 in five scenes, whose filters have a
+// radius of 0.5 to 1.5.
 constexpr double kPixelsOfLightPath = 3;
+// Of a Gaussian of radius 1.5 and sigma 0.5, where the filter is not known.
+constexpr FilterReach kUsualReach = {1, 1.6, 1. / 3};
 
 // Errors of two pixels have no more in common than the share of samples in which they are
 // in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same
 // neighbours again and again, but no more than N.
-double Dependents(const Strategy& strategy) {
-  // A light subpath serves the pixels whose filter it meets, a few times.
-  if (strategy.light_paths != LightPaths::kNone) return kPixelsOfLightPath;
+double DependentsOfReuse(const Strategy& strategy) {
   if (strategy.reuse == Reuse::kNone) return 1;
   const double n = strategy.reused_paths;
   if (strategy.block_layout != BlockLayout::kRandom) return n;
@@ -53,6 +55,21 @@ std::string SizeText(const Strategy& strategy, std::uint64_t units) {
 }
 
 }  // namespace
+
+// A light subpath serves the pixels whose filter it meets, a few times. Of shared samples
+// what they have in common remains, and the rest becomes less.
+double DependentsOf(const Strategy& strategy, const FilterReach& reach) {
+  const bool shared = strategy.pixel_samples == PixelSamples::kShared;
+  if (strategy.light_paths != LightPaths::kNone) {
+    return std::max({kPixelsOfLightPath, reach.splats, shared ? reach.shared : 1});
+  }
+  const double own = DependentsOfReuse(strategy);
+  if (!shared) return own;
+  constexpr double kOthers = kReuseTile * kReuseTile - 1;
+  const double common = std::sqrt((own - 1) / kOthers);
+  const double correlation = common / ((1 - common) * reach.shared_variance + common);
+  return reach.shared + kOthers * correlation * correlation;
+}
 
 SamplerParameters MakeSamplerParameters(SampleSequence sampler) {
   SamplerParameters p;
@@ -124,7 +141,7 @@ SampleGroups GroupsOf(const Strategy& strategy) {
   // their own: those of four turns say it.
   groups.replicates = strategy.sampler != SampleSequence::kIndependent ||
                       (groups.unit == 2 && strategy.control == Control::kRegression);
-  groups.dependents = Dependents(strategy);
+  groups.dependents = DependentsOf(strategy, kUsualReach);
   return groups;
 }
 

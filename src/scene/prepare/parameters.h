@@ -20,6 +20,16 @@ std::uint32_t CandidatesOf(const Strategy& strategy, const FeatureSet& features)
 /// Returns log2 of the number of points of one randomisation.
 std::uint32_t LogSequence(SampleSequence sampler);
 
+/// What a pixel filter makes of SampleGroups::dependents.
+struct FilterReach {
+  double splats = 1;  // of light subpaths: SplatPixels (src/render/wave/light_paths.h)
+  /// Of shared samples that are independent, and their variance over that of own ones
+  /// (src/render/wave/shared_samples.h).
+  double shared = 1, shared_variance = 1;
+};
+/// Returns SampleGroups::dependents of a strategy.
+double DependentsOf(const Strategy& strategy, const FilterReach& reach);
+
 /// Returns the groups that count as one observation.
 SampleGroups GroupsOf(const Strategy& strategy);
 

@@ -73,6 +73,11 @@ struct TileWork {
   std::uint32_t first_sample = 0, samples = 0;
   std::uint32_t together = 1;  // samples of a pixel in adjacent slots; even for pairs
   std::uint32_t next_pixel = 0, next_sample = 0;  // cursor; done when >= samples
+  /// pixel-samples=shared: a sample has the same place in the filters of all pixels of a
+  /// tile, by the numbers of one of them. Kept here for each sample, in bins of the
+  /// filter's tables: along x for all, then along y.
+  std::uint32_t tile_pixel = 0;
+  float* filter_places = nullptr;
 
   bool Done() const { return next_sample >= samples; }
 };

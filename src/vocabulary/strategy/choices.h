@@ -118,6 +118,12 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(T, K, Equiangular, STAGE, ({}), "equiangular", "", "points in homogeneous media also uniform in the angle around a light", \
     "f / p, p = (sigma_t T(d) + (1 - T(t)) p_angle(d)) / 2, p_angle = D / (theta (D^2 + (d - d_0)^2))", "Kulla and Fajardo 2012")
 
+#define LANELIGHT_PIXEL_SAMPLES(X, T, K)                                                        \
+  X(T, K, Own, PLAIN, ({}), "own", "", "a pixel has the samples that are drawn for it, by its filter (default)", \
+    "1/N sum f(x_i), x_i ~ g_p", "Ernst, Stamminger and Greiner 2006")                    \
+  X(T, K, Shared, STAGE, ({}), "shared", "", "the samples of a tile count for all its pixels whose filters they lie under", \
+    "1/N sum_q sum_i f(x_qi) g_p(x_qi) / sum_r g_r(x_qi), x_qi ~ g_q", "balance heuristic: Veach and Guibas 1995")
+
 #define LANELIGHT_REUSES(X, T, K)                                                               \
   X(T, K, None, PLAIN, ({}), "none", "", "no path reuse (default)", "f L / p", "") \
   X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
@@ -162,6 +168,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     LANELIGHT_LIGHT_CANDIDATE_CHOICES)                                              \
   X(EnvironmentPoints, environment, "environment", LANELIGHT_ENVIRONMENT_CHOICES)   \
   X(Distances, distances, "distances", LANELIGHT_DISTANCES)                         \
+  X(PixelSamples, pixel_samples, "pixel-samples", LANELIGHT_PIXEL_SAMPLES)          \
   X(Reuse, reuse, "reuse", LANELIGHT_REUSES)                                        \
   X(LightPaths, light_paths, "light-paths", LANELIGHT_LIGHT_PATH_CHOICES)           \
   X(Decide, decide, "decide", LANELIGHT_DECISIONS)

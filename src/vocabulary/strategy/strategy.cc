@@ -62,8 +62,9 @@ std::string ToText(const Strategy& s) {
   text += fmt::format(",roulette={},light-selection={},seen-lights={}", RouletteText(s),
                       Name(s.light_selection), Name(s.visible_lights));
   return text + LightText(s) +
-         fmt::format(",distances={},reuse={},light-paths={},decide={}", Name(s.distances),
-                     ReuseText(s), LightPathsText(s), Name(s.decide));
+         fmt::format(",distances={},pixel-samples={},reuse={},light-paths={},decide={}",
+                     Name(s.distances), Name(s.pixel_samples), ReuseText(s),
+                     LightPathsText(s), Name(s.decide));
 }
 
 std::span<const ChoiceInfo> AllChoices() {

@@ -48,6 +48,7 @@ struct Strategy {
       kDefaultLightCandidates;  // of kResampled: 2 to kMaxLightCandidates
   EnvironmentPoints environment = EnvironmentPoints::kPlain;
   Distances distances = Distances::kExponential;
+  PixelSamples pixel_samples = PixelSamples::kOwn;
   Reuse reuse = Reuse::kNone;
   std::uint32_t reused_paths = kDefaultReusedPaths;  // of kBlock
   BlockLayout block_layout = BlockLayout::kRandom;   // of kBlock
@@ -71,9 +72,12 @@ struct Strategy {
   bool Splits() const {
     return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
   }
-  /// Returns whether paths are reused in their tile, or a trial run may decide so: tiles
-  /// must be the same for any number of samples.
-  bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }
+  /// Returns whether pixels of a tile share paths or samples, or a trial run may decide
+  /// so: tiles must be the same for any number of samples.
+  bool MayShare() const {
+    return reuse != Reuse::kNone || pixel_samples == PixelSamples::kShared ||
+           decide == Decide::kPilot;
+  }
 };
 
 /// The preset that is the renderer's own strategy.

@@ -24,7 +24,7 @@ constexpr const char kPlain[] =
     "directions=mis:power,points=independent,pairs=none,control=none,c=optimal,"
     "roulette=none,light-selection=power,seen-lights=paths,light-points=area,"
     "light-candidates=single,environment=plain,"
-    "distances=exponential,reuse=none,light-paths=none,decide=none";
+    "distances=exponential,pixel-samples=own,reuse=none,light-paths=none,decide=none";
 
 class Parser {
  public:

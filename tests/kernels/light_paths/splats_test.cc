@@ -6,6 +6,7 @@
 
 #include "src/scene/prepare/prepared_scene.h"
 #include "tests/kernels/reuse/same_light.h"
+#include "tests/render/run/correlations.h"
 #include "tests/render/run/render_fixture.h"
 #include "tests/vocabulary/strategy/combinations.h"
 
@@ -179,24 +180,6 @@ TEST_CASE("splats: a wall that is 3 % darker is found", "[light_paths]") {
   const auto darker = TilesOf(
       RenderOften(room.description, "points=sobol,light-paths=splats:2", 8192, 7), 8);
   CHECK_FALSE(stat::CompareMeans(darker, truth, {1, 1e-6, kFloatTolerance, 1e-7}).same);
-}
-
-// Over renders, the variance of the mean of squared z-scores of n normal pixels is 2 / n
-// times the sum over all pixels of their squared correlations with one.
-double SquaredCorrelations(const std::vector<std::vector<double>>& renders) {
-  const double n = double(renders.size()), pixels = double(renders[0].size());
-  std::vector<double> squares(renders.size());
-  for (std::size_t p = 0; p < renders[0].size(); ++p) {
-    double sum = 0, scatter = 0;
-    for (const auto& render : renders) sum += render[p];
-    for (const auto& render : renders) scatter += std::pow(render[p] - sum / n, 2);
-    for (std::size_t i = 0; i < renders.size(); ++i) {
-      squares[i] += std::pow(renders[i][p] - sum / n, 2) / scatter * (n - 1) / pixels;
-    }
-  }
-  double variance = 0;
-  for (const double s : squares) variance += std::pow(s - (n - 1) / n, 2) / (n - 1);
-  return pixels / 2 * variance;
 }
 
 // A point light that reaches the floor by way of a mirror alone, on light subpaths.

@@ -86,7 +86,8 @@ TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts
        {"points=independent", "points=sobol", "pairs=antithetic",
         "points=independent,pairs=antithetic", "roulette=adjoint", "roulette=efficiency",
         "points=cmj", "points=halton", "decide=pilot", "reuse=block:16",
-        "points=independent,reuse=block:64:compact", "light-paths=splats:3"}) {
+        "points=independent,reuse=block:64:compact", "light-paths=splats:3",
+        "pixel-samples=shared"}) {
     INFO(strategy);
     CheckCuts(RenderOf("cornell-box", strategy), {1, 3, 7});
   }

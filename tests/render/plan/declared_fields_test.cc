@@ -95,6 +95,7 @@ class Checker {
     LANELIGHT_PATH_FIELDS(X)
 #undef X
     TilePixels(MiddleTile(), scene_.view->film.width, &pixels_);
+    places_.resize(2 * kSamples);
     samples_.resize(std::size_t{Rows()} * static_cast<std::size_t>(run_.planes.count()));
   }
 
@@ -105,6 +106,8 @@ class Checker {
     work.pixels = pixels_.data();
     work.num_pixels = static_cast<std::uint32_t>(pixels_.size());
     work.samples = kSamples;
+    work.tile_pixel = pixels_[0];
+    work.filter_places = places_.data();
     wave.Begin(work, {samples_.data(), Rows()});
     if (reuse_) reuse_->Begin(wave.work, wave);
     MakeLightSplats();
@@ -264,7 +267,7 @@ class Checker {
   std::vector<std::uint32_t> splat_memory_;
   std::vector<std::uint32_t*> columns_;  // in the order of Field; null: not live
   std::vector<std::uint32_t> pixels_;
-  std::vector<float> samples_;
+  std::vector<float> samples_, places_;
   std::set<std::string> findings_;
 };
 
@@ -327,6 +330,7 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kLampsScene, "points=sobol,light-paths=splats"},
       {kLampsScene, "light-paths=splats,roulette=none"},
       {kLampsScene, "light-selection=learned"},
+      {kLampsScene, "pixel-samples=shared"},
       {kMovingScene, "points=sobol"},
       {kMovingScene, "points=halton,pairs=antithetic"},
       {kSphericalScene, "points=sobol"},

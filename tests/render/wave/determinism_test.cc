@@ -120,7 +120,8 @@ TEST_CASE("path reuse is bit-identical for any threads and wavefront size",
           "[determinism]") {
   for (const char* strategy :
        {"reuse=block:16", "reuse=block:64:compact",
-        "reuse=block:4:apart,directions=uniform", "light-paths=splats:5"}) {
+        "reuse=block:4:apart,directions=uniform", "light-paths=splats:5",
+        "reuse=block,pixel-samples=shared"}) {
     INFO(strategy);
     TestRender base;
     base.strategy = strategy;

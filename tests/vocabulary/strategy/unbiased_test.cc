@@ -33,6 +33,7 @@ stat::ImageTestResult Compare(const HardScene& hard, const std::string& strategy
                               std::uint64_t seed, double false_alarm) {
   const stat::ImageTestOptions options = {hard.tile, false_alarm, kFloatTolerance, 1e-7};
   const bool shares = strategy.find("reuse=block") != std::string::npos ||
+                      strategy.find("pixel-samples=shared") != std::string::npos ||
                       strategy.find("light-paths=splats") != std::string::npos;
   if (!shares) {
     return stat::CompareMeans(EstimateWith(hard.scene, strategy, spp, seed), truth,
