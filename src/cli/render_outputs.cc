@@ -152,7 +152,7 @@ bool SaveOrPrint(const std::string& path, const std::string& text) {
 }
 
 int PrintRendering(const Rendering& rendering, const Job& job,
-                   const RenderOutputs& options, const std::string& preface) {
+                   const RenderOutputs& options) {
   const RenderReport& report = rendering.report;
   const std::string kept =
       rendering.is_checkpoint_saved ? options.targets.checkpoint.path : std::string();
@@ -160,7 +160,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.quiet && (!report.partial || report.result.samples > 0)) {
-    Print(preface + SummaryText(report, job, {options.verbose, kept}));
+    Print(SummaryText(report, job, {options.verbose, kept}));
   }
   if (report.result.health.Total() > 0) {
     PrintError(fmt::format("error: {} samples were invalid and count as zero",

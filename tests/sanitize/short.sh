@@ -105,7 +105,6 @@ expect 0 info "$out/image.exr"
 expect 0 plan glass.pbrt
 expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace.json" \
   --threads 4 --quiet
-expect 0 advise cornell-box.pbrt --resolution 40x30 --time 2 -o "$out/image.exr" --quiet
 expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
   --strategies 'default;points=pmj02' --repetitions 3 --quiet
 expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.csv"

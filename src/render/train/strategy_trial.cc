@@ -10,12 +10,13 @@
 namespace lanelight {
 namespace {
 
+constexpr std::uint32_t kTrialSpp = 32;
 constexpr double kMissingLightErrors = 3;  // standard errors
 
 // Minimum number of pixels that carry a candidate's error; its sum is then known to 25 %.
-// In last rounds of advice for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
+// In trials for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
 // carry its error (material-testball, media: 0.46x the efficiency in long renders,
-// although each of these rounds preferred it). It had 32 to 75 where it is efficient
+// although each of these trials preferred it). It had 32 to 75 where it is efficient
 // (corridor, veach-ajar; 14 once).
 constexpr double kMinEffectivePixels = 16;
 
@@ -55,9 +56,8 @@ bool DiffersByRoulette(Strategy changed, const Strategy& baseline) {
 // probability.
 bool HasMilderRoulette(const Strategy& changed, const Strategy& baseline) {
   const bool longer =
-      changed.roulette == Roulette::kNone ||
-      (changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
-       changed.scale >= baseline.scale && changed.First() >= baseline.First());
+      changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
+      changed.scale >= baseline.scale && changed.First() >= baseline.First();
   return baseline.roulette == Roulette::kThroughput && longer &&
          DiffersByRoulette(changed, baseline);
 }
@@ -146,8 +146,8 @@ StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& 
       planned_(planned),
       watcher_(training.stop) {}
 
-void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t round) {
-  work_ = MakeTrainingWork(scene_, samples, spp, round);
+void StrategyTrial::Begin(std::uint64_t samples) {
+  work_ = MakeTrainingWork(scene_, samples, kTrialSpp);
   work_.spp -= work_.spp % kReplicates;
   image_.reset();
 }

@@ -127,7 +127,7 @@ bool IsOfLightPaths(const DecisionCandidate& candidate) {
 // Returns the gain of one change after another.
 TrialGain JoinedGain(const TrialGain& first, const TrialGain& second) {
   return {first.log + second.log, std::hypot(first.standard_error, second.standard_error),
-          first.minimum + second.minimum, first.maximum + second.maximum};
+          first.minimum + second.minimum};
 }
 
 // Compares strategies with a plain one on the same tiles.

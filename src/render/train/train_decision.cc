@@ -62,7 +62,7 @@ class Decider {
         trial_(scene_, training_, context.seed, planned_ / kLearned) {}
 
   TrainingOutcome Run() {
-    entries_.reserve(1 + std::size(kDecisionCandidates));
+    entries_.reserve(2 + std::size(kRouletteCandidates));
     Add("", 1);
     TriedStrategy* chosen = &entries_.front();
     const TriedStrategy* base = chosen;
@@ -72,7 +72,7 @@ class Decider {
       trial_.Begin(planned_ / kCompared);
       base = chosen = Improve(*chosen, std::span(&kLearnedSelection, 1));
       tables_.lights = chosen->tables.lights;
-      chosen = Improve(*chosen, std::span(kDecisionCandidates, kNumRouletteCandidates));
+      chosen = Improve(*chosen, kRouletteCandidates);
       if (note_.empty()) note_ = "no candidate changes this render";
       if (!trial_.IsStopped()) TryOnTilesBeside(*base, *chosen);
     }
