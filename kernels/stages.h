@@ -71,7 +71,6 @@ namespace lanelight {
   X(RecordVertex)                              \
   X(SinglePathBefore)                          \
   X(AdjointRoulette)                           \
-  X(EfficiencyRoulette)                        \
   X(SinglePathAfter)                           \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
@@ -126,7 +125,6 @@ namespace lanelight {
   X(KeepSplats)                                \
   X(SecondVerticesLight)                       \
   X(LightPathLeave)                            \
-  X(RecordDecision)                            \
   X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \

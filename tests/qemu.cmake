@@ -25,7 +25,7 @@ set(long
   kernels/media/varying_test scene/parse/format_test kernels/samplers/convergence_test
   reference/closed_form_test reference/estimators_test
   render/job/any_split_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
-  kernels/roulette/efficiency_test kernels/roulette/shadow_test kernels/roulette/splitting_test
+  kernels/roulette/path_values_test kernels/roulette/shadow_test kernels/roulette/splitting_test
   kernels/roulette/single_path_test scenes/closed_form_scenes_test scenes/scenes_test
   kernels/shade/coat_medium_test kernels/shade/limits_test kernels/shade/reference_test base/stat/convergence_test
   base/stat/efficiency_test base/stat/interval_test base/state/integrity_test vocabulary/strategy/unbiased_test

@@ -75,7 +75,6 @@ render cornell-box.pbrt --resolution 41x33 --spp 4 \
 render cornell-box.pbrt --resolution 41x33 --spp 4 --strategy reuse=block,directions=uniform
 # Paths that split into copies, after a pilot of their own.
 render veach-mis.pbrt --resolution 81x61 --spp 16 --strategy roulette=adjoint
-render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy roulette=efficiency
 # Light subpaths.
 for scene in cornell-box glass; do
   render "$scene.pbrt" --resolution 81x61 --spp 9 --strategy light-paths=splats:2

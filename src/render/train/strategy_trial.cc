@@ -159,7 +159,6 @@ TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
   if (!NeedsTraining(plan)) return {};
   TrainingOptions options = training_;
   options.planned_samples = planned;
-  options.keep_roulette |= !tried.changes.empty();
   const TrainingOutcome out = Train({tried.scene, plan, seed_, options, tables});
   spent_.samples += out.samples;
   spent_.rays += out.rays;
@@ -194,9 +193,7 @@ TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
 
 bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& baseline) {
   if (!tried.has_learned) {
-    // Training may have changed the strategy.
-    const TrainingOutcome learned = TrainStrategy(tried, planned_, tried.tables);
-    tried.options = WithChanges(tried.scene, tried.options, learned.changes);
+    TrainStrategy(tried, planned_, tried.tables);
     tried.has_learned = true;
   }
   if (!IsStopped()) Measure(tried, baseline);

@@ -164,7 +164,7 @@ class Decider {
     chosen.options = WithChanges(scene_, options_, changes);
     const TrainingOutcome out =
         trial_.TrainStrategy(chosen, training_.planned_samples, tables_);
-    outcome_.changes = JoinedChanges(changes, out.changes);
+    outcome_.changes = changes;
     outcome_.note =
         fmt::format("rendered with {}; {}{}{}",
                     chosen.changes.empty() ? "the strategy as given" : chosen.changes,

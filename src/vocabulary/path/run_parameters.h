@@ -22,7 +22,7 @@ inline constexpr int kRecordedVertices = 4;
   X(Radiance, 3, ({kSpectralFilm}), true, "weighted radiance at the long, middle and short wavelength of the path, before the film converts it to a colour") \
   X(Triple, 1, ({kSpectralFilm}), false, "index of the wavelength bins of the path") \
   X(Numbers, 4, ({kRegressionControl}), false, "random numbers of a path (dimensions.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
-  X(Record, 5 * kRecordedVertices + 5, ({kRecordsPaths}), false, "of each vertex: cell, throughput, radiance gathered, light sampled, radiance that it adds; then radiance at the end, depth, three risk sums") \
+  X(Record, 5 * kRecordedVertices + 1, ({kRecordsPaths}), false, "of each vertex: cell, throughput, radiance gathered, light sampled, radiance that it adds; then radiance at the end") \
   X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; its square as if roulette on the throughput had replaced splitting") \
   X(Weight, 1, ({kReuse}), false, "weight of the sample; applied to its colour once its block has been connected")
 // clang-format on

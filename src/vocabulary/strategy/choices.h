@@ -73,10 +73,8 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "f / (1 - q) or 0", "paper eq. 8; Arvo and Kirk 1990")                                \
   X(T, K, Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
     "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(T, K, Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
-    "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
-  X(T, K, Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
-    "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
+  X(T, K, Adjoint, STAGE, ({kSplitting}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
+    "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016")
 
 #define LANELIGHT_LIGHT_SELECTIONS(X, T, K)                                                     \
   X(T, K, Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light with the same probability", "p = 1 / n", "") \

@@ -68,9 +68,7 @@ struct Strategy {
   bool SamplesHittableLights() const {
     return directions == Directions::kLight || directions == Directions::kMis;
   }
-  bool Splits() const {
-    return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
-  }
+  bool Splits() const { return roulette == Roulette::kAdjoint; }
   /// Returns whether paths are reused in their tile, or a trial run may decide so: tiles
   /// must be the same for any number of samples.
   bool MayReuse() const { return reuse != Reuse::kNone || decide == Decide::kPilot; }

@@ -134,7 +134,7 @@ TEST_CASE("subsurface: strategies agree", "[media][subsurface]") {
   const auto truth = RenderWavefront(scene, 16384);
   for (const char* strategy :
        {"directions=light", "directions=uniform", "roulette=none", "roulette=adjoint",
-        "roulette=efficiency", "distances=equiangular", "light-selection=tree",
+        "distances=equiangular", "light-selection=tree",
         "points=sobol,pairs=antithetic:first-bounce"}) {
     stat::CheckSame(stat::CompareMeans(RenderWavefront(scene, 4096, strategy), truth,
                                        {8, 1e-6, kFloatTolerance, 1e-7}),

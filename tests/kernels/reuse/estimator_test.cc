@@ -82,8 +82,7 @@ TEST_CASE("first vertices seen in mirrors form their own blocks", "[reuse]") {
 }
 
 TEST_CASE("settings that reuse=block does not support are refused", "[reuse]") {
-  for (const char* other :
-       {"roulette=adjoint", "roulette=efficiency", "control=regression"}) {
+  for (const char* other : {"roulette=adjoint", "control=regression"}) {
     INFO(other);
     CHECK_THROWS_AS(
         EstimateWith(Room().description, std::string("reuse=block,") + other, 4, 1),

@@ -161,7 +161,6 @@ class Checker {
     const Geometry& g = scene_.compiled->geometry;
     v.grid = MakeCellGrid(g.bounds_min, g.bounds_max, 10000);
     v.survive.assign(v.grid.cells(), 1.5f);
-    v.split.assign(v.grid.cells(), 1.5f);
     v.inverse_pixel.assign(std::size_t{run_.width} * run_.height * 3, 0.7f);
     if (!plan_.features.Has(Feature::kLearnedLights)) return;
     LearnedLights& lights = tables_.lights;
@@ -302,7 +301,6 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=stratified,directions=light"},
       {kAllStagesScene, "light-candidates=resampled"},
       {kAllStagesScene, "roulette=adjoint"},
-      {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol,reuse=block"},
       {kAllStagesScene, "points=sobol", true},
       {kAllStagesScene, "roulette=adjoint", true},

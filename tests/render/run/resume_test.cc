@@ -17,7 +17,6 @@ const char* const kStrategies[] = {
     "points=sobol,control=regression",
     "points=independent,control=regression,pairs=antithetic",
     "points=halton,roulette=adjoint",
-    "points=sobol,roulette=efficiency",
     "points=sobol,decide=pilot",
     "points=cmj,pairs=antithetic",
     "points=sobol,reuse=block:16",
@@ -84,21 +83,6 @@ TEST_CASE("a resumed render may lower its error target", "[resume]") {
       CHECK(Same(Render(request).result, whole.result));
     }
   }
-}
-
-TEST_CASE("the roulette chosen by training passes is kept on resume", "[resume]") {
-  Request request;
-  request.strategy = "points=sobol,roulette=efficiency";
-  request.keep_roulette = false;
-  request.spp = 12;
-  const Rendered whole = Render(request);
-  int pauses = 0;
-  Rest rest;
-  const Rendered parts = RenderInParts(request, {}, rest, pauses, 9);
-  CHECK(pauses > 0);
-  CHECK(Identical(parts.film, whole.film));
-  CHECK(Same(parts.result, whole.result));
-  CHECK(whole.result.training.samples > 0);
 }
 
 TEST_CASE("a resumed render keeps its decision", "[resume]") {

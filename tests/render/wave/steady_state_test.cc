@@ -62,7 +62,7 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
           "points=halton,directions=light,pairs=antithetic",
           "points=cmj,control=regression",
           "points=lattice,roulette=none,control=regression", "points=stratified",
-          "roulette=efficiency"}) {
+          "roulette=adjoint"}) {
       INFO(strategy);
       TaskFixture task(scene, strategy, Auxiliary::kGbuffer);
       Plant(task.plan);
