@@ -24,9 +24,8 @@ struct Options {
 };
 
 constexpr SampleSequence kSamplers[] = {
-    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kCmj,
-    SampleSequence::kPmj02,       SampleSequence::kSobol,      SampleSequence::kHalton,
-    SampleSequence::kLattice};
+    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kPmj02,
+    SampleSequence::kSobol,       SampleSequence::kHalton,     SampleSequence::kLattice};
 constexpr std::uint32_t kPixels = 256, kSamples = 8;
 constexpr std::size_t kPoints = kPixels * kSamples;
 

@@ -17,7 +17,6 @@ namespace lanelight {
   X(Generate)                                  \
   X(IndependentCamera)                         \
   X(StratifiedCamera)                          \
-  X(CmjCamera)                                 \
   X(Pmj02Camera)                               \
   X(SobolCamera)                               \
   X(HaltonCamera)                              \
@@ -74,7 +73,6 @@ namespace lanelight {
   X(SinglePathAfter)                           \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
-  X(CmjBounce)                                 \
   X(Pmj02Bounce)                               \
   X(SobolBounce)                               \
   X(HaltonBounce)                              \

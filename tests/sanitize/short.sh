@@ -47,7 +47,7 @@ done
 
 # Every kind of sample points, choice of directions, control variate, roulette.
 for strategy in points=stratified,pairs=antithetic,directions=light \
-  points=cmj points=pmj02,light-selection=uniform \
+  points=pmj02,light-selection=uniform \
   points=halton,roulette=constant points=lattice,roulette=none \
   directions=bsdf,roulette=none directions=uniform,light-selection=power \
   control=regression,c=optimal; do
@@ -121,7 +121,7 @@ expect 1 merge "$out/part-1.state" -o "$out/image.exr" --quiet
 cat >"$out/sweep.toml" <<END
 [grid]
 scene = "$PWD/cornell-box.pbrt"
-strategy = ["default", "points=cmj", "roulette=throughput:{0.1, 0.5}"]
+strategy = ["default", "points=pmj02", "roulette=throughput:{0.1, 0.5}"]
 spp = [4, 16]
 resolution = "24x18"
 END

@@ -109,7 +109,6 @@ std::uint32_t LogSequence(SampleSequence sampler) {
     case SampleSequence::kHalton:
       return 12;                       // below 3^8: see kernels/samplers/halton-inl.h
     case SampleSequence::kStratified:  // beyond, floats have no room for more strata
-    case SampleSequence::kCmj:
     case SampleSequence::kSobol:
     case SampleSequence::kLattice:
       return 20;

@@ -45,8 +45,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "variance sigma^2 / N", "Jarzynski and Olano 2020 (hash)")                            \
   X(T, K, Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
     "u = ((i mod a + xi) / a, (i div a + eta) / b)", "paper 3.5.3; Cook 1986")            \
-  X(T, K, Cmj, STAGE, ({}), "cmj", "", "correlated multi-jittered: strata in two dimensions and in each of them", \
-    "u0 = (i mod a + (s(i div a) + xi) / b) / a, u1 likewise", "Kensler 2013")            \
   X(T, K, Pmj02, STAGE, ({}), "pmj02", "", "progressive multi-jittered (0,2) sequence", \
     "one sample in every elementary interval of base 2", "Christensen, Kensler and Kilpatrick 2018") \
   X(T, K, Sobol, STAGE, ({}), "sobol", "", "Owen-scrambled Sobol' points, padded pairs (default)", \

@@ -1,6 +1,5 @@
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/samplers/cmj-inl.h"
 #include "kernels/samplers/fill-inl.h"
 #include "kernels/samplers/halton-inl.h"
 #include "kernels/samplers/independent-inl.h"

@@ -294,7 +294,6 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=independent"},
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
-      {kAllStagesScene, "points=cmj"},
       {kAllStagesScene, "points=pmj02,roulette=none"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
       {kAllStagesScene, "points=sobol,light-points=projected"},

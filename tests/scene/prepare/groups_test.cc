@@ -40,7 +40,7 @@ TEST_CASE("sequence lengths match the samplers' limits", "[points]") {
     CHECK(MakeSamplerParameters(sampler).group_shift == LogSequence(sampler));
     // Sample counts begin anew after whole turns.
     CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(sampler)) == 0);
-    CHECK(LogSequence(sampler) < 24);  // PermuteOctaves, CmjSequence
+    CHECK(LogSequence(sampler) < 24);  // PermuteOctaves
   }
   CHECK(LogSequence(SampleSequence::kIndependent) == 0);
   CHECK(1u << LogSequence(SampleSequence::kPmj02) == kPmj02SequenceLength);
@@ -76,8 +76,8 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
         "stratified, 4 randomisations of 16 points");
   CHECK(TextOf(SampleSequence::kSobol, 8) == "sobol, 4 randomisations of 2 points");
   CHECK(TextOf(SampleSequence::kSobol, 0) == "sobol, 4 randomisations");
-  CHECK(TextOf(SampleSequence::kCmj, 7) ==
-        "cmj, not stratified (needs 8 samples per pixel), so the same as independent");
+  CHECK(TextOf(SampleSequence::kPmj02, 7) ==
+        "pmj02, not stratified (needs 8 samples per pixel), so the same as independent");
   CHECK(TextOf(SampleSequence::kSobol, 100) ==
         "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
   CHECK(TextOf(SampleSequence::kSobol, 9) ==
