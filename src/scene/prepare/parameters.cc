@@ -10,10 +10,6 @@ namespace lanelight {
 
 namespace {
 
-constexpr std::uint64_t Bit(Dimension d) {
-  return std::uint64_t{1} << static_cast<std::uint32_t>(d);
-}
-
 // The sum is 1.0 to 1.4 in five scenes, whose filters have a radius of 0.5 to 1.5.
 // Renders allow for wider ones (SplatPixels).
 constexpr double kPixelsOfLightPath = 3;
@@ -59,30 +55,6 @@ SamplerParameters MakeSamplerParameters(SampleSequence sampler) {
   p.group_shift = LogSequence(sampler);
   if (sampler == SampleSequence::kPmj02) p.pmj02 = Pmj02Table().data();
   return p;
-}
-
-AntitheticParameters MakeAntitheticParameters(const Strategy& strategy) {
-  if (strategy.pairs == Pairs::kNone) return {};
-  constexpr std::uint64_t kPixel =
-      Bit(Dimension::kFilm) | Bit(Dimension::kLens) | Bit(Dimension::kTime);
-  constexpr std::uint64_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
-  constexpr std::uint64_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
-  constexpr std::uint64_t kMedium =
-      Bit(Dimension::kCameraMedium) | Bit(Dimension::kMedium);
-  constexpr std::uint32_t kEveryDepth = 0xffffffffu;
-  switch (strategy.paired) {
-    case Paired::kAll:
-      return {kPixel | kLight | kBsdf | kMedium | Bit(Dimension::kRoulette), kEveryDepth};
-    case Paired::kPixel:
-      return {kPixel, kEveryDepth};
-    case Paired::kLight:
-      return {kLight, kEveryDepth};
-    case Paired::kBsdf:
-      return {kBsdf, kEveryDepth};
-    case Paired::kFirstBounce:
-      return {kLight | kBsdf, 1};
-  }
-  return {};
 }
 
 MisParameters MakeMisParameters(const Strategy& strategy) {
@@ -142,7 +114,7 @@ std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
       text += SizeText(strategy, units);
     }
   }
-  if (pairs) text += fmt::format(", antithetic pairs ({})", Name(strategy.paired));
+  if (pairs) text += ", antithetic pairs";
   return text;
 }
 

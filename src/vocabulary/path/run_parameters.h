@@ -82,17 +82,6 @@ struct SamplerParameters {
   bool by_tile = false;                  // pixels of a tile share their wavelengths
 };
 
-/// Antithetic pairs: bit d set = dimension d (src/vocabulary/path/dimensions.h) is shared
-/// by samples 2k and 2k+1 and reflected, at depths below `depths`.
-struct AntitheticParameters {
-  std::uint64_t dimensions = 0;
-  std::uint32_t depths = 0;
-
-  bool Has(Dimension d) const {
-    return (dimensions >> static_cast<std::uint32_t>(d) & 1) != 0;
-  }
-};
-
 /// Weight of a technique of density p against one of density q, with r = q / p:
 ///   1 / (1 + r (square r + linear)),
 /// power heuristic (1, 0), balance heuristic (0, 1). directions=light has (0, 0): light
@@ -127,7 +116,7 @@ struct RunParameters {
   FeatureSet features;
   SamplePlanes planes;  // of a finished sample
   SamplerParameters sampler;
-  AntitheticParameters pairs;
+  bool pairs = false;  // samples 2k and 2k+1 share their numbers (pairs=antithetic)
   MisParameters mis;
   RouletteParameters roulette;
   std::uint32_t candidates = 1;  // light samples of which one is kept

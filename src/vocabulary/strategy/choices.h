@@ -56,7 +56,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 
 #define LANELIGHT_PAIRS(X, T, K)                                                                \
   X(T, K, None, PLAIN, ({}), "none", "", "no antithetic samples (default)", "1/N sum f(u)", "") \
-  X(T, K, Antithetic, STAGE, ({}), "antithetic", "[:all|:pixel|:light|:bsdf|:first-bounce]", \
+  X(T, K, Antithetic, STAGE, ({}), "antithetic", "", \
     "samples 2k and 2k+1 share their numbers, the second reflected",                      \
     "1/(2N) sum (f(u) + f(1 - u)); azimuths u + 1/2", "paper eq. 6; Hammersley and Morton 1956")
 
@@ -136,14 +136,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
   X(Compact, "compact", "a rectangle at another position in the tile for each sample") \
   X(Apart, "apart", "a rectangle of every second pixel")
 
-// Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
-#define LANELIGHT_PAIRED(X)                                  \
-  X(All, "all", "every number of the path (default)")        \
-  X(Pixel, "pixel", "position in the pixel and on the lens") \
-  X(Light, "light", "choice of light and point on it")       \
-  X(Bsdf, "bsdf", "scattered direction and lobe")            \
-  X(FirstBounce, "first-bounce", "light and direction at the first event")
-
 // Every axis, as in a strategy's text: X(type, member of Strategy, key, choices).
 #define LANELIGHT_AXES(X)                                                           \
   X(Directions, directions, "directions", LANELIGHT_DIRECTIONS)                     \
@@ -170,7 +162,6 @@ LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef X
 #define X(name, ...) k##name,
 enum class BlockLayout : std::uint8_t { LANELIGHT_BLOCK_LAYOUTS(X) };
-enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 #undef X
 
 // Counts the choices of an axis.
@@ -187,7 +178,6 @@ LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 #undef X
 #define X(name, text, meaning) text,
-inline constexpr const char* kPairedNames[] = {LANELIGHT_PAIRED(X)};
 inline constexpr const char* kBlockLayoutNames[] = {LANELIGHT_BLOCK_LAYOUTS(X)};
 #undef X
 

@@ -29,7 +29,6 @@ struct Strategy {
   Heuristic heuristic = Heuristic::kPower;  // of kMis
   SampleSequence sampler = SampleSequence::kSobol;
   Pairs pairs = Pairs::kNone;
-  Paired paired = Paired::kAll;  // of kAntithetic
   Control control = Control::kNone;
   /// Coefficient c of f - c (h - E[h]); empty: estimated per pixel (`c=optimal`). The
   /// paper's equation 7 writes f + c (h - E[h]): its coefficient is minus this one.
@@ -117,6 +116,5 @@ std::span<const PresetInfo> AllPresets();
 LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 const char* Name(BlockLayout choice);
-const char* Name(Paired choice);
 
 }  // namespace lanelight

@@ -70,8 +70,7 @@ TEST_CASE("independent samples or pairs are observations, others by replicate",
 
 TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(SampleSequence::kIndependent, 7) == "independent");
-  CHECK(TextOf(SampleSequence::kIndependent, 7, true) ==
-        "independent, antithetic pairs (all)");
+  CHECK(TextOf(SampleSequence::kIndependent, 7, true) == "independent, antithetic pairs");
   CHECK(TextOf(SampleSequence::kStratified, 64) ==
         "stratified, 4 randomisations of 16 points");
   CHECK(TextOf(SampleSequence::kSobol, 8) == "sobol, 4 randomisations of 2 points");
@@ -91,9 +90,9 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(SampleSequence::kPmj02, 8193)
             .starts_with("pmj02, 12 randomisations of up to"));
   CHECK(TextOf(SampleSequence::kStratified, 128, true) ==
-        "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
+        "stratified, 4 randomisations of 16 pairs, antithetic pairs");
   CHECK(TextOf(SampleSequence::kHalton, 15, true) ==
-        "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
+        "halton, 4 randomisations of 2 pairs, antithetic pairs");
   CHECK(TextOf(SampleSequence::kHalton, 14, true).find("needs 16 samples") !=
         std::string::npos);
 }
