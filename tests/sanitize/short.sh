@@ -64,7 +64,7 @@ render "$out/spectra.pbrt" --resolution 41x33 --spp 4
 # Media with what else there is to paths.
 render media.pbrt --resolution 40x30 --spp 4 --strategy roulette=adjoint,pairs=antithetic
 # Path reuse: tiles that are cut off, all kinds of materials.
-for layout in random compact apart; do
+for layout in random compact; do
   render cornell-box.pbrt --resolution 81x61 --spp 5 --strategy "reuse=block:16:$layout"
 done
 for scene in patterns glass textured-layers relief; do

@@ -116,7 +116,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 
 #define LANELIGHT_REUSES(X, T, K)                                                               \
   X(T, K, None, PLAIN, ({}), "none", "", "no path reuse (default)", "f L / p", "") \
-  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
+  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
 #define LANELIGHT_LIGHT_PATH_CHOICES(X, T, K)                                                   \
@@ -131,10 +131,9 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 // clang-format on
 
 // The layouts of reuse=block: X(name, text, meaning)
-#define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
-  X(Random, "random", "at random from the tile, anew for each sample (default)")       \
-  X(Compact, "compact", "a rectangle at another position in the tile for each sample") \
-  X(Apart, "apart", "a rectangle of every second pixel")
+#define LANELIGHT_BLOCK_LAYOUTS(X)                                               \
+  X(Random, "random", "at random from the tile, anew for each sample (default)") \
+  X(Compact, "compact", "a rectangle at another position in the tile for each sample")
 
 // Every axis, as in a strategy's text: X(type, member of Strategy, key, choices).
 #define LANELIGHT_AXES(X)                                                           \
