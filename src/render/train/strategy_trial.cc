@@ -73,8 +73,7 @@ bool DiffersByLearnedLights(Strategy changed, const Strategy& baseline) {
 
 // Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
-  const Strategy changed = PlannedStrategy(tried.scene, tried.options);
-  const Strategy given = PlannedStrategy(baseline.scene, baseline.options);
+  const Strategy &changed = tried.strategy, &given = baseline.strategy;
   return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
          given.scale == 1 && given.First() == kThroughputFirst &&
          changed.roulette == Roulette::kAdjoint && DiffersByRoulette(changed, given);
@@ -132,9 +131,8 @@ TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& option
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
-  tried.scene = scene;
   tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
-  tried.splits = PlannedStrategy(scene, tried.options).Splits();
+  tried.strategy = PlannedStrategy(scene, tried.options);
   return tried;
 }
 
@@ -155,11 +153,11 @@ void StrategyTrial::Begin(std::uint64_t samples) {
 TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
                                              std::uint64_t planned,
                                              StrategyTables& tables) {
-  const Plan plan = MakePlan(tried.scene, tried.options);
+  const Plan plan = MakePlan(scene_, tried.options);
   if (!NeedsTraining(plan)) return {};
   TrainingOptions options = training_;
   options.planned_samples = planned;
-  const TrainingOutcome out = Train({tried.scene, plan, seed_, options, tables});
+  const TrainingOutcome out = Train({scene_, plan, seed_, options, tables});
   spent_.samples += out.samples;
   spent_.rays += out.rays;
   return out;
@@ -168,8 +166,8 @@ TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
 TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
                                       const PlanOptions& options,
                                       const TrainingWork& work, const PilotImage* image) {
-  TrainingPass pass = {tried.scene, options,         &tried.tables, seed_,
-                       &watcher_,   training_.ranks, image};
+  TrainingPass pass = {scene_,    options,         &tried.tables, seed_,
+                       &watcher_, training_.ranks, image};
   pass.options.has_own_sequences = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();
@@ -213,12 +211,8 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   tried.light = LightOf(samples, tried.measure);
   tried.baseline = baseline.measure;
   tried.baseline_light = baseline.light;
-  tried.milder_roulette =
-      HasMilderRoulette(PlannedStrategy(tried.scene, tried.options),
-                        PlannedStrategy(baseline.scene, baseline.options));
-  tried.is_bounded =
-      DiffersByLearnedLights(PlannedStrategy(tried.scene, tried.options),
-                             PlannedStrategy(baseline.scene, baseline.options));
+  tried.milder_roulette = HasMilderRoulette(tried.strategy, baseline.strategy);
+  tried.is_bounded = DiffersByLearnedLights(tried.strategy, baseline.strategy);
   tried.paired = records && !IsConverged(baseline.measure.variances);
   if (!tried.paired) return;
   TrialMeasure single = baseline.measure;

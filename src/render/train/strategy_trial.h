@@ -62,11 +62,9 @@ struct TrialLight {
 struct TriedStrategy {
   std::string changes;  // of the baseline strategy, which has none
   double price = 1;     // DecisionCandidate::price
-  PreparedScene scene;  // for all of the strategy that is not a change of the plan
   PlanOptions options;
+  Strategy strategy;  // of `options`
   StrategyTables tables;
-  /// The strategy as asked for splits paths, which path reuse cannot do.
-  bool splits = false;
   bool has_learned = false;
   /// Its paths live longer than those of the baseline strategy, and nothing else differs.
   /// A path that survives with a higher probability is divided by a larger number, so no

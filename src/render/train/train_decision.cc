@@ -151,10 +151,10 @@ class Decider {
     }
     const TriedOnTiles* const best = BestOf(tried);
     if (best == nullptr) return;
-    const double before = of_base + (chosen.splits ? 0 : own);
+    const double before = of_base + (chosen.strategy.Splits() ? 0 : own);
     outcome_.gain = LimitedGain(before + best->per_pixel.log);
     outcome_.filtered_gain = LimitedGain(before + best->filtered.log);
-    TriedStrategy beside = chosen.splits ? base : chosen;
+    TriedStrategy beside = chosen.strategy.Splits() ? base : chosen;
     beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
     chosen = std::move(beside);
   }
