@@ -17,7 +17,6 @@ namespace lanelight {
   X(Generate)                                  \
   X(IndependentCamera)                         \
   X(StratifiedCamera)                          \
-  X(CmjCamera)                                 \
   X(Pmj02Camera)                               \
   X(SobolCamera)                               \
   X(HaltonCamera)                              \
@@ -72,11 +71,9 @@ namespace lanelight {
   X(RecordVertex)                              \
   X(SinglePathBefore)                          \
   X(AdjointRoulette)                           \
-  X(EfficiencyRoulette)                        \
   X(SinglePathAfter)                           \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
-  X(CmjBounce)                                 \
   X(Pmj02Bounce)                               \
   X(SobolBounce)                               \
   X(HaltonBounce)                              \
@@ -127,7 +124,6 @@ namespace lanelight {
   X(KeepSplats)                                \
   X(SecondVerticesLight)                       \
   X(LightPathLeave)                            \
-  X(RecordDecision)                            \
   X(SinglePathDecision)                        \
   X(ConstantRoulette)                          \
   X(ThroughputRoulette)                        \

@@ -28,7 +28,6 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "\nExamples:\n"
     "  lanelight render scenes/cornell-box.pbrt -o box.exr --png --spp 256\n"
-    "  lanelight advise scenes/cornell-box.pbrt --time 60 -o box.exr\n"
     "  lanelight plan scenes/glass.pbrt\n"
     "  lanelight live scenes/cornell-box.pbrt\n"
     "  lanelight profile scenes/glass.pbrt --trace trace.json\n"
@@ -107,7 +106,6 @@ void AddCommands(CLI::App& root, RankGroup& group, Command& chosen) {
   root.set_version_flag("--version", FullVersion());
   root.require_subcommand(1);
   AddRenderCommand(root, group, chosen);
-  AddAdviseCommand(root, chosen);
   AddPlanCommand(root, chosen);
   AddLiveCommand(root, chosen);
   AddProfileCommand(root, chosen);

@@ -5,7 +5,7 @@
 # system calls (seccomp), which the next sets; the others want to see what a render has
 # done in 0.2 s, and a pilot in 2.5 s.
 set(unable cli/lost_renders_test measure/sweep/directory_test
-  render/run/cancel_test cli/advise_test)
+  render/run/cancel_test)
 # Scripts that start the program themselves, or preload a library into it.
 list(APPEND unable cases_run_once cli/completion docs/links failures/kill failures/disk
   failures/foreign)
@@ -13,7 +13,7 @@ list(APPEND unable cases_run_once cli/completion docs/links failures/kill failur
 set(unrelated bench/simulate_cluster bench/efficiency build/version)
 # More than 12 s of processor time.
 set(long
-  scene/accel/spatial_split_test measure/advise/advise_test
+  scene/accel/spatial_split_test
   cli/profile_test cli/render_test cli/stress_test
   cli/study_command_test cli/target_test scene/compile/materials_test
   scene/compile/medium_emission_test scene/compile/nested_test scene/compile/tessellate_test
@@ -25,7 +25,7 @@ set(long
   kernels/media/varying_test scene/parse/format_test kernels/samplers/convergence_test
   reference/closed_form_test reference/estimators_test
   render/job/any_split_test render/job/many_samples_test measure/report/page_test kernels/roulette/closed_room_test
-  kernels/roulette/efficiency_test kernels/roulette/shadow_test kernels/roulette/splitting_test
+  kernels/roulette/path_values_test kernels/roulette/shadow_test kernels/roulette/splitting_test
   kernels/roulette/single_path_test scenes/closed_form_scenes_test scenes/scenes_test
   kernels/shade/coat_medium_test kernels/shade/limits_test kernels/shade/reference_test base/stat/convergence_test
   base/stat/efficiency_test base/stat/interval_test base/state/integrity_test vocabulary/strategy/unbiased_test

@@ -1,17 +1,34 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include "bench/checkpoint/cases.h"
-#include "bench/resident.h"
 #include "bench/series.h"
 #include "src/base/core/clock.h"
 #include "src/render/job/merge.h"
 
 namespace lanelight::bench {
 namespace {
+
+// Returns the bytes of this process in memory, now ("VmRSS:") or at most ("VmHWM:").
+double MemoryOf(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::size_t kib = 0;
+    if (word == name && status >> kib) return double(kib << 10);
+  }
+  return 0;
+}
+
+// Measures the peak anew. Returns false where Linux does not allow that.
+bool ForgetPeak() {
+  std::ofstream refs("/proc/self/clear_refs");
+  refs << "5" << std::flush;
+  return refs.good();
+}
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -44,7 +61,7 @@ Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& pa
   Merging m;
   for (const std::string& path : paths) m.file_bytes += double(fs::file_size(path));
   for (int i = 0; i <= bench.repeats; ++i) {
-    const double before = double(ResidentBytes());
+    const double before = MemoryOf("VmRSS:");
     if (!ForgetPeak()) throw std::runtime_error("the peak of memory cannot be reset");
     const Clock::time_point start = Clock::now();
     const double cpu = ProcessCpuSeconds();
@@ -61,7 +78,7 @@ Merging Measure(const CheckpointBench& bench, const std::vector<std::string>& pa
     }
     m.seconds.Add(elapsed.count());
     m.cpu.Add(used_cpu);
-    m.peak = std::max(m.peak, double(PeakResidentBytes()) - before);
+    m.peak = std::max(m.peak, MemoryOf("VmHWM:") - before);
   }
   return m;
 }

@@ -2,7 +2,7 @@
 // stages reflect those of the second one. The points stages have given both the same
 // numbers (PairedSample in kernels/samplers/fill-inl.h).
 //   estimator   1/(2N) sum (f(u) + f(u')): u' = 1 - u per coordinate, or u + 1/2 for
-//               azimuths. Numbers that are not paired are independent in both samples
+//               azimuths. Wavelengths and choices of light candidates are independent
 //   unbiased    u' is as uniform as u
 //   variance    (1 + rho) sigma^2 / (2N) for N pairs, rho the correlation of f(u) and
 //               f(u'). 0 if f is linear in the reflected numbers, less if f is monotonic
@@ -35,13 +35,10 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
   const DI di;
   const PathColumns& p = wave.path;
   const VI one = hn::Set(di, 1);
-  // Pairs hold at every depth or at the first bounce only (MakeAntitheticParameters).
-  const bool first_only = wave.run->pairs.depths == 1;
   const uint32_t lanes = static_cast<uint32_t>(hn::Lanes(DF()));
   for (uint32_t i = 0; i < queue.size; i += lanes) {
     const VI slots = hn::LoadU(di, reinterpret_cast<const int32_t*>(queue.items) + i);
-    auto odd = hn::Eq(hn::And(Gather(p.sample, slots), one), one);
-    if (first_only) odd = hn::And(odd, hn::Eq(Gather(p.depth, slots), hn::Zero(di)));
+    const auto odd = hn::Eq(hn::And(Gather(p.sample, slots), one), one);
     const MF reflect = hn::RebindMask(DF(), odd);
     const VF u = Gather(column, slots);
     const VF other = kHow == Reflection::kRotate ? RotatedByHalfTurn(u) : Reflected(u);
@@ -49,9 +46,7 @@ HWY_INLINE void ReflectColumn(Wave& wave, const Queue& queue, float* column) {
   }
 }
 
-HWY_INLINE void ReflectPoint(Wave& wave, const Queue& queue, Dimension d, float* u0,
-                             float* u1) {
-  if (!wave.run->pairs.Has(d)) return;
+HWY_INLINE void ReflectPoint(Wave& wave, const Queue& queue, float* u0, float* u1) {
   ReflectColumn<Reflection::kReflect>(wave, queue, u0);
   ReflectColumn<Reflection::kReflect>(wave, queue, u1);
 }
@@ -60,11 +55,11 @@ void AntitheticCamera(Wave& wave) {
   const Queue& queue = wave.queue(QueueId::kCamera);
   const PathColumns& p = wave.path;
   PadTail(queue);
-  ReflectPoint(wave, queue, Dimension::kFilm, p.u_film_0, p.u_film_1);
+  ReflectPoint(wave, queue, p.u_film_0, p.u_film_1);
   // Both coordinates of the concentric map reflected: the opposite point of the lens.
-  ReflectPoint(wave, queue, Dimension::kLens, p.u_lens_0, p.u_lens_1);
-  ReflectPoint(wave, queue, Dimension::kTime, p.time, nullptr);
-  ReflectPoint(wave, queue, Dimension::kCameraMedium, p.u_medium_0, p.u_medium_1);
+  ReflectPoint(wave, queue, p.u_lens_0, p.u_lens_1);
+  ReflectPoint(wave, queue, p.time, nullptr);
+  ReflectPoint(wave, queue, p.u_medium_0, p.u_medium_1);
   CountBatches(wave, queue);
 }
 
@@ -75,15 +70,13 @@ void AntitheticBounce(Wave& wave) {
   // u_bsdf_1 is the azimuth of the lobes of visible normals and of uniform directions; in
   // the concentric map of the cosine lobe a half turn of it is a quarter turn or a
   // mirror.
-  if (wave.run->pairs.Has(Dimension::kBsdf)) {
-    ReflectColumn<Reflection::kReflect>(wave, queue, p.u_bsdf_0);
-    ReflectColumn<Reflection::kRotate>(wave, queue, p.u_bsdf_1);
-  }
-  ReflectPoint(wave, queue, Dimension::kLobe, p.u_lobe, nullptr);
-  ReflectPoint(wave, queue, Dimension::kSelect, p.u_select, nullptr);
-  ReflectPoint(wave, queue, Dimension::kLight, p.u_light_0, p.u_light_1);
-  ReflectPoint(wave, queue, Dimension::kRoulette, p.u_roulette, nullptr);
-  ReflectPoint(wave, queue, Dimension::kMedium, p.u_medium_0, p.u_medium_1);
+  ReflectColumn<Reflection::kReflect>(wave, queue, p.u_bsdf_0);
+  ReflectColumn<Reflection::kRotate>(wave, queue, p.u_bsdf_1);
+  ReflectPoint(wave, queue, p.u_lobe, nullptr);
+  ReflectPoint(wave, queue, p.u_select, nullptr);
+  ReflectPoint(wave, queue, p.u_light_0, p.u_light_1);
+  ReflectPoint(wave, queue, p.u_roulette, nullptr);
+  ReflectPoint(wave, queue, p.u_medium_0, p.u_medium_1);
   CountBatches(wave, queue);
 }
 
@@ -96,7 +89,7 @@ Stage AntitheticCameraStage() {
           .input = QueueId::kCamera,
           .role = StageRole::kSampling,
           .needs = {Feature::kAntitheticPairs},
-          .reads = points | FieldSet{Field::sample, Field::depth},
+          .reads = points | FieldSet{Field::sample},
           .writes = points,
           .resolve = Always<AntitheticCamera>};
 }
@@ -106,7 +99,7 @@ Stage AntitheticBounceStage() {
           .input = QueueId::kVertex,
           .role = StageRole::kSampling,
           .needs = {Feature::kAntitheticPairs, Feature::kScatters},
-          .reads = fields::kBounceNumbers | FieldSet{Field::sample, Field::depth},
+          .reads = fields::kBounceNumbers | FieldSet{Field::sample},
           .writes = fields::kBounceNumbers,
           .resolve = Always<AntitheticBounce>};
 }

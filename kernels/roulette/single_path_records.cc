@@ -3,11 +3,14 @@
 // path and carries w, the product of 1/r of the decisions so far; a path that a decision
 // has ended counts as 0. So, for any f of a path,
 //   E[sum over the copies of w f(copy)] = E[f(path)] without any roulette
-// and with f the second moment by roulette on the throughput (training_records.cc),
+// and with f the second moment by roulette on the throughput,
 //   f = L^2 + sum over its decisions of W (1/s - 1) (L - g)^2
 // of throughput, L and g without w, the pass estimates that moment without tracing paths
-// of the other strategy. Split paths meet rare bright samples more often, with smaller
-// weights, and both moments are compared on the same samples.
+// of the other strategy. L is the brightness at the end, g that gathered before a
+// decision of survival s. W is the product of 1/s of the decisions before; a survivor's
+// throughput is larger by it. The sums of a = W (1/s - 1), of a g and of a g^2 are kept
+// (W is one plus the first of them). Split paths meet rare bright samples more often,
+// with smaller weights, and both moments are compared on the same samples.
 //
 // Moments are about the pixel's brightness from training: about zero, the variance of the
 // sums of w would exceed a variance far below the mean's square.
@@ -54,6 +57,25 @@ LANELIGHT_INLINE VF MomentCenter(const Wave& wave, const Slots& slots) {
   const VF about = hn::Div(sum, Splat(kBrightnessOfInverse * wave.run->exposure));
   // The second moment of a black image is unknown.
   return hn::IfThenElseZero(hn::Gt(weights.x, hn::Zero(DF())), about);
+}
+
+// Adds the increase that roulette on the throughput causes in the second moment of paths
+// that have gathered g at this throughput.
+LANELIGHT_INLINE void AddRisk(const PathColumns& p, const Slots& slots, VF throughput,
+                              VF g) {
+  const VF one = Splat(1.0f), risk = Gather(p.risk_0, slots);
+  const VF weight = hn::Add(one, risk);
+  // The throughput that a survivor of the decisions before would have.
+  VF s = hn::Mul(throughput, weight);
+  if (p.eta_scale != nullptr) s = hn::Mul(s, Gather(p.eta_scale, slots));
+  const VI before = hn::Set(DI(), kThroughputFirst - 1);
+  const MF late = hn::RebindMask(DF(), hn::Gt(Gather(p.depth, slots), before));
+  s = hn::Min(hn::IfThenElse(late, s, one), one);
+  const VF a = hn::Mul(weight, hn::Sub(hn::Div(one, s), one));
+  const VF ag = hn::Mul(a, g);
+  Scatter(hn::Add(risk, a), p.risk_0, slots);
+  Scatter(hn::Add(Gather(p.risk_1, slots), ag), p.risk_1, slots);
+  Scatter(hn::MulAdd(ag, g, Gather(p.risk_2, slots)), p.risk_2, slots);
 }
 
 void SinglePathBefore(Wave& wave) {

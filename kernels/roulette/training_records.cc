@@ -3,14 +3,6 @@
 //   estimate    (Y(l at the end) - Y(l before i)) / Y(beta at i): the brightness gathered
 //               after i per unit of throughput; its expectation is the adjoint Psi there.
 //               Y weighs the channels by PathValues::channel
-//   cost        events after i: depth at the end - i
-// Paths without roulette also record by how much roulette on the throughput would
-// increase the second moment. A decision of survival s multiplies the square of the later
-// light (T) by 1/s, so with W the product of 1/s of the decisions before
-//   E[x^2] = L^2 + sum over decisions of W (1/s - 1) T^2,  T = Y(l at the end) - g,
-// g gathered before. Survivors have W times the throughput of these paths. The sums of a
-// = W (1/s - 1), of a g and of a g^2 are kept (W is one plus the first of them). So the
-// two variances are compared on the same paths, and no rare survivor is missed.
 //
 // The stages keep cell, Y(beta) and Y(l) in columns and write them behind the colour of
 // the finished path; src/render/train/train_path_values.cc adds them up in the order of
@@ -32,16 +24,6 @@ struct VertexColumns {
         got{p.got_0, p.got_1, p.got_2, p.got_3},
         direct{p.direct_0, p.direct_1, p.direct_2, p.direct_3} {}
 };
-
-void RecordDecision(Wave& wave) {
-  const PathColumns& p = wave.path;
-  const PathValues& values = wave.run->tables->path_values;
-  ForEachBatch(
-      wave, wave.queue(QueueId::kScattered), [&](const Slots& slots, MF) HWY_ATTR {
-        AddRisk(p, slots, MaxComponent(Gather3(p.beta_r, p.beta_g, p.beta_b, slots)),
-                Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots)));
-      });
-}
 
 void RecordVertex(Wave& wave) {
   const PathColumns& p = wave.path;
@@ -103,8 +85,6 @@ void RecordPath(Wave& wave) {
       store(Gather(v.direct[k], slots));
     }
     store(Brightness(values, Gather3(p.l_r, p.l_g, p.l_b, slots)));
-    store(hn::ConvertTo(DF(), Gather(p.depth, slots)));
-    for (const float* risk : {p.risk_0, p.risk_1, p.risk_2}) store(Gather(risk, slots));
   });
 }
 
@@ -131,25 +111,13 @@ Stage RecordLightStage() {
           .writes = fields::kVertices,
           .resolve = Always<RecordLight>};
 }
-Stage RecordDecisionStage() {
-  return {.name = "record_decision",
-          .meaning = "records the second moment by roulette",
-          .input = QueueId::kScattered,
-          .role = StageRole::kRecord,
-          .needs = {Feature::kRecordsPaths, Feature::kScatters},
-          .reads = fields::kThroughput | fields::kRadiance | fields::kRisk |
-                   FieldSet{Field::depth, Field::eta_scale},
-          .writes = fields::kRisk,
-          .resolve = Always<RecordDecision>};
-}
 Stage RecordPathStage() {
   return {.name = "record_path",
           .meaning = "writes the training sample of a finished path",
           .input = QueueId::kDone,
           .role = StageRole::kRecord,
           .needs = {Feature::kRecordsPaths},
-          .reads = fields::kVertices | fields::kRisk | fields::kRadiance |
-                   FieldSet{Field::output, Field::depth},
+          .reads = fields::kVertices | fields::kRadiance | FieldSet{Field::output},
           .resolve = Always<RecordPath>};
 }
 

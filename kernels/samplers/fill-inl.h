@@ -25,7 +25,7 @@ concept HasNumber = requires(const SamplerParameters& points, PointKey of) {
 /// One batch of paths that draw numbers.
 struct Drawer {
   const StoreSlots& slots;
-  VU pixel, sample, depth, key;  // key: of dimension 0 at this depth and branch
+  VU pixel, sample, key;  // key: of dimension 0 at this depth and branch
 };
 
 /// Pairs and splitting change which numbers a path draws; without them none of their
@@ -35,22 +35,16 @@ LANELIGHT_INLINE Drawer MakeDrawer(const PathColumns& p, const StoreSlots& slots
   const VU depth = AsUnsigned(Gather(p.depth, slots));
   const VU key = kPlain ? FirstKey(depth) : FirstKey(p, depth, slots);
   return {slots, AsUnsigned(Gather(p.pixel, slots)), AsUnsigned(Gather(p.sample, slots)),
-          depth, key};
+          key};
 }
 
 /// Sample index that the numbers of a dimension come from: the two samples of an
-/// antithetic pair share it in the dimensions that the strategy pairs.
-LANELIGHT_INLINE VU PairedSample(const AntitheticParameters& pairs, Dimension dimension,
-                                 const Drawer& drawer) {
-  if (pairs.dimensions == 0) return drawer.sample;
-  const VU own = UnpairedSample(drawer.sample);
-  if (!pairs.Has(dimension)) return own;
-  const VU shared = hn::ShiftRight<1>(drawer.sample);
-  if (pairs.depths == 0xffffffffu) return shared;
-  const DI di;
-  const auto paired = hn::Lt(hn::BitCast(di, drawer.depth),
-                             hn::Set(di, static_cast<int32_t>(pairs.depths)));
-  return hn::IfThenElse(hn::RebindMask(DU(), paired), shared, own);
+/// antithetic pair share it, but for wavelengths and the choice of a light candidate.
+LANELIGHT_INLINE VU PairedSample(bool pairs, Dimension dimension, VU sample) {
+  if (!pairs) return sample;
+  const bool unpaired =
+      dimension == Dimension::kWavelength || dimension == Dimension::kCandidate;
+  return unpaired ? UnpairedSample(sample) : hn::ShiftRight<1>(sample);
 }
 
 /// Draws one dimension of one batch, unless the plan has no column for it. A scalar one
@@ -60,7 +54,8 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
                            Dimension dimension, float* out0, float* out1 = nullptr) {
   if (out0 == nullptr) return;
   const VU key = hn::Add(drawer.key, SplatU(static_cast<uint32_t>(dimension)));
-  const VU sample = kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer);
+  const VU sample =
+      kPlain ? drawer.sample : PairedSample(run.pairs, dimension, drawer.sample);
   const GroupIndex at = Policy::Group(run.sampler, sample);
   const PointKey of = {drawer.pixel, at, key, SplatU(run.seed)};
   VF u0, u1;
@@ -130,7 +125,7 @@ LANELIGHT_INLINE void FillBounceBatches(Wave& wave) {
 }
 
 LANELIGHT_INLINE bool IsUnpaired(const Wave& wave) {
-  return wave.run->pairs.dimensions == 0 && wave.path.branch == nullptr;
+  return !wave.run->pairs && wave.path.branch == nullptr;
 }
 
 template <class Policy>

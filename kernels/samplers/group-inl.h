@@ -85,12 +85,6 @@ LANELIGHT_INLINE VU InStratum(const Strata& strata, VU stratum, VU random) {
                  MulHigh32(random, SplatU(strata.whole)));
 }
 
-/// (stratum + random / 2^32) / 2^log in 2^-32; stratum < 2^log, log < 32.
-LANELIGHT_INLINE VU InBinaryStratum(VU stratum, VU log, VU random) {
-  const VU up = hn::Sub(SplatU(31), log);  // two shifts: one by 32 has no meaning
-  return hn::Or(hn::Shl(hn::ShiftLeft<1>(stratum), up), hn::Shr(random, log));
-}
-
 // Random permutations of [0, 2^m), one per key, without tables: swap-or-not rounds. Round
 // r pairs each x with K_r - x modulo 2^m, and swaps the two or not, as a hash of the
 // larger says.
@@ -128,7 +122,6 @@ LANELIGHT_INLINE VU PermuteMasked(VU i, VU mask, VU key) {
 
 /// Locates i < 2^24 among {0}, {1}, {2, 3}, [4, 8), [8, 16), ...
 struct Octave {
-  VU number;        // of the set, from 0 on
   VU log, mask;     // of its size: 2^log, and that less one
   VU first, place;  // its first element, and i less that
 };
@@ -141,8 +134,7 @@ LANELIGHT_INLINE Octave OctaveOf(VU i) {
   const VU power = hn::Shl(SplatU(1), log);
   const auto zero = hn::Eq(i, hn::Zero(du));
   const VU first = hn::IfThenZeroElse(zero, power);
-  const VU number = hn::IfThenZeroElse(zero, hn::Add(log, SplatU(1)));
-  return {number, log, hn::Sub(power, SplatU(1)), first, hn::Sub(i, first)};
+  return {log, hn::Sub(power, SplatU(1)), first, hn::Sub(i, first)};
 }
 
 /// Returns the image of i in a permutation of [0, 2^24) that keeps 0 and permutes each

@@ -1,7 +1,6 @@
 // The stages of all sample points: each policy, and its source, is in a file of its own.
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/samplers/cmj-inl.h"
 #include "kernels/samplers/fill-inl.h"
 #include "kernels/samplers/halton-inl.h"
 #include "kernels/samplers/independent-inl.h"
@@ -57,15 +56,6 @@ Stage StratifiedCameraStage() {
 Stage StratifiedBounceStage() {
   return SamplerBounceStage<StratifiedSequence>("points_bounce_stratified",
                                                 Feature::kStratifiedSampleSequence);
-}
-
-Stage CmjCameraStage() {
-  return SamplerCameraStage<CmjSequence>("points_camera_cmj",
-                                         Feature::kCmjSampleSequence);
-}
-Stage CmjBounceStage() {
-  return SamplerBounceStage<CmjSequence>("points_bounce_cmj",
-                                         Feature::kCmjSampleSequence);
 }
 
 Stage Pmj02CameraStage() {

@@ -43,7 +43,7 @@ LANELIGHT_INLINE VF WavelengthOn(const CircleWalk& walk, uint32_t seed) {
 /// Places of samples among replicates, as GroupRoundRobin, without an end of the
 /// sequence.
 LANELIGHT_INLINE GroupIndex WavelengthGroup(const RunParameters& run, VU sample) {
-  const VU own = run.pairs.dimensions == 0 ? sample : UnpairedSample(sample);
+  const VU own = run.pairs ? UnpairedSample(sample) : sample;
   return GroupRoundRobin({.group_shift = 20}, own);
 }
 

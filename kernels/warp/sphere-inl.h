@@ -32,25 +32,6 @@ HWY_INLINE V2 SampleDisk(VF u0, VF u1) {
           hn::IfThenElse(a_longer, across, along)};
 }
 
-/// Density of SampleDisk with respect to area: 1/pi inside the disk.
-HWY_INLINE VF PdfDisk() { return Splat(kInvPi); }
-
-/// (u0, u1) that SampleDisk maps to the point p of the disk.
-HWY_INLINE V2 InvertDisk(V2 p) {
-  const VF radius = hn::Sqrt(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)));
-  const MF x_longer = hn::Gt(hn::Abs(p.x), hn::Abs(p.y));
-  const VF longer = hn::CopySign(radius, hn::IfThenElse(x_longer, p.x, p.y));
-  const VF top = hn::IfThenElse(x_longer, p.y, p.x);
-  const VF bottom = hn::IfThenElse(x_longer, p.x, p.y);
-  const VF divisor = hn::IfThenElse(hn::Eq(bottom, hn::Zero(DF())), Splat(1.0f), bottom);
-  const VF shorter =
-      hn::Mul(hn::Mul(longer, Splat(4.0f * kInvPi)), AtanUnit(hn::Div(top, divisor)));
-  const VF half = Splat(0.5f);
-  const VF a = hn::IfThenElse(x_longer, longer, shorter);
-  const VF b = hn::IfThenElse(x_longer, shorter, longer);
-  return {hn::MulAdd(a, half, half), hn::MulAdd(b, half, half)};
-}
-
 /// Density cos / pi: a uniform point of the disk, lifted (Malley's method). u in [0,1]^2.
 HWY_INLINE V3 SampleCosineHemisphere(VF u0, VF u1) {
   const V2 p = SampleDisk(u0, u1);
@@ -61,7 +42,6 @@ HWY_INLINE V3 SampleCosineHemisphere(VF u0, VF u1) {
 HWY_INLINE VF PdfCosineHemisphere(VF cos_theta) {
   return hn::Mul(cos_theta, Splat(kInvPi));
 }
-HWY_INLINE V2 InvertCosineHemisphere(V3 w) { return InvertDisk({w.x, w.y}); }
 
 /// Direction of height z and azimuth 2 pi u1, given sin^2 of its polar angle.
 HWY_INLINE V3 FromHeight(VF z, VF sin2, VF u1) {
@@ -70,20 +50,11 @@ HWY_INLINE V3 FromHeight(VF z, VF sin2, VF u1) {
   return {hn::Mul(r, phi.cos), hn::Mul(r, phi.sin), z};
 }
 
-/// Azimuth of w as a fraction of a turn, in [0, 1].
-HWY_INLINE VF TurnOf(V3 w) {
-  const VF turn = hn::Mul(Atan2(w.y, w.x), Splat(0.5f * kInvPi));
-  return hn::IfThenElse(hn::Lt(turn, hn::Zero(DF())), hn::Add(turn, Splat(1.0f)), turn);
-}
-
 /// Density 1 / (2 pi): heights of a sphere's zone are uniform (Archimedes). u in [0,1)^2.
 HWY_INLINE V3 SampleUniformHemisphere(VF u0, VF u1) {
   return FromHeight(hn::Sub(Splat(1.0f), u0), hn::Mul(u0, hn::Sub(Splat(2.0f), u0)), u1);
 }
 HWY_INLINE VF PdfUniformHemisphere() { return Splat(0.5f * kInvPi); }
-HWY_INLINE V2 InvertUniformHemisphere(V3 w) {
-  return {hn::Sub(Splat(1.0f), w.z), TurnOf(w)};
-}
 
 /// Density 2 cos^3 / pi: the direction of "normal + uniform point of the unit ball".
 /// Seen from the foot of the normal the ball has radius 1 and centre +z, so it fills the
@@ -98,9 +69,6 @@ HWY_INLINE V3 SampleInSphere(VF u0, VF u1) {
 }
 HWY_INLINE VF PdfInSphere(VF cos_theta) {
   return hn::Mul(Splat(2.0f * kInvPi), hn::Mul(cos_theta, Sqr(cos_theta)));
-}
-HWY_INLINE V2 InvertInSphere(V3 w) {
-  return {hn::NegMulAdd(Sqr(w.z), Sqr(w.z), Splat(1.0f)), TurnOf(w)};
 }
 
 // The equal-area octahedral map between the square [0,1]^2 and the sphere (Clarberg 2008,

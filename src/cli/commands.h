@@ -16,7 +16,6 @@ using Command = std::function<int()>;
 
 /// `group`: the ranks that render; must outlive the command.
 void AddRenderCommand(CLI::App& root, RankGroup& group, Command& chosen);
-void AddAdviseCommand(CLI::App& root, Command& chosen);
 void AddPlanCommand(CLI::App& root, Command& chosen);
 void AddLiveCommand(CLI::App& root, Command& chosen);
 void AddProfileCommand(CLI::App& root, Command& chosen);

@@ -156,7 +156,7 @@ bool SaveOrPrint(const std::string& path, const std::string& text) {
 }
 
 int PrintRendering(const Rendering& rendering, const Job& job,
-                   const RenderOutputs& options, const std::string& preface) {
+                   const RenderOutputs& options) {
   const RenderReport& report = rendering.report;
   const std::string kept =
       rendering.is_checkpoint_saved ? options.targets.checkpoint.path : std::string();
@@ -164,7 +164,7 @@ int PrintRendering(const Rendering& rendering, const Job& job,
   if (options.targets.json == "-") {
     Print(DumpJson(rendering.json, 2) + "\n");
   } else if (!options.quiet && (!report.has_holes || report.result.samples > 0)) {
-    Print(preface + SummaryText(report, job, {options.verbose, kept}));
+    Print(SummaryText(report, job, {options.verbose, kept}));
   }
   if (good && report.partial_number > 0) PrintPartial(report, job, options);
   if (report.result.health.Total() > 0) {

@@ -1,4 +1,4 @@
-// The outputs of `render` and `advise`: the flags that name them, and what is printed.
+// The outputs of `render`: the flags that name them, and what is printed.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -47,8 +47,8 @@ bool SaveOrPrint(const std::string& path, const std::string& text);
 /// Returns hooks that show progress; `stop` ends the render early.
 RenderHooks PrintingHooks(ProgressPrinter& progress, const std::atomic<bool>& stop);
 
-/// Prints the result of a render after `preface`. Returns the exit code.
+/// Prints the result of a render. Returns the exit code.
 int PrintRendering(const Rendering& rendering, const Job& job,
-                   const RenderOutputs& options, const std::string& preface = "");
+                   const RenderOutputs& options);
 
 }  // namespace lanelight

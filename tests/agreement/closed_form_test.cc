@@ -7,14 +7,8 @@
 namespace lanelight::test {
 namespace {
 
-using Exact = std::function<Rgb(int, int)>;
-
 // Rounding, and the midpoint rule of PixelMean.
 constexpr stat::ImageTestOptions kTolerant = {4, 1e-6, 3e-4, 1e-6};
-
-Exact Constant(double v) {
-  return [v](int, int) { return Grey(v); };
-}
 
 void CheckClosedForm(const SceneDescription& scene, std::uint64_t spp, const Exact& exact,
                      double power = 0.02) {
@@ -24,17 +18,6 @@ void CheckClosedForm(const SceneDescription& scene, std::uint64_t spp, const Exa
   INFO(result.ToString());
   CHECK(result.same);
   if (exact(0, 0).x > 0) CHECK(result.detectable_bias < power);
-}
-
-Exact PixelMean(int size, const std::function<Rgb(Vec3d)>& f) {
-  return [=](int x, int y) {
-    constexpr int kSub = 8;
-    Rgb sum;
-    for (int i = 0; i < kSub * kSub; ++i) {
-      sum += f(FilmPoint(x + (i % kSub + 0.5) / kSub, y + (i / kSub + 0.5) / kSub, size));
-    }
-    return sum / (kSub * kSub);
-  };
 }
 
 constexpr Scattering kModels[] = {Scattering::kLambertian, Scattering::kUniform,
@@ -49,7 +32,8 @@ TEST_CASE("wavefront: white furnace of every diffuse model", "[closed_form]") {
       m.scattering = s;
       m.reflectance.constant = Grey(albedo);
       INFO("model " << static_cast<int>(s) << ", albedo " << albedo);
-      CheckClosedForm(Furnace(m, 4), 1024, Constant(closed_form::Furnace(albedo, 1)));
+      CheckClosedForm(Furnace(m, 4), 1024,
+                      ConstantImage(closed_form::Furnace(albedo, 1)));
     }
   }
 }
@@ -63,7 +47,7 @@ TEST_CASE("wavefront: lossless materials are invisible in the furnace", "[closed
   leaf.reflectance.constant = {0.7, 0.5, 0};
   leaf.transmittance.constant = {0.3, 0.5, 1};
   for (const Material& m : {glass, diamond, thin, leaf}) {
-    CheckClosedForm(Furnace(m, 200, 4), 4096, Constant(1));
+    CheckClosedForm(Furnace(m, 200, 4), 4096, ConstantImage(1));
   }
 }
 
@@ -71,12 +55,12 @@ TEST_CASE("wavefront: closed rooms of albedo 0.5, 0.9 and 0.99", "[closed_form]"
   for (double albedo : {0.5, 0.9}) {
     for (int depth : {0, 1, 3, 300}) {
       INFO("albedo " << albedo << ", depth " << depth);
-      const Exact series = Constant(closed_form::ClosedRoom(1, albedo, depth));
+      const Exact series = ConstantImage(closed_form::ClosedRoom(1, albedo, depth));
       CheckClosedForm(ClosedRoom(albedo, depth), 4096, series, 0.03);
       CheckClosedForm(ClosedBox(albedo, depth), 4096, series, 0.03);
     }
   }
-  CheckClosedForm(ClosedRoom(0.99, 4000), 2048, Constant(100), 0.05);
+  CheckClosedForm(ClosedRoom(0.99, 4000), 2048, ConstantImage(100), 0.05);
 }
 
 TEST_CASE("wavefront: point light over a plane", "[closed_form]") {
@@ -119,7 +103,7 @@ TEST_CASE("wavefront: a mirror at normal incidence", "[closed_form]") {
 
 TEST_CASE("wavefront: a slab of glass splits and displaces a beam", "[closed_form]") {
   const double eta = 1.5, thickness = 0.25, cosine = std::sqrt(0.5);
-  CheckClosedForm(GlassSlab(400), 256, Constant(1));
+  CheckClosedForm(GlassSlab(400), 256, ConstantImage(1));
   const SceneDescription slab = GlassSlab(400);
   const auto with_emitter = [&](Vec3d center, Vec3d normal, double radius, int depth) {
     SceneBuilder b(2, 2);
@@ -130,18 +114,18 @@ TEST_CASE("wavefront: a slab of glass splits and displaces a beam", "[closed_for
     return b.Build();
   };
   CheckClosedForm(with_emitter({0, 0, 3}, {0, 0, -1}, 40, 400), 20000,
-                  Constant(closed_form::SlabReflectance(cosine, eta)), 0.1);
+                  ConstantImage(closed_form::SlabReflectance(cosine, eta)), 0.1);
   CheckClosedForm(with_emitter({0, 0, -3}, {0, 0, 1}, 40, 400), 20000,
-                  Constant(closed_form::SlabTransmittance(cosine, eta)));
+                  ConstantImage(closed_form::SlabTransmittance(cosine, eta)));
   // A small emitter just below, where the straight beam leaves the slab: it meets the top
   // at the origin and the bottom one shift further on. Displaced by less than the
   // emitter's radius it shows (1 - R)^2, and nothing where the beam does not come out.
   const double shift = closed_form::SlabShift(cosine, eta, thickness);
   const double below = -thickness - 1e-4;
   CheckClosedForm(with_emitter({shift + 1e-4, 0, below}, {0, 0, 1}, 5e-3, 2), 20000,
-                  Constant(closed_form::SlabOrder(cosine, eta, 0)));
+                  ConstantImage(closed_form::SlabOrder(cosine, eta, 0)));
   CheckClosedForm(with_emitter({thickness, 0, below}, {0, 0, 1}, 5e-3, 2), 200,
-                  Constant(0), 1e300);
+                  ConstantImage(0), 1e300);
 }
 
 TEST_CASE("wavefront: a clear coat conserves energy", "[closed_form]") {
@@ -160,7 +144,7 @@ TEST_CASE("wavefront: a clear coat conserves energy", "[closed_form]") {
       b.AddEnvironment(Grey(1));
       const double exact = closed_form::CoatedFurnace(albedo, 1.5, 1, events / 2);
       stat::CheckSame(stat::CompareMeans(RenderWavefront(b.Build(), 4096),
-                                         stat::ExpectedImage(4, 4, Constant(exact)),
+                                         stat::ExpectedImage(4, 4, ConstantImage(exact)),
                                          {4, 1e-6, 0.005, 0}),
                       fmt::format("events {}, albedo {}", events, albedo));
     }

@@ -132,7 +132,7 @@ TEST_CASE("help for an unknown command lists all commands", "[cli]") {
   CHECK(unknown.exit_code == kExitUsage);
   CHECK(unknown.out.empty());
   CHECK(unknown.err ==
-        "error: unknown command 'rendr'; commands are render, advise, plan, "
+        "error: unknown command 'rendr'; commands are render, plan, "
         "live, profile, bench, info, strategies, merge, compare, study, sweep, plot, "
         "stress, completion, help; did you mean 'render'?\n");
   CHECK(RunLanelight({"help", "render", "merge"}).exit_code == kExitUsage);

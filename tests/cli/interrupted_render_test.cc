@@ -154,21 +154,6 @@ TEST_CASE("an interrupted render keeps the image of another render", "[cli]") {
   CHECK(std::get<double>(ReadExr(exr).attributes.at("spp")) > 1);
 }
 
-TEST_CASE("an interrupted advise keeps the image", "[cli]") {
-  TempDirectory directory;
-  const std::string scene = WriteSlowScene(directory), exr = directory / "keep.exr";
-  REQUIRE(RunLanelight({"render", scene, "-o", exr, "--spp", "4"}).exit_code ==
-          kExitGood);
-  const std::string before = BytesOf(exr);
-  const ProcessResult r = InterruptAt(
-      "rendering", SIGINT,
-      {"advise", scene, "-o", exr, "--time", "1", "--resolution", kSlowResolution});
-  INFO(r.err);
-  CHECK(r.exit_code == kExitInterrupted);
-  CHECK(BytesOf(exr) == before);
-  CHECK_THAT(r.err, Contains("keep.partial.exr") && Contains("is unchanged"));
-}
-
 TEST_CASE("an interrupted sweep or study leaves no image with holes", "[cli]") {
   TempDirectory directory;
   const std::string scene = WriteSlowScene(directory), out = directory / "out";

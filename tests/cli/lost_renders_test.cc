@@ -90,8 +90,6 @@ TEST_CASE("no output overwrites a file that the scene reads", "[cli]") {
   refused({"render", scene, "-o", exr, "--png", directory / "link.png"}, "color.exr");
   refused({"profile", scene, "--html", directory / "link.html"}, "color.exr");
   refused({"profile", scene, "--json", directory / "part.pbrt"}, "part.pbrt");
-  refused({"advise", scene, "--time", "1", "-o", directory / "sky.exr"}, "sky.exr");
-  refused({"advise", scene, "--time", "1", "--json", directory / "mesh.ply"}, "mesh.ply");
   for (const char* read : {"scene.pbrt", "part.pbrt", "mesh.ply", "sky.exr"}) {
     refused({"profile", scene, "--json", directory / read}, read);
   }
@@ -141,7 +139,6 @@ TEST_CASE("impossible or duplicate outputs are refused before rendering", "[cli]
   const std::vector<std::vector<std::string>> commands = {
       {"render", scene, "-o", exr, "--json"},
       {"render", scene, "-o", exr, "--png", exr + ".png", "--checkpoint"},
-      {"advise", scene, "--time", "1", "-o", exr, "--json"},
       {"profile", scene, "--trace", exr, "--json"},
       {"merge", state, "-o", exr, "--json"},
       {"merge", state, "-o", exr, "--state"},

@@ -89,8 +89,6 @@ TEST_CASE("reports on scenes with names that are not UTF-8", "[cli][names]") {
   const TempDirectory directory;
   const Strange strange(directory);
   CheckSays(nlohmann::json::parse(Run({"plan", strange.Scene(), "--json"})));
-  CheckSays(nlohmann::json::parse(
-      Run({"advise", strange.Scene(), "--time", "0.3", "--json", "-"})));
   Run({"profile", strange.Scene(), "--spp", "1", "--json", strange.File("p\xff"),
        "--trace", strange.File("t\xff")});
   CHECK_THAT(test::ReadJson(strange.File("t\xff")).dump(), Contains("profile"));

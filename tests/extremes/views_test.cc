@@ -131,7 +131,7 @@ std::string Lamp(double x0, double x1) {
 // a pair is on the other side), around its middle (the same side), or slightly aside.
 std::vector<Point> ByEdge(double aside, const Effort& effort) {
   std::vector<Point> points;
-  for (const char* pairs : {"none", "antithetic:pixel", "antithetic:all"}) {
+  for (const char* pairs : {"none", "antithetic"}) {
     Quality quality = {1024, 65536, 1, 1};
     quality.strategy = fmt::format("points=independent,pairs={}", pairs);
     const auto measure = [&](const char* name, double expected, const std::string& lamp) {

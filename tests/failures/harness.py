@@ -23,7 +23,7 @@ BOX = SCENES / "cornell-box.pbrt"
 KINDS = {
     "plain": [],
     "control": ["--strategy", "control=regression"],
-    "training": ["--strategy", "roulette=efficiency"],
+    "training": ["--strategy", "roulette=adjoint"],
     "channels": ["--aov", "--strategy", "points=independent"],
 }
 LIMIT = 600  # seconds for a render, on a loaded machine

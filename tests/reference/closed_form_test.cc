@@ -12,23 +12,8 @@ namespace {
 constexpr ReferenceEstimator kEstimators[] = {ReferenceEstimator::kMaterialSampling,
                                               ReferenceEstimator::kLightSampling};
 
-std::function<Rgb(int, int)> Constant(double v) {
-  return [v](int, int) { return Grey(v); };
-}
-
-// Mean over a pixel of a closed form on the plane of the from-above scenes.
-std::function<Rgb(int, int)> PixelMean(int size, const std::function<Rgb(Vec3d)>& f) {
-  return [=](int x, int y) {
-    constexpr int kSub = 8;
-    Rgb sum;
-    for (int i = 0; i < kSub * kSub; ++i) {
-      sum += f(FilmPoint(x + (i % kSub + 0.5) / kSub, y + (i / kSub + 0.5) / kSub, size));
-    }
-    return sum / (kSub * kSub);
-  };
-}
-
-// Pixels of these images vary over their area: the midpoint rule above is good to 1e-4.
+// Pixels of these images vary over their area: the midpoint rule of PixelMean is good to
+// 1e-4.
 constexpr stat::ImageTestOptions kMidpoint = {4, 1e-6, 2e-4, 1e-9};
 constexpr stat::ImageTestOptions kRounding = {4, 1e-6, 1e-12, 0};
 
@@ -43,8 +28,8 @@ TEST_CASE("reference: white furnace of every diffuse model", "[reference]") {
       m.reflectance.constant = Grey(albedo);
       for (ReferenceEstimator e : kEstimators) {
         const auto result = CompareWithClosedForm(
-            Furnace(m, 4), Options(e, 256), Constant(closed_form::Furnace(albedo, 1)),
-            {4, 1e-6, 1e-12, 0});
+            Furnace(m, 4), Options(e, 256),
+            ConstantImage(closed_form::Furnace(albedo, 1)), {4, 1e-6, 1e-12, 0});
         stat::CheckSame(result);
       }
     }
@@ -62,7 +47,7 @@ TEST_CASE("reference: lossless materials vanish in the furnace", "[reference]") 
     for (ReferenceEstimator e : kEstimators) {
       // A leaf's path stays inside with probability below one per bounce; 200 is plenty.
       stat::CheckSame(CompareWithClosedForm(Furnace(m, 200, 4), Options(e, 64),
-                                            Constant(1), {4, 1e-6, 1e-6, 0}));
+                                            ConstantImage(1), {4, 1e-6, 1e-6, 0}));
     }
   }
 }
@@ -74,21 +59,21 @@ TEST_CASE("reference: closed rooms of albedo 0.5, 0.9 and 0.99", "[reference]") 
       const double series = closed_form::ClosedRoom(1, albedo, depth);
       const auto a = Options(ReferenceEstimator::kMaterialSampling, 8);
       stat::CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), a,
-                                            Constant(series), kRounding));
-      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), a, Constant(series),
-                                            kRounding));
+                                            ConstantImage(series), kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), a,
+                                            ConstantImage(series), kRounding));
       const auto b = Options(ReferenceEstimator::kLightSampling, depth > 3 ? 10 : 400);
       stat::CheckSame(CompareWithClosedForm(ClosedRoom(albedo, depth), b,
-                                            Constant(series), kRounding));
-      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), b, Constant(series),
-                                            kRounding));
+                                            ConstantImage(series), kRounding));
+      stat::CheckSame(CompareWithClosedForm(ClosedBox(albedo, depth), b,
+                                            ConstantImage(series), kRounding));
     }
     CHECK(closed_form::ClosedRoom(1, albedo, 300) ==
           Approx(closed_form::ClosedRoom(1, albedo)).epsilon(1e-12));
   }
   stat::CheckSame(CompareWithClosedForm(ClosedRoom(0.99, 4000),
                                         Options(ReferenceEstimator::kMaterialSampling, 4),
-                                        Constant(100), kRounding));
+                                        ConstantImage(100), kRounding));
 }
 
 TEST_CASE("reference: point light over a plane", "[reference]") {
@@ -161,8 +146,8 @@ TEST_CASE("reference: a slab of glass splits and displaces a beam", "[reference]
   SceneDescription scene = GlassSlab(400);
   scene.lights.clear();
   stat::CheckSame(CompareWithClosedForm(
-      GlassSlab(400), Options(ReferenceEstimator::kMaterialSampling, 64), Constant(1),
-      {4, 1e-6, 1e-9, 0}));
+      GlassSlab(400), Options(ReferenceEstimator::kMaterialSampling, 64),
+      ConstantImage(1), {4, 1e-6, 1e-9, 0}));
   const reference::Geometry geometry(scene, nullptr);
   reference::Random random(17);
   const Vec3d start = {-1, 0, 1}, direction = Normalize(Vec3d{1, 0, -1});
@@ -192,7 +177,8 @@ TEST_CASE("reference: a slab of glass splits and displaces a beam", "[reference]
     const double exact = above ? closed_form::SlabReflectance(cosine, eta)
                                : closed_form::SlabTransmittance(cosine, eta);
     const auto result = CompareWithClosedForm(
-        b.Build(), Options(ReferenceEstimator::kLightSampling, 20000), Constant(exact));
+        b.Build(), Options(ReferenceEstimator::kLightSampling, 20000),
+        ConstantImage(exact));
     stat::CheckSame(result);
     CHECK(result.detectable_bias < (above ? 0.1 : 0.02));
   }

@@ -97,6 +97,21 @@ Vec3d FilmPoint(double x, double y, int size) {
   return {-(4 * x / size - 2), 2 - 4 * y / size, 0};
 }
 
+Exact ConstantImage(double value) {
+  return [value](int, int) { return Grey(value); };
+}
+
+Exact PixelMean(int size, const std::function<Rgb(Vec3d)>& f) {
+  return [=](int x, int y) {
+    constexpr int kSub = 8;
+    Rgb sum;
+    for (int i = 0; i < kSub * kSub; ++i) {
+      sum += f(FilmPoint(x + (i % kSub + 0.5) / kSub, y + (i / kSub + 0.5) / kSub, size));
+    }
+    return sum / (kSub * kSub);
+  };
+}
+
 SceneDescription GlassSlab(int max_depth) {
   SceneBuilder b(2, 2);
   b.Depth(max_depth).Orthographic({-5, 0, 5}, {0, 0, 0}, {0, 1, 0}, 0.01);

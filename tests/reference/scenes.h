@@ -2,6 +2,7 @@
 // they are made with. All lengths are in scene units, all images have box filters.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "src/scene/description/description.h"
@@ -79,6 +80,13 @@ std::vector<Vec3d> PolygonCorners();
 /// World point on z = 0 seen at film position (x, y) of a size x size image of these
 /// three.
 Vec3d FilmPoint(double x, double y, int size);
+
+/// The exact value of a pixel.
+using Exact = std::function<Rgb(int x, int y)>;
+Exact ConstantImage(double value);
+/// Returns the means over pixels of a closed form on the plane of these three scenes, by
+/// a midpoint rule that is good to 1e-4.
+Exact PixelMean(int size, const std::function<Rgb(Vec3d)>& f);
 
 /// A slab -0.25 <= z <= 0 of glass 1.5, one parallel beam of camera rays at 45 degrees,
 /// environment of radiance 1 only: all light is back. Closed form 1 (reflected 2R/(1+R) +

@@ -71,7 +71,6 @@ constexpr Folder kFolders[] = {
     {"src/measure/profile",     "comparing profiles"},
     {"src/measure/sweep",       "grids of renders"},
     {"src/measure/study",       "measuring strategies"},
-    {"src/measure/advise",      "choosing a strategy"},
     {"src/measure/live",        "a page that renders while it is looked at"},
     {"src/measure/stress",      "extremes, measured and judged"},
     {"src/measure/stress/cases", "extreme inputs with known results"},
@@ -144,7 +143,7 @@ TEST_CASE("an include of a higher folder is detected", "[layers]") {
       UpwardIncludes("src/render/job/job.h", "#include \"src/measure/study/runs.h\"\n") ==
       "src/render/job/job.h includes src/measure/study/runs.h\n");
   CHECK(UpwardIncludes("src/measure/study/runs.h",
-                       "#include \"src/measure/advise/advise.h\"\n") != "");
+                       "#include \"src/measure/live/server.h\"\n") != "");
   CHECK(UpwardIncludes("src/vocabulary/path/wave.h", "#include \"kernels/stages.h\"\n") !=
         "");
   CHECK(UpwardIncludes("kernels/simd/vec3-inl.h",

@@ -83,7 +83,8 @@ class PatternReader {
 
   void Add(std::size_t first, std::size_t last, std::string name,
            std::vector<std::string> values) {
-    if (name.empty()) Fail("a list in braces needs a key before it, as in points={cmj}");
+    if (name.empty())
+      Fail("a list in braces needs a key before it, as in points={halton}");
     parts_.push_back(
         {text_.substr(fixed_, first - fixed_), std::move(name), std::move(values)});
     fixed_ = last + 1;

@@ -350,7 +350,7 @@ ErrorEstimate EstimateError(const PixelRect& window,
   if (grid.IsStopped()) return {};
   out.why = fmt::format(
       "rare bright samples, mainly at pixel ({}, {}), may make it {:.2g} times as large; "
-      "{}, or a strategy that finds them (`lanelight advise`)",
+      "{}, or a strategy that finds them (`lanelight study`)",
       x, y, maximum,
       more > 0 ? fmt::format("an interval needs about {} times the samples", more)
                : fmt::format("an interval needs more than {} times the samples",

@@ -1,10 +1,12 @@
 #include "src/render/job/checkpoint.h"
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "src/base/core/error.h"
 #include "src/base/core/json_text.h"
+#include "src/base/core/source_location.h"
 #include "src/base/image/exr.h"
 #include "src/base/image/image.h"
 #include "src/render/films/accumulator.h"
@@ -59,7 +61,8 @@ std::optional<Decide> DecisionOfState(const CheckpointSettings& settings) {
   Strategy strategy;
   FromJsonOf(from, [&] {
     const Json identity = ParseJson(StateFile(from).identity());
-    ApplyStrategy(identity.at("strategy").get<std::string>(), {}, strategy);
+    ApplyStrategy(identity.at("strategy").get<std::string>(),
+                  {std::make_shared<const std::string>(from)}, strategy);
   });
   return strategy.decide;
 }

@@ -176,7 +176,7 @@ Rendering RenderToFiles(const Job& job, const std::string& scene,
   }
   if (shown.display) shown.display->Finish(film);
   if (hooks.on_rendered) hooks.on_rendered();
-  WriteRendering(film, facts, targets, hooks.members, out);
+  WriteRendering(film, facts, targets, Json::object(), out);
   return out;
 }
 

@@ -36,7 +36,6 @@ struct RenderHooks {
   std::function<void(const std::string&)> on_problem;
   RankGroup* group = nullptr;               // who renders; null: this process alone
   const std::atomic<bool>* stop = nullptr;  // ends the render early; what is there counts
-  nlohmann::json members = nlohmann::json::object();  // of the report, beside its own
 };
 
 struct Rendering {

@@ -148,10 +148,6 @@ void NoteLights(const Checked& c) {
         "directions=light: no light can be sampled; the image has directly visible and "
         "mirrored lights only");
   }
-  if (s.pairs == Pairs::kAntithetic && s.paired == Paired::kLight &&
-      !c.plan.Has(Feature::kLights)) {
-    c.Note("pairs=antithetic:light", ": no light is sampled");
-  }
 }
 
 void NoteEnvironment(const Checked& c) {

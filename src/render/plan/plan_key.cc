@@ -32,13 +32,12 @@ std::string FeaturesText(const FeatureSet& features) {
 // Returns the parameters of the plan's strategy; omits what no stage reads.
 std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   const SamplerParameters sampler = MakeSamplerParameters(s.sampler);
-  const AntitheticParameters pairs = MakeAntitheticParameters(s);
   const MisParameters mis = MakeMisParameters(s);
   const SampleGroups groups = GroupsOf(s);
-  std::string text = fmt::format("points {} {} pairs {} {} groups {} {} mis {} {} {}",
-                                 sampler.group_shift, sampler.pmj02 != nullptr,
-                                 pairs.dimensions, pairs.depths, groups.unit,
-                                 groups.replicates, mis.square, mis.linear, mis.hits);
+  std::string text =
+      fmt::format("points {} {} groups {} {} mis {} {} {}", sampler.group_shift,
+                  sampler.pmj02 != nullptr, groups.unit, groups.replicates, mis.square,
+                  mis.linear, mis.hits);
   if (features.Has(Feature::kReuse)) {
     text += fmt::format(" reuse {} {}", s.reused_paths, Name(s.block_layout));
   }

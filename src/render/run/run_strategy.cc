@@ -88,7 +88,6 @@ void RunStrategy::Train(std::uint64_t planned, RankGroup& group) {
   RankPasses ranks(group, options_.stop);
   TrainingOptions options;
   options.planned_samples = planned;
-  options.keep_roulette = options_.keep_roulette;
   options.whole_image = options_.windows.empty();
   const bool together = group.ranks() > 1;
   options.stop = together ? ranks.stop() : options_.stop;

@@ -6,27 +6,11 @@
 #include <utility>
 
 #include "src/base/core/check.h"
-#include "src/render/train/trial_comparison.h"
 #include "src/scene/compiled/view.h"
 #include "src/scene/prepare/prepared_scene.h"
 
 namespace lanelight {
 namespace {
-
-// Variance of a pixel without roulette, and what roulette adds.
-struct Part {
-  double variance, added;
-  bool operator<(const Part& o) const { return variance + added < o.variance + o.added; }
-};
-
-Part PartOf(const PathRecord* records, std::uint32_t spp) {
-  double sum = 0, squares = 0, risk = 0;
-  for (std::uint32_t k = 0; k < spp; ++k) {
-    const PathRecord& r = records[k];
-    sum += r.end, squares += double{r.end} * r.end, risk += r.Risk();
-  }
-  return {std::max(0.0, squares - sum * sum / spp) / (spp - 1), risk / spp};
-}
 
 PathRecord ReadRecord(const float* next) {
   PathRecord record;
@@ -38,8 +22,6 @@ PathRecord ReadRecord(const float* next) {
     v.direct = *next++;
   }
   record.end = *next++;
-  record.depth = *next++;
-  for (float& risk : record.risk) risk = *next++;
   return record;
 }
 
@@ -112,22 +94,6 @@ std::vector<double> RelativeVariances(const TrainingSamples& samples,
     variances.push_back(VarianceOfMean(samples, work, image, std::span(&i, 1)));
   }
   return variances;
-}
-
-double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
-                             const PilotImage& image) {
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i < work.pixels.size(); ++i) {
-    double weight = 0;
-    for (int c = 0; c < 3; ++c) weight += image.ErrorWeight(work.pixels[i], c);
-    const Part part = PartOf(samples.records.data() + i * work.spp, work.spp);
-    parts.push_back({part.variance * weight, part.added * weight});
-  }
-  std::sort(parts.begin(), parts.end());
-  parts.resize(KeptOf(parts.size()));
-  double variance = 0, added = 0;
-  for (const Part& p : parts) variance += p.variance, added += p.added;
-  return added > 0 ? 1 + added / std::max(variance, 1e-9 * added) : 1;
 }
 
 double MomentsAbout(const PathValues& values, float exposure, std::uint32_t pixel) {

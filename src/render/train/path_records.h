@@ -20,16 +20,7 @@ struct PathRecord {
     float direct;         // what it adds
   };
   Vertex vertices[kRecordedVertices];
-  float end, depth;
-  float risk[3];
-
-  /// Returns what roulette on the throughput would add to the square of `end`, on
-  /// average; zero where rounding could have made it.
-  double Risk() const {
-    const double square = double{end} * end * risk[0];
-    const double added = square - 2.0 * end * risk[1] + risk[2];
-    return added > 1e-5 * square ? added : 0;
-  }
+  float end;
 };
 
 struct PathSamples : TrainingSamples {
@@ -52,12 +43,6 @@ double VarianceOfMean(const TrainingSamples& samples, const TrainingWork& work,
 /// Returns VarianceOfMean of each pixel by itself.
 std::vector<double> RelativeVariances(const TrainingSamples& samples,
                                       const TrainingWork& work, const PilotImage& image);
-
-/// Returns the variance with roulette on the throughput over that without, from the
-/// records of a pass without (PathRecord::Risk); omits the worst thousandth of the
-/// pixels.
-double RouletteVarianceRatio(const PathSamples& samples, const TrainingWork& work,
-                             const PilotImage& image);
 
 /// Returns the value about which a pass with these values takes the moments of a pixel (y
 /// * width + x), as radiance: its brightness, by PathValues::inverse_pixel.

@@ -10,12 +10,13 @@
 namespace lanelight {
 namespace {
 
+constexpr std::uint32_t kTrialSpp = 32;
 constexpr double kMissingLightErrors = 3;  // standard errors
 
 // Minimum number of pixels that carry a candidate's error; its sum is then known to 25 %.
-// In last rounds of advice for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
+// In trials for 10 s (five seeds), adjoint had 1.0 to 7.1 where caustics
 // carry its error (material-testball, media: 0.46x the efficiency in long renders,
-// although each of these rounds preferred it). It had 32 to 75 where it is efficient
+// although each of these trials preferred it). It had 32 to 75 where it is efficient
 // (corridor, veach-ajar; 14 once).
 constexpr double kMinEffectivePixels = 16;
 
@@ -55,9 +56,8 @@ bool DiffersByRoulette(Strategy changed, const Strategy& baseline) {
 // probability.
 bool HasMilderRoulette(const Strategy& changed, const Strategy& baseline) {
   const bool longer =
-      changed.roulette == Roulette::kNone ||
-      (changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
-       changed.scale >= baseline.scale && changed.First() >= baseline.First());
+      changed.roulette == baseline.roulette && changed.Floor() >= baseline.Floor() &&
+      changed.scale >= baseline.scale && changed.First() >= baseline.First();
   return baseline.roulette == Roulette::kThroughput && longer &&
          DiffersByRoulette(changed, baseline);
 }
@@ -73,8 +73,7 @@ bool DiffersByLearnedLights(Strategy changed, const Strategy& baseline) {
 
 // Returns whether it splits paths whose records describe roulette on the throughput.
 bool RecordsSinglePaths(const TriedStrategy& tried, const TriedStrategy& baseline) {
-  const Strategy changed = PlannedStrategy(tried.scene, tried.options);
-  const Strategy given = PlannedStrategy(baseline.scene, baseline.options);
+  const Strategy &changed = tried.strategy, &given = baseline.strategy;
   return given.roulette == Roulette::kThroughput && given.Floor() == 0 &&
          given.scale == 1 && given.First() == kThroughputFirst &&
          changed.roulette == Roulette::kAdjoint && DiffersByRoulette(changed, given);
@@ -132,9 +131,8 @@ TriedStrategy PrepareTrial(const PreparedScene& scene, const PlanOptions& option
   TriedStrategy tried;
   tried.changes = changes;
   tried.price = price;
-  tried.scene = scene;
   tried.options = WithChanges(scene, options, JoinedChanges(changes, "decide=none"));
-  tried.splits = PlannedStrategy(scene, tried.options).Splits();
+  tried.strategy = PlannedStrategy(scene, tried.options);
   return tried;
 }
 
@@ -146,8 +144,8 @@ StrategyTrial::StrategyTrial(const PreparedScene& scene, const TrainingOptions& 
       planned_(planned),
       watcher_(training.stop) {}
 
-void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_t round) {
-  work_ = MakeTrainingWork(scene_, samples, spp, round);
+void StrategyTrial::Begin(std::uint64_t samples) {
+  work_ = MakeTrainingWork(scene_, samples, kTrialSpp);
   work_.spp -= work_.spp % kReplicates;
   image_.reset();
 }
@@ -155,12 +153,11 @@ void StrategyTrial::Begin(std::uint64_t samples, std::uint32_t spp, std::uint64_
 TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
                                              std::uint64_t planned,
                                              StrategyTables& tables) {
-  const Plan plan = MakePlan(tried.scene, tried.options);
+  const Plan plan = MakePlan(scene_, tried.options);
   if (!NeedsTraining(plan)) return {};
   TrainingOptions options = training_;
   options.planned_samples = planned;
-  options.keep_roulette |= !tried.changes.empty();
-  const TrainingOutcome out = Train({tried.scene, plan, seed_, options, tables});
+  const TrainingOutcome out = Train({scene_, plan, seed_, options, tables});
   spent_.samples += out.samples;
   spent_.rays += out.rays;
   return out;
@@ -169,8 +166,8 @@ TrainingOutcome StrategyTrial::TrainStrategy(const TriedStrategy& tried,
 TrainingSamples StrategyTrial::Render(const TriedStrategy& tried,
                                       const PlanOptions& options,
                                       const TrainingWork& work, const PilotImage* image) {
-  TrainingPass pass = {tried.scene, options,         &tried.tables, seed_,
-                       &watcher_,   training_.ranks, image};
+  TrainingPass pass = {scene_,    options,         &tried.tables, seed_,
+                       &watcher_, training_.ranks, image};
   pass.options.has_own_sequences = true;
   TrainingSamples samples = RunTrainingPass(pass, work);
   spent_.samples += samples.colors.size();
@@ -194,9 +191,7 @@ TrialLight StrategyTrial::LightOf(const TrainingSamples& samples,
 
 bool StrategyTrial::Try(TriedStrategy& tried, const TriedStrategy& baseline) {
   if (!tried.has_learned) {
-    // Training may have changed the strategy.
-    const TrainingOutcome learned = TrainStrategy(tried, planned_, tried.tables);
-    tried.options = WithChanges(tried.scene, tried.options, learned.changes);
+    TrainStrategy(tried, planned_, tried.tables);
     tried.has_learned = true;
   }
   if (!IsStopped()) Measure(tried, baseline);
@@ -216,12 +211,8 @@ void StrategyTrial::Measure(TriedStrategy& tried, const TriedStrategy& baseline)
   tried.light = LightOf(samples, tried.measure);
   tried.baseline = baseline.measure;
   tried.baseline_light = baseline.light;
-  tried.milder_roulette =
-      HasMilderRoulette(PlannedStrategy(tried.scene, tried.options),
-                        PlannedStrategy(baseline.scene, baseline.options));
-  tried.is_bounded =
-      DiffersByLearnedLights(PlannedStrategy(tried.scene, tried.options),
-                             PlannedStrategy(baseline.scene, baseline.options));
+  tried.milder_roulette = HasMilderRoulette(tried.strategy, baseline.strategy);
+  tried.is_bounded = DiffersByLearnedLights(tried.strategy, baseline.strategy);
   tried.paired = records && !IsConverged(baseline.measure.variances);
   if (!tried.paired) return;
   TrialMeasure single = baseline.measure;

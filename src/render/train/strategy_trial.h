@@ -1,6 +1,5 @@
-// A trial of strategies on the same pixels: what each learns, costs and scatters, for
-// decide=pilot and `lanelight advise`. It depends on scene, settings and seed alone:
-// costs are counted in rays.
+// The trial of strategies on the same pixels of decide=pilot: what each learns, costs and
+// scatters. It depends on scene, settings and seed alone: costs are counted in rays.
 #pragma once
 
 #include <optional>
@@ -20,10 +19,9 @@ namespace lanelight {
 /// A change of the strategy that may be more efficient.
 struct DecisionCandidate {
   const char* changes;  // as in --strategy
-  const char* reason;   // when it is more efficient
   /// Processor time of a counted ray (TrainingSamples::Cost) over that without the
-  /// change, and how far the logarithm of that scatters from scene to scene.
-  double price, price_uncertainty;
+  /// change. Its logarithm scatters by 0.1 to 0.3 from scene to scene.
+  double price;
 };
 
 /// Least gain for which a change is chosen: a wrong change costs more than a missed one.
@@ -31,44 +29,28 @@ inline constexpr double kMinChangeGain = 1.05;
 
 // Costs are counted in rays, so that a choice depends on the scene only; prices make
 // up for what rays do not say. They are means over 32 scenes, 96 pixels wide, 64 spp, one
-// thread, AVX-512, and so are their spreads. What a sample costs beside its rays and what
-// a shadow ray costs have no part in them: with a constant per sample, or other weights
-// of shadow rays, they scatter as much.
+// thread, AVX-512. What a sample costs beside its rays and what a shadow ray costs have
+// no part in them: with a constant per sample, or other weights of shadow rays, they
+// scatter as much.
 //
 // Left out: directions=bsdf and light, which differ from combining both most in rare
 // bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
-// combining is never much worse than either, one alone can be); roulette=efficiency
-// (where it gains adjoint does too, and it needs two more passes to learn its factors),
-// and what has never won: control variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98),
-// uniform directions, antithetic pairs, which undo what strata gain, a constant roulette.
-inline constexpr DecisionCandidate kDecisionCandidates[] = {
-    {"roulette=adjoint", "gains where little of the scene carries the light", 1.17, 0.19},
-    {"roulette=throughput:0:2:4", "gains where later events of paths carry much light",
-     1.0, 0.13},
-    {"light-selection=learned",
-     "gains where lights are near, or hidden, in parts of the scene", 1.04, 0.1},
-    // Only those above may be chosen without being asked for. With the next but one paths
-    // may not end.
-    {"roulette=throughput:0:5", "gains where bright light arrives after a few events",
-     1.02, 0.15},
-    {"roulette=none", "gains where paths are short or end late on bright lights", 1.02,
-     0.19},
-    {"light-selection=tree", "gains with many lights, each near a part of the scene", 1.1,
-     0.4},
+// combining is never much worse than either, one alone can be), and what has never won:
+// control variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98), uniform directions,
+// antithetic pairs, which undo what strata gain, a constant roulette.
+inline constexpr DecisionCandidate kRouletteCandidates[] = {
+    {"roulette=adjoint", 1.17},
+    {"roulette=throughput:0:2:4", 1.0},
 };
-inline constexpr std::size_t kNumRouletteCandidates = 2;  // the first ones
-inline constexpr const DecisionCandidate& kLearnedSelection = kDecisionCandidates[2];
-
-inline constexpr const char kGainOfSubpaths[] =
-    "gains where caustics, hidden lamps or light through windows cause the noise";
+inline constexpr DecisionCandidate kLearnedSelection = {"light-selection=learned", 1.04};
 
 /// Changes that are tried on whole tiles, beside what has been chosen. (Prices of light
 /// subpaths: 18 scenes, 128 x 96 pixels.)
 inline constexpr DecisionCandidate kTileCandidates[] = {
-    {"reuse=block", "gains where most of the noise is indirect light", 1.2, 0.27},
-    {"reuse=block:32", "gains where most of the noise is indirect light", 1.2, 0.27},
-    {"light-paths=splats", kGainOfSubpaths, 1.31, 0.13},
-    {"light-paths=splats:1", kGainOfSubpaths, 1.54, 0.25},
+    {"reuse=block", 1.2},
+    {"reuse=block:32", 1.2},
+    {"light-paths=splats", 1.31},
+    {"light-paths=splats:1", 1.54},
 };
 
 /// The image's light by one pass, pixels weighted as in relative errors.
@@ -80,11 +62,9 @@ struct TrialLight {
 struct TriedStrategy {
   std::string changes;  // of the baseline strategy, which has none
   double price = 1;     // DecisionCandidate::price
-  PreparedScene scene;  // for all of the strategy that is not a change of the plan
   PlanOptions options;
+  Strategy strategy;  // of `options`
   StrategyTables tables;
-  /// The strategy as asked for splits paths, which path reuse cannot do.
-  bool splits = false;
   bool has_learned = false;
   /// Its paths live longer than those of the baseline strategy, and nothing else differs.
   /// A path that survives with a higher probability is divided by a larger number, so no
@@ -152,9 +132,8 @@ class StrategyTrial {
   StrategyTrial(const PreparedScene& scene, const TrainingOptions& training,
                 std::uint32_t seed, std::uint64_t planned);
 
-  /// Renders about so many samples of each strategy from here on, `spp` in each pixel;
-  /// each `round` has other pixels.
-  void Begin(std::uint64_t samples, std::uint32_t spp = 32, std::uint64_t round = 0);
+  /// Renders about so many samples of each strategy from here on, 32 in each pixel.
+  void Begin(std::uint64_t samples);
   /// Trains the strategy if needed, renders the pixels and fills its measures. The first
   /// one tried is the baseline strategy. Returns false if the user has stopped it.
   bool Try(TriedStrategy& tried, const TriedStrategy& baseline);

@@ -47,14 +47,15 @@ using Squares = std::vector<std::vector<std::size_t>>;
 
 // Places of pixels in the work that count: light that the camera sees at the edge of a
 // lamp is integrated apart in the image, but not in a trial.
-std::vector<bool> PixelsWithoutLightEdges(const TriedStrategy& baseline,
+std::vector<bool> PixelsWithoutLightEdges(const PreparedScene& scene,
+                                          const TriedStrategy& baseline,
                                           const TrainingWork& work) {
   std::vector<bool> counted(work.pixels.size(), true);
-  const Plan plan = MakePlan(baseline.scene, baseline.options);
-  RunParameters run = MakeRunParameters(baseline.scene, plan);
+  const Plan plan = MakePlan(scene, baseline.options);
+  RunParameters run = MakeRunParameters(scene, plan);
   run.tables = &baseline.tables;
   const RunOptions once;
-  TaskRunner runner(baseline.scene, plan, run, once, {});
+  TaskRunner runner(scene, plan, run, once, {});
   runner.Begin(work.tiles.size());
   if (runner.visible_lights() == nullptr) return counted;
   ParallelFor(work.tiles.size(), [&](std::size_t tile) {
@@ -127,18 +128,19 @@ bool IsOfLightPaths(const DecisionCandidate& candidate) {
 // Returns the gain of one change after another.
 TrialGain JoinedGain(const TrialGain& first, const TrialGain& second) {
   return {first.log + second.log, std::hypot(first.standard_error, second.standard_error),
-          first.minimum + second.minimum, first.maximum + second.maximum};
+          first.minimum + second.minimum};
 }
 
 // Compares strategies with a plain one on the same tiles.
 class TileTrial {
  public:
-  TileTrial(const TriedStrategy& baseline, TrainingWork work, TrainingSamples plain)
-      : scene_(baseline.scene),
+  TileTrial(const PreparedScene& scene, const TriedStrategy& baseline, TrainingWork work,
+            TrainingSamples plain)
+      : scene_(scene),
         work_(std::move(work)),
         plain_(std::move(plain)),
         image_(EstimatePilotImage(scene_, plain_, work_)) {
-    const std::vector<bool> counted = PixelsWithoutLightEdges(baseline, work_);
+    const std::vector<bool> counted = PixelsWithoutLightEdges(scene_, baseline, work_);
     tiles_ = SquaresOf(scene_, work_, counted, kReuseTile);
     squares_ = SquaresOf(scene_, work_, counted, kSquare);
     // All pixels: what their subpaths bring falls on others.
@@ -269,21 +271,21 @@ const TriedOnTiles* BestOf(const std::vector<TriedOnTiles>& tried) {
 }
 
 bool StrategyTrial::MayUse(const TriedStrategy& beside, const char* changes) const {
-  const PlanOptions options = WithChanges(beside.scene, beside.options, changes);
-  if (IsPlanned(beside.scene, options, Feature::kReuse)) return true;
+  const PlanOptions options = WithChanges(scene_, beside.options, changes);
+  if (IsPlanned(scene_, options, Feature::kReuse)) return true;
   return training_.whole_image && options.max_depth > 1 &&
          RenderedPixels(scene_.view->film).pixels() <= kMaxTrialSplatPixels &&
-         IsPlanned(beside.scene, options, Feature::kLightPaths);
+         IsPlanned(scene_, options, Feature::kLightPaths);
 }
 
 void StrategyTrial::LearnEmission(const PlanOptions& options, TriedStrategy& tried) {
-  const Plan plan = MakePlan(tried.scene, options);
+  const Plan plan = MakePlan(scene_, options);
   if (!plan.features.Has(Feature::kGuidedEmission) ||
       tried.tables.emission.has_learned()) {
     return;
   }
   const TrainingOutcome outcome =
-      TrainEmission({tried.scene, plan, seed_, training_, tried.tables});
+      TrainEmission({scene_, plan, seed_, training_, tried.tables});
   spent_.samples += outcome.samples;
   spent_.rays += outcome.rays;
 }
@@ -292,9 +294,10 @@ std::vector<TriedOnTiles> StrategyTrial::TryOnTiles(const TriedStrategy& baselin
                                                     const TriedStrategy& chosen,
                                                     double gain, std::uint64_t samples) {
   std::vector<TriedOnTiles> tried;
-  const TriedStrategy& beside = chosen.splits ? baseline : chosen;
-  if (beside.splits) return tried;
-  const double must_gain = chosen.splits ? gain : kMinChangeGain;
+  const bool splits = chosen.strategy.Splits();
+  const TriedStrategy& beside = splits ? baseline : chosen;
+  if (beside.strategy.Splits()) return tried;
+  const double must_gain = splits ? gain : kMinChangeGain;
   std::optional<TileTrial> trial;
   TriedStrategy learned = beside;
   for (const DecisionCandidate& candidate : kTileCandidates) {
@@ -302,10 +305,9 @@ std::vector<TriedOnTiles> StrategyTrial::TryOnTiles(const TriedStrategy& baselin
     if (!tried.empty() && !IsWorthTrying(candidate, tried.back())) continue;
     if (!trial) {
       const TrainingWork work = MakeTileWork(scene_, samples, kTileSpp);
-      trial.emplace(beside, work, Render(beside, beside.options, work));
+      trial.emplace(scene_, beside, work, Render(beside, beside.options, work));
     }
-    const PlanOptions options =
-        WithChanges(beside.scene, beside.options, candidate.changes);
+    const PlanOptions options = WithChanges(scene_, beside.options, candidate.changes);
     LearnEmission(options, learned);
     const TrainingSamples found =
         Render(learned, options, trial->work(), &trial->image());

@@ -70,7 +70,7 @@ class Decider {
         trial_(scene_, training_, context.seed, planned_ / kLearned) {}
 
   TrainingOutcome Run() {
-    entries_.reserve(1 + std::size(kDecisionCandidates));
+    entries_.reserve(2 + std::size(kRouletteCandidates));
     Add("", 1);
     TriedStrategy* chosen = &entries_.front();
     const TriedStrategy* base = chosen;
@@ -80,7 +80,7 @@ class Decider {
       trial_.Begin(planned_ / kCompared);
       base = chosen = Improve(*chosen, std::span(&kLearnedSelection, 1));
       tables_.lights = chosen->tables.lights;
-      chosen = Improve(*chosen, std::span(kDecisionCandidates, kNumRouletteCandidates));
+      chosen = Improve(*chosen, kRouletteCandidates);
       if (note_.empty()) note_ = "no candidate changes this render";
       if (!trial_.IsStopped()) TryOnTilesBeside(*base, *chosen);
     }
@@ -173,10 +173,10 @@ class Decider {
     }
     const TriedOnTiles* const best = BestOf(tried);
     if (best == nullptr) return;
-    const double before = of_base + (chosen.splits ? 0 : own);
+    const double before = of_base + (chosen.strategy.Splits() ? 0 : own);
     outcome_.gain = LimitedGain(before + best->per_pixel.log);
     outcome_.filtered_gain = LimitedGain(before + best->filtered.log);
-    TriedStrategy beside = chosen.splits ? base : chosen;
+    TriedStrategy beside = chosen.strategy.Splits() ? base : chosen;
     beside.changes = JoinedChanges(beside.changes, best->candidate.changes);
     chosen = std::move(beside);
   }
@@ -187,7 +187,7 @@ class Decider {
     chosen.options = WithChanges(scene_, options_, changes);
     const TrainingOutcome out =
         trial_.TrainStrategy(chosen, training_.planned_samples, tables_);
-    outcome_.changes = JoinedChanges(changes, out.changes);
+    outcome_.changes = changes;
     outcome_.note =
         fmt::format("rendered with {}; {}{}{}",
                     rendered.empty() ? "the strategy as given" : rendered, note_, out.note.empty() ? "" : "; ", out.note);

@@ -18,14 +18,13 @@ namespace {
 
 constexpr char kHead[] = "path_values";
 constexpr char kSurvive[] = "path_values_survive";
-constexpr char kSplit[] = "path_values_split";
 constexpr char kInverse[] = "path_values_inverse";
 
 // Left out unless light subpaths come from infinity.
 constexpr char kEmissionCells[] = "emission_cells";
 constexpr char kEmissionLights[] = "emission_lights";
 
-constexpr std::uint64_t kHeadSize = 13;
+constexpr std::uint64_t kHeadSize = 12;
 
 // Left out without light-selection=learned.
 constexpr char kLightGrid[] = "learned_light_grid";
@@ -57,14 +56,11 @@ std::vector<TrainedTable> ExportTraining(const StrategyTables& tables) {
   const PathValues& p = tables.path_values;
   std::vector<double> head = ValuesOf(p.grid);
   for (int i = 0; i < 3; ++i) head.push_back(double(p.channel[i]));
-  head.push_back(double(p.scale));
   std::vector<TrainedTable> trained = {
-      {kHead, "grid: low corner, cells per unit, cells; weight of each channel; scale",
-       head},
+      {kHead, "grid: low corner, cells per unit, cells; weight of each channel", head},
       {kSurvive, "by cell", {p.survive.begin(), p.survive.end()}},
-      {kSplit, "by cell", {p.split.begin(), p.split.end()}},
       {kInverse,
-       "ImageGuess::Inverse, by pixel of the full image and channel",
+       "PilotImage::Inverse, by pixel of the full image and channel",
        {p.inverse_pixel.begin(), p.inverse_pixel.end()}}};
   if (tables.emission.has_learned()) {
     trained.push_back({kEmissionCells, "weights of where subpaths from infinity start",
@@ -118,7 +114,6 @@ void PutHead(const std::vector<double>& head, PathValues& p) {
   CheckSize(kHead, head.size(), kHeadSize, "whatever the scene");
   p.grid = GridOf(head);
   for (std::size_t i = 0; i < 3; ++i) p.channel[i] = float(head[kGridSize + i]);
-  p.scale = float(head[12]);
 }
 
 // Six directions of the normal in each cell of the grid.
@@ -191,12 +186,9 @@ void ImportTraining(const std::vector<TrainedTable>& trained, std::uint64_t pixe
   const std::vector<double>& head = TableOf(trained, kHead);
   PutHead(head, p);
   Put(TableOf(trained, kSurvive), p.survive);
-  Put(TableOf(trained, kSplit), p.split);
   Put(TableOf(trained, kInverse), p.inverse_pixel);
   const std::size_t cells = p.survive.size();
   if (cells > 0) CheckCells(kSurvive, head, cells);
-  const std::string why = "one for each value of 'path_values_survive'";
-  if (!p.split.empty()) CheckSize(kSplit, p.split.size(), cells, why);
   if (cells > 0 || !p.inverse_pixel.empty()) {
     CheckPixels(kInverse, p.inverse_pixel.size(), pixels);
   }
@@ -214,10 +206,9 @@ void CheckTrained(const Plan& plan, const StrategyTables& tables) {
     throw InputError(fmt::format(
         "the state's table '{}' is empty or missing: its strategy needs it", table));
   };
-  check(Feature::kPathValues, tables.path_values.survive.empty(), kSurvive);
+  check(Feature::kSplitting, tables.path_values.survive.empty(), kSurvive);
   check(Feature::kGuidedEmission, !tables.emission.has_learned(), kEmissionCells);
   check(Feature::kLearnedLights, !tables.lights.has_learned(), kLightRows);
-  check(Feature::kEfficiencyRoulette, tables.path_values.split.empty(), kSplit);
 }
 
 }  // namespace lanelight

@@ -3,7 +3,7 @@
 namespace lanelight {
 
 bool NeedsTraining(const Plan& plan) {
-  return plan.features.HasAny({Feature::kDecides, Feature::kPathValues,
+  return plan.features.HasAny({Feature::kDecides, Feature::kSplitting,
                                Feature::kGuidedEmission, Feature::kLearnedLights});
 }
 
@@ -16,7 +16,7 @@ TrainingOutcome Train(const TrainingContext& context) {
     if (!context.tables.lights.has_learned()) return first;  // the user has stopped it
   }
   TrainingOutcome outcome;
-  if (features.Has(Feature::kPathValues)) outcome = TrainPathValues(context);
+  if (features.Has(Feature::kSplitting)) outcome = TrainPathValues(context);
   if (features.Has(Feature::kGuidedEmission)) outcome = TrainEmission(context);
   outcome.samples += first.samples;
   outcome.rays += first.rays;

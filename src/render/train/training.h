@@ -21,7 +21,6 @@ class RankPasses;  // src/render/train/rank_passes.h
 
 struct TrainingOptions {
   std::uint64_t planned_samples = 0;  // of the image
-  bool keep_roulette = false;         // even where another would be more efficient
   bool whole_image = true;            // not windows of it: light subpaths may be chosen
   const std::atomic<bool>* stop = nullptr;
   RankPasses* ranks = nullptr;  // that train together (src/render/train/rank_passes.h)
@@ -49,7 +48,7 @@ struct TrainingContext {
 /// Returns whether the plan's strategy needs training.
 bool NeedsTraining(const Plan& plan);
 
-/// Runs the training that the plan's strategy needs: with kPathValues TrainPathValues,
+/// Runs the training that the plan's strategy needs: with kSplitting TrainPathValues,
 /// with kGuidedEmission TrainEmission; with kDecides TrainDecision, which trains what it
 /// compares, and what it has chosen.
 TrainingOutcome Train(const TrainingContext& context);

@@ -247,7 +247,7 @@ class Pass {
 }  // namespace
 
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
-                              std::uint32_t spp, std::uint64_t round) {
+                              std::uint32_t spp) {
   std::vector<std::uint32_t> all;
   // Blocks of neighbours first, so that an even choice of them is even in both axes.
   TilePixels(RenderedPixels(scene.view->film), scene.view->film.width, &all);
@@ -260,7 +260,7 @@ TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
   const std::uint64_t run = RunLength(count, spp), runs = count / run;
   TrainingWork work;
   work.spp = spp;
-  std::uint64_t jitter = round * 0x9e3779b97f4a7c15u;
+  std::uint64_t jitter = 0;
   for (std::uint64_t i = 0; i < runs; ++i) {
     // One of each of equal stretches, at a place of its own in each.
     const std::uint64_t begin = i * (all.size() / run) / runs;

@@ -77,10 +77,9 @@ struct TrainingSamples {
 };
 
 /// Chooses about `samples` samples (at least four), spread evenly over the rendered
-/// window, `spp` or more per pixel. Each `round` has other pixels, unless all are taken.
+/// window, `spp` or more per pixel.
 TrainingWork MakeTrainingWork(const PreparedScene& scene, std::uint64_t samples,
-                              std::uint32_t spp = TrainingWork::kMinSpp,
-                              std::uint64_t round = 0);
+                              std::uint32_t spp = TrainingWork::kMinSpp);
 
 /// Chooses whole tiles, as reuse=block needs them.
 TrainingWork MakeTileWork(const PreparedScene& scene, std::uint64_t samples,

@@ -62,16 +62,15 @@ TrialGain GainOf(const TrialMeasure& other, const TrialMeasure& baseline) {
     return o <= 0 ? kMaxLogGain : std::log(baseline.cost * u / (other.cost * o));
   };
   TrialGain gain;
-  gain.log = gain.minimum = gain.maximum = log_ratio(0, 0);
+  gain.log = gain.minimum = log_ratio(0, 0);
   if (other_variance <= 0 || baseline_variance <= 0) return gain;
   double squares = 0;
   for (std::size_t i = 0; i < other.variances.size(); ++i) {
     const double d =
         other.variances[i] / other_variance - baseline.variances[i] / baseline_variance;
     squares += d * d;
-    const double without = log_ratio(baseline.variances[i], other.variances[i]);
-    gain.minimum = std::min(gain.minimum, without);
-    gain.maximum = std::max(gain.maximum, without);
+    gain.minimum =
+        std::min(gain.minimum, log_ratio(baseline.variances[i], other.variances[i]));
   }
   gain.standard_error = std::sqrt(squares);
   return gain;

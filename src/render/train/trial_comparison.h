@@ -30,9 +30,9 @@ bool IsClearlyBetter(const TrialMeasure& other, const TrialMeasure& baseline,
 struct TrialGain {
   double log = 0;             // natural
   double standard_error = 0;  // of it, by the scatter of both over the pixels
-  /// Least and largest gain when any one pixel is omitted: one bright sample may be in
-  /// both measures (copies of paths) and carry them without any scatter.
-  double minimum = 0, maximum = 0;
+  /// Least gain when any one pixel is omitted: one bright sample may be in both measures
+  /// (copies of paths) and carry them without any scatter.
+  double minimum = 0;
 };
 /// Returns the gain on the same pixels: none without error in either, the least number if
 /// none of the baseline error was seen (variances may be negative), the largest if none

@@ -52,9 +52,9 @@ std::uint32_t PlaceOf(int x, int y, int width, int height) {
   return std::uint32_t(by * width + bx * rows + (y - by) * columns + x - bx);
 }
 
-// Rectangles of 2^n pixels, nearly square, of every `stride`th pixel, on a grid that is
-// shifted by chance and wraps around in the tile.
-void Rectangles(Random& random, const PixelRect& tile, int stride, BlockOrder& order,
+// Rectangles of 2^n pixels, nearly square, on a grid that is shifted by chance and wraps
+// around in the tile.
+void Rectangles(Random& random, const PixelRect& tile, BlockOrder& order,
                 std::uint32_t paths) {
   const int log = std::countr_zero(paths);
   const int block_width = 1 << ((log + 1) / 2), block_height = 1 << (log / 2);
@@ -65,9 +65,7 @@ void Rectangles(Random& random, const PixelRect& tile, int stride, BlockOrder& o
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int u = (x + shift_x) % width, v = (y + shift_y) % height;
-      const int bx = u / (block_width * stride) * stride + u % stride;
-      const int by = v / (block_height * stride) * stride + v % stride;
-      const auto block = std::uint64_t(by * (width + stride) + bx);
+      const auto block = std::uint64_t(v / block_height * width + u / block_width);
       order.keys.push_back(block << 32 | PlaceOf(x, y, width, height));
     }
   }
@@ -94,7 +92,7 @@ void LayOutBlocks(const BlockKey& key, BlockLayout layout, std::uint32_t paths,
     Shuffle(random, order.places);
     EndEvery(paths, order);
   } else {
-    Rectangles(random, key.tile, layout == BlockLayout::kApart ? 2 : 1, order, paths);
+    Rectangles(random, key.tile, order, paths);
   }
   order.numbers.resize(order.ends.size());
   for (float& u : order.numbers) u = float(random.Next() >> 8) * 0x1p-24f;

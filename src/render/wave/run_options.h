@@ -64,8 +64,6 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
   bool profile = true;       // time every stage call
   ProfileOptions profiling;  // if `profile`
-  /// Keeps roulette=efficiency even where the training passes prefer another.
-  bool keep_roulette = false;
   /// Renders these windows of the image only, all of the same width and height, up to 64.
   /// The film is then a strip in which they lie side by side, in order, from (0, 0) on.
   /// They have the samples that a render of the whole image gives these pixels.

@@ -55,7 +55,7 @@ RunParameters MakeRunParameters(const PreparedScene& scene, const Plan& plan) {
   const Strategy strategy = PlannedStrategy(scene, plan.options);
   run.sampler = MakeSamplerParameters(strategy.sampler);
   run.sampler.by_tile = plan.features.HasAll({Feature::kReuse, Feature::kSpectral});
-  run.pairs = MakeAntitheticParameters(strategy);
+  run.pairs = strategy.pairs == Pairs::kAntithetic;
   run.mis = MakeMisParameters(strategy);
   run.roulette = MakeRouletteParameters(strategy);
   run.candidates = CandidatesOf(strategy, plan.features);

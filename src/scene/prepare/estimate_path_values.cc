@@ -16,19 +16,15 @@ constexpr double kCoarseCellWeight = 8;
 // missed its light.
 constexpr double kMinCellValue = 0.1;
 
-struct CellMeans {
-  double value = 0, square = 0, cost = 1;
+struct CellMean {
+  double value = 0;
   bool known = false;
 };
 
-CellMeans Blend(const CellSums& s, const CellMeans& prior) {
+CellMean Blend(const CellSums& s, const CellMean& prior) {
   if (s.count == 0) return prior;
   const double borrowed = prior.known ? kCoarseCellWeight : 0;
-  const auto mean = [&](double sum, double before) {
-    return (sum + borrowed * before) / (s.count + borrowed);
-  };
-  return {mean(s.value, prior.value), mean(s.square, prior.square),
-          mean(s.cost, prior.cost), true};
+  return {(s.value + borrowed * prior.value) / (s.count + borrowed), true};
 }
 
 }  // namespace
@@ -40,7 +36,7 @@ CellRecords::Sums CellRecords::Sorted() const {
   return sorted;
 }
 
-void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values) {
+void SetCellValues(const CellRecords& records, PathValues& values) {
   const CellGrid& fine = values.grid;
   LL_CHECK_EQ(records.cells(), fine.cells());
   const CellGrid coarse = CoarserGrid(fine);
@@ -54,21 +50,13 @@ void SetCellValues(const CellRecords& records, bool efficiency, PathValues& valu
     all.Add(next->second);
     ++next;
   });
-  const auto survival = [efficiency](const CellMeans& m) {
-    return efficiency ? std::sqrt(m.square / std::max(m.cost, 1.0)) : m.value;
-  };
-  const double minimum = kMinCellValue * survival(Blend(all, {}));
+  const double minimum = kMinCellValue * Blend(all, {}).value;
   values.survive.assign(fine.cells(), -1.0f);
-  if (efficiency) values.split.assign(fine.cells(), 0.0f);
   next = sums.begin();
   ForCells(fine, coarse, [&](std::uint32_t cell, std::uint32_t around) {
-    CellMeans m = Blend(coarse_sums[around], {});
+    CellMean m = Blend(coarse_sums[around], {});
     if (next != sums.end() && next->first == cell) m = Blend((next++)->second, m);
-    if (!m.known) return;
-    values.survive[cell] = static_cast<float>(std::max(survival(m), minimum));
-    if (!efficiency) return;
-    const double variance = std::max(0.0, m.square - m.value * m.value);
-    values.split[cell] = static_cast<float>(std::sqrt(variance / std::max(m.cost, 1.0)));
+    if (m.known) values.survive[cell] = static_cast<float>(std::max(m.value, minimum));
   });
 }
 
@@ -142,8 +130,8 @@ double PilotImage::Brightness(std::uint32_t pixel) const {
   return sum;
 }
 
-AlignedVector<float> PilotImage::Inverse(bool faithful) const {
-  const double epsilon = faithful ? Mean() * Mean() / 400 : epsilon_;
+AlignedVector<float> PilotImage::Inverse() const {
+  const double epsilon = Mean() * Mean() / 400;
   AlignedVector<float> inverse(std::size_t{width_} * height_ * 3);
   for (std::uint32_t i = 0; i < width_ * height_ && !black(); ++i) {
     for (int c = 0; c < 3; ++c) {

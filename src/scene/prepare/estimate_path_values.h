@@ -14,17 +14,11 @@
 namespace lanelight {
 
 /// Sums over the recorded vertices of a cell: of the estimates of the brightness that a
-/// unit of throughput gathers from there on, of their squares, of the cost to come.
+/// unit of throughput gathers from there on.
 struct CellSums {
-  double count = 0, value = 0, square = 0, cost = 0;
+  double count = 0, value = 0;
 
-  void Add(double estimate, double cost_to_come) {
-    count += 1, value += estimate, square += estimate * estimate;
-    cost += cost_to_come;
-  }
-  void Add(const CellSums& o) {
-    count += o.count, value += o.value, square += o.square, cost += o.cost;
-  }
+  void Add(const CellSums& o) { count += o.count, value += o.value; }
 };
 
 /// Sums of the cells of a grid that have records; most cells are empty space without any.
@@ -34,13 +28,13 @@ class CellRecords {
 
   explicit CellRecords(std::uint32_t cells) : places_(cells) {}
 
-  void Add(std::uint32_t cell, double estimate, double cost_to_come) {
+  void Add(std::uint32_t cell, double estimate) {
     std::uint32_t& place = places_[cell];
     if (place == 0) {
       sums_.push_back({cell, {}});
       place = static_cast<std::uint32_t>(sums_.size());
     }
-    sums_[place - 1].second.Add(estimate, cost_to_come);
+    sums_[place - 1].second.Add({1, estimate});
   }
   std::size_t cells() const { return places_.size(); }
   Sums Sorted() const;
@@ -50,11 +44,10 @@ class CellRecords {
   Sums sums_;
 };
 
-/// Sets values.survive (and .split, if `efficiency`) from records of values.grid. Cells
-/// with few records borrow from the coarser cell around them; what is worth less than a
-/// tenth of the mean counts as that much: a short training pass may have missed its
-/// light.
-void SetCellValues(const CellRecords& records, bool efficiency, PathValues& values);
+/// Sets values.survive from records of values.grid. Cells with few records borrow from
+/// the coarser cell around them; what is worth less than a tenth of the mean counts as
+/// that much: a short training pass may have missed its light.
+void SetCellValues(const CellRecords& records, PathValues& values);
 
 /// Colours of the pixels of an image from a few samples: means over tiles of 8x8 pixels,
 /// blurred over their neighbours. A sample counts at most kClamp times the mean of the
@@ -75,9 +68,9 @@ class PilotImage {
   double Brightness(std::uint32_t pixel) const;
   /// Returns, per pixel and channel, mean_c / mean / sqrt(3 (I_c^2 + epsilon)). The sum
   /// of the squares of beta_c times it, times the variance of a brightness, is the
-  /// relative variance caused, if its colour is like the image's. `faithful` uses an
-  /// epsilon that is negligible in all but the darkest pixels.
-  AlignedVector<float> Inverse(bool faithful) const;
+  /// relative variance caused, if its colour is like the image's. This epsilon is
+  /// negligible in all but the darkest pixels.
+  AlignedVector<float> Inverse() const;
 
  private:
   static constexpr std::uint32_t kTile = 8;

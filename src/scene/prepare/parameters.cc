@@ -12,10 +12,6 @@ namespace lanelight {
 
 namespace {
 
-constexpr std::uint64_t Bit(Dimension d) {
-  return std::uint64_t{1} << static_cast<std::uint32_t>(d);
-}
-
 // The least sum of light subpaths: it is 1.0 to 1.4 in five scenes, whose filters have a
 // radius of 0.5 to 1.5.
 constexpr double kPixelsOfLightPath = 3;
@@ -78,30 +74,6 @@ SamplerParameters MakeSamplerParameters(SampleSequence sampler) {
   return p;
 }
 
-AntitheticParameters MakeAntitheticParameters(const Strategy& strategy) {
-  if (strategy.pairs == Pairs::kNone) return {};
-  constexpr std::uint64_t kPixel =
-      Bit(Dimension::kFilm) | Bit(Dimension::kLens) | Bit(Dimension::kTime);
-  constexpr std::uint64_t kLight = Bit(Dimension::kSelect) | Bit(Dimension::kLight);
-  constexpr std::uint64_t kBsdf = Bit(Dimension::kBsdf) | Bit(Dimension::kLobe);
-  constexpr std::uint64_t kMedium =
-      Bit(Dimension::kCameraMedium) | Bit(Dimension::kMedium);
-  constexpr std::uint32_t kEveryDepth = 0xffffffffu;
-  switch (strategy.paired) {
-    case Paired::kAll:
-      return {kPixel | kLight | kBsdf | kMedium | Bit(Dimension::kRoulette), kEveryDepth};
-    case Paired::kPixel:
-      return {kPixel, kEveryDepth};
-    case Paired::kLight:
-      return {kLight, kEveryDepth};
-    case Paired::kBsdf:
-      return {kBsdf, kEveryDepth};
-    case Paired::kFirstBounce:
-      return {kLight | kBsdf, 1};
-  }
-  return {};
-}
-
 MisParameters MakeMisParameters(const Strategy& strategy) {
   if (strategy.directions == Directions::kLight) return {0, 0, 0};
   if (strategy.heuristic == Heuristic::kBalance) return {0, 1, 1};
@@ -126,7 +98,6 @@ std::uint32_t LogSequence(SampleSequence sampler) {
     case SampleSequence::kHalton:
       return 12;                       // below 3^8: see kernels/samplers/halton-inl.h
     case SampleSequence::kStratified:  // beyond, floats have no room for more strata
-    case SampleSequence::kCmj:
     case SampleSequence::kSobol:
     case SampleSequence::kLattice:
       return 20;
@@ -160,7 +131,7 @@ std::string PointsText(const Strategy& strategy, std::uint64_t spp) {
       text += SizeText(strategy, units);
     }
   }
-  if (pairs) text += fmt::format(", antithetic pairs ({})", Name(strategy.paired));
+  if (pairs) text += ", antithetic pairs";
   return text;
 }
 

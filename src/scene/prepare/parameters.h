@@ -11,7 +11,6 @@
 namespace lanelight {
 
 SamplerParameters MakeSamplerParameters(SampleSequence sampler);
-AntitheticParameters MakeAntitheticParameters(const Strategy& strategy);
 MisParameters MakeMisParameters(const Strategy& strategy);
 RouletteParameters MakeRouletteParameters(const Strategy& strategy);
 /// Returns the number of light samples of which a plan with these features keeps one.

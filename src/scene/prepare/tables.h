@@ -20,7 +20,7 @@ struct CellGrid {
   }
 };
 
-/// Values of paths, for roulettes that split: a coarse cache over space and orientation,
+/// Values of paths, for roulette=adjoint: a coarse cache over space and orientation,
 /// and the brightness of pixels. Cells without records have a negative `survive`.
 struct PathValues {
   CellGrid grid;
@@ -28,11 +28,7 @@ struct PathValues {
   /// as they do in a relative error.
   float channel[3] = {1.0f / 3, 1.0f / 3, 1.0f / 3};
   AlignedVector<float> inverse_pixel;  // PilotImage::Inverse
-  /// adjoint: the mean estimate. efficiency: sqrt(E[estimate^2] / cost).
-  AlignedVector<float> survive;
-  /// efficiency: sqrt(variance of the estimate / cost).
-  AlignedVector<float> split;
-  float scale = 1;  // efficiency: sqrt(cost / relative variance) of a camera path
+  AlignedVector<float> survive;        // the mean estimate of the cell
 };
 
 /// Where light subpaths from infinity start, learned from what they bring to the image.
@@ -83,7 +79,7 @@ struct LearnedLights {
 
 struct StrategyTables {
   LearnedLights lights;    // light-selection=learned: by a training pass
-  PathValues path_values;  // adjoint, efficiency: set by the training passes
+  PathValues path_values;  // roulette=adjoint: by training passes
   EmissionGuide emission;  // light-paths=splats: by a training pass
 };
 

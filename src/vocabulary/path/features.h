@@ -91,8 +91,7 @@ namespace lanelight {
   X(kLightTree, "light-selection=tree")                                       \
   X(kLearnedLights, "light-selection=learned")                                \
   X(kRoulette, "roulette on scattered rays (and a maximum depth > 1)")        \
-  X(kSplitting, "paths that split (roulette=adjoint, efficiency)")            \
-  X(kPathValues, "path values from a training pass")                          \
+  X(kSplitting, "paths that split (roulette=adjoint)")                        \
   X(kRecordsPaths, "a training pass that records the radiance of paths")      \
   X(kSolidAngleLights, "light-points=solid-angle")                            \
   X(kProjectedLights, "light-points=projected")                               \

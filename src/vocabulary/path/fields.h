@@ -161,9 +161,9 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffu;
   LANELIGHT_4(X, f32, got, ({kRecordsPaths}), kPath, (0.0f), "luminance gathered before it") \
   LANELIGHT_4(X, u32, lit_by, ({kRecordsPaths}), kPath, (0u), "light sampled there") \
   LANELIGHT_4(X, f32, direct, ({kRecordsPaths}), kPath, (0.0f), "luminance that it adds") \
-  X(f32, risk_0, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/training_records.cc)") \
-  X(f32, risk_1, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, linear part")         \
-  X(f32, risk_2, ({kRecordsPaths, kRecordsSinglePaths}), kPath, (0.0f), "second moments, constant part")       \
+  X(f32, risk_0, ({kRecordsSinglePaths}), kPath, (0.0f), "second moments that roulette would add (kernels/roulette/single_path_records.cc)") \
+  X(f32, risk_1, ({kRecordsSinglePaths}), kPath, (0.0f), "second moments, linear part")         \
+  X(f32, risk_2, ({kRecordsSinglePaths}), kPath, (0.0f), "second moments, constant part")       \
   /* training pass with splitting: what the path would be without (kernels/roulette/single_path_records.cc) */ \
   X(f32, copy_weight, ({kRecordsSinglePaths}), kPath, (1.0f), "product of 1/r of its decisions so far") \
   X(f32, decided_at, ({kRecordsSinglePaths}), kPath, (-1.0f), "brightness of the throughput before the last decision; negative after it survived") \

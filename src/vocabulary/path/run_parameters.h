@@ -22,7 +22,7 @@ inline constexpr int kRecordedVertices = 4;
   X(Radiance, 3, ({kSpectralFilm}), true, "weighted radiance at the long, middle and short wavelength of the path, before the film converts it to a colour") \
   X(Triple, 1, ({kSpectralFilm}), false, "index of the wavelength bins of the path") \
   X(Numbers, 4, ({kRegressionControl}), false, "random numbers of a path (dimensions.h): position in the pixel, first scattered direction, its light sample, choices of lobes") \
-  X(Record, 5 * kRecordedVertices + 5, ({kRecordsPaths}), false, "of each vertex: cell, throughput, radiance gathered, light sampled, radiance that it adds; then radiance at the end, depth, three risk sums") \
+  X(Record, 5 * kRecordedVertices + 1, ({kRecordsPaths}), false, "of each vertex: cell, throughput, radiance gathered, light sampled, radiance that it adds; then radiance at the end") \
   X(SinglePath, 2, ({kRecordsSinglePaths}), true, "brightness gathered; its square as if roulette on the throughput had replaced splitting") \
   X(Weight, 1, ({kReuse}), false, "weight of the sample; applied to its colour once its block has been connected")
 // clang-format on
@@ -82,17 +82,6 @@ struct SamplerParameters {
   bool by_tile = false;                  // pixels of a tile share their wavelengths
 };
 
-/// Antithetic pairs: bit d set = dimension d (src/vocabulary/path/dimensions.h) is shared
-/// by samples 2k and 2k+1 and reflected, at depths below `depths`.
-struct AntitheticParameters {
-  std::uint64_t dimensions = 0;
-  std::uint32_t depths = 0;
-
-  bool Has(Dimension d) const {
-    return (dimensions >> static_cast<std::uint32_t>(d) & 1) != 0;
-  }
-};
-
 /// Weight of a technique of density p against one of density q, with r = q / p:
 ///   1 / (1 + r (square r + linear)),
 /// power heuristic (1, 0), balance heuristic (0, 1). directions=light has (0, 0): light
@@ -127,7 +116,7 @@ struct RunParameters {
   FeatureSet features;
   SamplePlanes planes;  // of a finished sample
   SamplerParameters sampler;
-  AntitheticParameters pairs;
+  bool pairs = false;  // samples 2k and 2k+1 share their numbers (pairs=antithetic)
   MisParameters mis;
   RouletteParameters roulette;
   std::uint32_t candidates = 1;  // light samples of which one is kept

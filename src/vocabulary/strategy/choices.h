@@ -45,8 +45,6 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "variance sigma^2 / N", "Jarzynski and Olano 2020 (hash)")                            \
   X(T, K, Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
     "u = ((i mod a + xi) / a, (i div a + eta) / b)", "paper 3.5.3; Cook 1986")            \
-  X(T, K, Cmj, STAGE, ({}), "cmj", "", "correlated multi-jittered: strata in two dimensions and in each of them", \
-    "u0 = (i mod a + (s(i div a) + xi) / b) / a, u1 likewise", "Kensler 2013")            \
   X(T, K, Pmj02, STAGE, ({}), "pmj02", "", "progressive multi-jittered (0,2) sequence", \
     "one sample in every elementary interval of base 2", "Christensen, Kensler and Kilpatrick 2018") \
   X(T, K, Sobol, STAGE, ({}), "sobol", "", "Owen-scrambled Sobol' points, padded pairs (default)", \
@@ -58,7 +56,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 
 #define LANELIGHT_PAIRS(X, T, K)                                                                \
   X(T, K, None, PLAIN, ({}), "none", "", "no antithetic samples (default)", "1/N sum f(u)", "") \
-  X(T, K, Antithetic, STAGE, ({}), "antithetic", "[:all|:pixel|:light|:bsdf|:first-bounce]", \
+  X(T, K, Antithetic, STAGE, ({}), "antithetic", "", \
     "samples 2k and 2k+1 share their numbers, the second reflected",                      \
     "1/(2N) sum (f(u) + f(1 - u)); azimuths u + 1/2", "paper eq. 6; Hammersley and Morton 1956")
 
@@ -73,10 +71,8 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "f / (1 - q) or 0", "paper eq. 8; Arvo and Kirk 1990")                                \
   X(T, K, Throughput, STAGE, ({kRoulette}), "throughput", "[:FLOOR[:FIRST[:SCALE]]]", "survives with the largest component of the throughput (default)", \
     "f / s or 0, s = min(1, max(FLOOR = 0, SCALE max beta)), SCALE = 1, from the FIRST = 2nd event on", "Arvo and Kirk 1990") \
-  X(T, K, Adjoint, STAGE, ({kSplitting, kPathValues}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
-    "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016") \
-  X(T, K, Efficiency, STAGE, ({kSplitting, kPathValues}), "efficiency", "", "roulette and splitting factors that maximise efficiency; training passes", \
-    "n copies of weight 1/n, n = beta / I sqrt(V / C / (V_I / C_I))", "Rath et al. 2022")
+  X(T, K, Adjoint, STAGE, ({kSplitting}), "adjoint", "", "weight window around the expected contribution, by roulette and splitting; training pass", \
+    "n copies of weight 1/n outside the window [1/3, 5/3], n = beta Psi / I over its edge", "Vorba and Krivanek 2016")
 
 #define LANELIGHT_LIGHT_SELECTIONS(X, T, K)                                                     \
   X(T, K, Uniform, PLAIN, ({kLightTable}), "uniform", "", "every light with the same probability", "p = 1 / n", "") \
@@ -126,7 +122,7 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 
 #define LANELIGHT_REUSES(X, T, K)                                                               \
   X(T, K, None, PLAIN, ({}), "none", "", "no path reuse (default)", "f L / p", "") \
-  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact|:apart]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
+  X(T, K, Block, PLAIN, ({kReuse}), "block", "[:N[:random|:compact]]", "the second vertices of N = " LANELIGHT_TEXT(LANELIGHT_REUSED_PATHS) " paths of a tile are shared by all their first vertices", \
     "sum_j f_i(x_j) V L_j / sum_k p_k(x_j) V", "Bekaert, Sbert and Halton 2002")
 
 #define LANELIGHT_LIGHT_PATH_CHOICES(X, T, K)                                                   \
@@ -141,18 +137,9 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
 // clang-format on
 
 // The layouts of reuse=block: X(name, text, meaning)
-#define LANELIGHT_BLOCK_LAYOUTS(X)                                                     \
-  X(Random, "random", "at random from the tile, anew for each sample (default)")       \
-  X(Compact, "compact", "a rectangle at another position in the tile for each sample") \
-  X(Apart, "apart", "a rectangle of every second pixel")
-
-// Dimensions that an antithetic pair shares and reflects: X(name, text, meaning)
-#define LANELIGHT_PAIRED(X)                                  \
-  X(All, "all", "every number of the path (default)")        \
-  X(Pixel, "pixel", "position in the pixel and on the lens") \
-  X(Light, "light", "choice of light and point on it")       \
-  X(Bsdf, "bsdf", "scattered direction and lobe")            \
-  X(FirstBounce, "first-bounce", "light and direction at the first event")
+#define LANELIGHT_BLOCK_LAYOUTS(X)                                               \
+  X(Random, "random", "at random from the tile, anew for each sample (default)") \
+  X(Compact, "compact", "a rectangle at another position in the tile for each sample")
 
 // Every axis, as in a strategy's text: X(type, member of Strategy, key, choices).
 #define LANELIGHT_AXES(X)                                                           \
@@ -181,7 +168,6 @@ LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef X
 #define X(name, ...) k##name,
 enum class BlockLayout : std::uint8_t { LANELIGHT_BLOCK_LAYOUTS(X) };
-enum class Paired : std::uint8_t { LANELIGHT_PAIRED(X) };
 #undef X
 
 // Counts the choices of an axis.
@@ -198,7 +184,6 @@ LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 #undef X
 #define X(name, text, meaning) text,
-inline constexpr const char* kPairedNames[] = {LANELIGHT_PAIRED(X)};
 inline constexpr const char* kBlockLayoutNames[] = {LANELIGHT_BLOCK_LAYOUTS(X)};
 #undef X
 

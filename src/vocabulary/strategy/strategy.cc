@@ -54,7 +54,6 @@ std::string ToText(const Strategy& s) {
     text += fmt::format(":{}", kHeuristicNames[static_cast<int>(s.heuristic)]);
   }
   text += fmt::format(",points={},pairs={}", Name(s.sampler), Name(s.pairs));
-  if (s.pairs == Pairs::kAntithetic) text += fmt::format(":{}", Name(s.paired));
   text += fmt::format(",control={}", Name(s.control));
   if (s.control != Control::kNone) {
     text += s.coefficient ? fmt::format(",c={}", *s.coefficient) : ",c=optimal";
@@ -85,7 +84,6 @@ std::span<const PresetInfo> AllPresets() { return kPresets; }
   const char* Name(Type choice) { return k##Type##Names[static_cast<int>(choice)]; }
 LANELIGHT_AXES(LANELIGHT_NAME)
 LANELIGHT_NAME(BlockLayout)
-LANELIGHT_NAME(Paired)
 #undef LANELIGHT_NAME
 
 }  // namespace lanelight

@@ -29,7 +29,6 @@ struct Strategy {
   Heuristic heuristic = Heuristic::kPower;  // of kMis
   SampleSequence sampler = SampleSequence::kSobol;
   Pairs pairs = Pairs::kNone;
-  Paired paired = Paired::kAll;  // of kAntithetic
   Control control = Control::kNone;
   /// Coefficient c of f - c (h - E[h]); empty: estimated per pixel (`c=optimal`). The
   /// paper's equation 7 writes f + c (h - E[h]): its coefficient is minus this one.
@@ -69,9 +68,7 @@ struct Strategy {
   bool SamplesHittableLights() const {
     return directions == Directions::kLight || directions == Directions::kMis;
   }
-  bool Splits() const {
-    return roulette == Roulette::kAdjoint || roulette == Roulette::kEfficiency;
-  }
+  bool Splits() const { return roulette == Roulette::kAdjoint; }
   /// Returns whether pixels of a tile share paths or samples, or a trial run may decide
   /// so: tiles must be the same for any number of samples.
   bool MayShare() const {
@@ -123,6 +120,5 @@ std::span<const PresetInfo> AllPresets();
 LANELIGHT_AXES(LANELIGHT_AXIS)
 #undef LANELIGHT_AXIS
 const char* Name(BlockLayout choice);
-const char* Name(Paired choice);
 
 }  // namespace lanelight

@@ -155,12 +155,6 @@ class Parser {
     Choose("directions=mis", parts[1], kHeuristicNames, strategy_.heuristic);
   }
 
-  void SetArguments(Pairs pairs, const Parts& parts) {
-    strategy_.paired = Paired::kAll;
-    if (!Has(parts, pairs == Pairs::kNone ? 0 : 1)) return;
-    Choose("pairs=antithetic", parts[1], kPairedNames, strategy_.paired);
-  }
-
   void SetArguments(LightCandidates candidates, const Parts& parts) {
     strategy_.candidates = kDefaultLightCandidates;
     if (!Has(parts, candidates == LightCandidates::kSingle ? 0 : 1)) return;

@@ -1,10 +1,9 @@
-// pairs=antithetic on a hand-made wavefront: the numbers of odd samples are reflected, of
-// even ones untouched, and of the dimensions that are not paired as well.
+// pairs=antithetic on a hand-made wavefront: the numbers of odd samples are reflected,
+// and those of even ones untouched.
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "kernels/stages.h"
-#include "src/scene/prepare/parameters.h"
 #include "tests/support/each_target.h"
 #include "tests/support/wave_fixture.h"
 
@@ -17,24 +16,22 @@ constexpr float kUnit = 0x1p-24f;
 // The change of a number in an odd sample.
 enum class Change { kNone, kReflect, kRotate };
 
-// The columns, and what each choice of pairs does to them at a depth.
+// The columns, and what happens to them in odd samples.
 struct Column {
   float* PathColumns::* column;
-  Change change;          // if paired
-  const char* paired_by;  // letters of the choices below
+  Change change = Change::kReflect;
 };
-// a: all, p: pixel, l: light, b: bsdf, f: first-bounce (at depth 0)
-constexpr Column kColumns[] = {{&PathColumns::u_film_0, Change::kReflect, "ap"},
-                               {&PathColumns::u_film_1, Change::kReflect, "ap"},
-                               {&PathColumns::u_lens_0, Change::kReflect, "ap"},
-                               {&PathColumns::u_lens_1, Change::kReflect, "ap"},
-                               {&PathColumns::u_lobe, Change::kReflect, "abf"},
-                               {&PathColumns::u_bsdf_0, Change::kReflect, "abf"},
-                               {&PathColumns::u_bsdf_1, Change::kRotate, "abf"},
-                               {&PathColumns::u_select, Change::kReflect, "alf"},
-                               {&PathColumns::u_light_0, Change::kReflect, "alf"},
-                               {&PathColumns::u_light_1, Change::kReflect, "alf"},
-                               {&PathColumns::u_roulette, Change::kReflect, "a"}};
+constexpr Column kColumns[] = {{&PathColumns::u_film_0},
+                               {&PathColumns::u_film_1},
+                               {&PathColumns::u_lens_0},
+                               {&PathColumns::u_lens_1},
+                               {&PathColumns::u_lobe},
+                               {&PathColumns::u_bsdf_0},
+                               {&PathColumns::u_bsdf_1, Change::kRotate},
+                               {&PathColumns::u_select},
+                               {&PathColumns::u_light_0},
+                               {&PathColumns::u_light_1},
+                               {&PathColumns::u_roulette}};
 
 // On the grid of 24 bits: k goes to 2^24 - 1 - k, or half way round.
 float Expected(float u, Change change) {
@@ -59,7 +56,7 @@ struct PairedPaths {
     std::mt19937 engine(7);
     PathColumns& p = fixture.wave.path;
     for (std::uint32_t i = 0; i < kPaths; ++i) {
-      p.sample[i] = engine() % 64, p.depth[i] = engine() % 3;
+      p.sample[i] = engine() % 64;
     }
     for (const Column& c : kColumns) {
       float* column = p.*c.column;
@@ -71,10 +68,7 @@ struct PairedPaths {
     }
   }
   // Both stages, as the plan runs them, on every path but those of Left().
-  void Run(const std::string& choice) {
-    Strategy strategy;
-    ApplyStrategy("pairs=antithetic:" + choice, {}, strategy);
-    fixture.run.pairs = MakeAntitheticParameters(strategy);
+  void Run() {
     for (QueueId id : {QueueId::kCamera, QueueId::kSurface}) {
       Queue& queue = fixture.wave.queue(id);
       queue.size = 0;
@@ -90,25 +84,18 @@ struct PairedPaths {
 
 }  // namespace
 
-TEST_CASE("antithetic: odd samples are reflected in the paired dimensions only",
-          "[pairs]") {
-  const std::pair<const char*, char> choices[] = {
-      {"all", 'a'}, {"pixel", 'p'}, {"light", 'l'}, {"bsdf", 'b'}, {"first-bounce", 'f'}};
+TEST_CASE("antithetic: the numbers of odd samples are reflected", "[pairs]") {
   const EachTarget target;
-  for (const auto& [choice, letter] : choices) {
-    PairedPaths paths;
-    paths.Run(choice);
-    const PathColumns& p = paths.fixture.wave.path;
-    for (std::size_t c = 0; c < std::size(kColumns); ++c) {
-      const Column& column = kColumns[c];
-      const bool paired = std::string(column.paired_by).find(letter) != std::string::npos;
-      for (std::uint32_t i = 0; i < kPaths; ++i) {
-        CAPTURE(choice, c, i, p.sample[i], p.depth[i]);
-        const bool odd = p.sample[i] % 2 == 1 && !PairedPaths::Left(i);
-        const bool at_depth = letter != 'f' || p.depth[i] == 0;
-        const Change change = paired && odd && at_depth ? column.change : Change::kNone;
-        REQUIRE((p.*column.column)[i] == Expected(paths.before[c][i], change));
-      }
+  PairedPaths paths;
+  paths.Run();
+  const PathColumns& p = paths.fixture.wave.path;
+  for (std::size_t c = 0; c < std::size(kColumns); ++c) {
+    const Column& column = kColumns[c];
+    for (std::uint32_t i = 0; i < kPaths; ++i) {
+      CAPTURE(c, i, p.sample[i]);
+      const bool odd = p.sample[i] % 2 == 1 && !PairedPaths::Left(i);
+      const Change change = odd ? column.change : Change::kNone;
+      REQUIRE((p.*column.column)[i] == Expected(paths.before[c][i], change));
     }
   }
 }

@@ -241,7 +241,7 @@ TEST_CASE("without occlusion, M candidates have the variance of M light samples"
 
 TEST_CASE("resampled light does not depend on threads and wavefront", "[light]") {
   for (const std::string strategy :
-       {"light-candidates=resampled:3,light-selection=tree,roulette=efficiency",
+       {"light-candidates=resampled:3,light-selection=tree,roulette=adjoint",
         "light-candidates=resampled,pairs=antithetic"}) {
     CheckDeterminism(Unshadowed(), strategy, 8);
   }

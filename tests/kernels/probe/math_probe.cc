@@ -22,44 +22,37 @@ void RunFresnel(const FresnelBatch& batch) {
   }
 }
 
-// Applies warp `id`: in u, out the point, its density, and the inverse.
+// Applies warp `id`: in u, out the point and its density.
 void ApplyWarp(WarpId id, const WarpBatch& w) {
   const DF df;
   for (uint32_t i = 0; i < w.n; i += static_cast<uint32_t>(hn::Lanes(df))) {
     const VF u0 = hn::LoadU(df, w.u0 + i), u1 = hn::LoadU(df, w.u1 + i);
     V3 p = Splat3(0, 0, 0);
     VF pdf = u0;
-    V2 back = {u0, u1};
     switch (id) {
       case WarpId::kDisk: {
         const V2 q = SampleDisk(u0, u1);
         p = {q.x, q.y, hn::Zero(df)};
-        pdf = PdfDisk();
-        back = InvertDisk(q);
+        pdf = Splat(kInvPi);
         break;
       }
       case WarpId::kCosine:
         p = SampleCosineHemisphere(u0, u1);
         pdf = PdfCosineHemisphere(p.z);
-        back = InvertCosineHemisphere(p);
         break;
       case WarpId::kUniformHemisphere:
         p = SampleUniformHemisphere(u0, u1);
         pdf = PdfUniformHemisphere();
-        back = InvertUniformHemisphere(p);
         break;
       case WarpId::kInSphere:
         p = SampleInSphere(u0, u1);
         pdf = PdfInSphere(p.z);
-        back = InvertInSphere(p);
         break;
     }
     hn::StoreU(p.x, df, w.x + i);
     hn::StoreU(p.y, df, w.y + i);
     hn::StoreU(p.z, df, w.z + i);
     hn::StoreU(pdf, df, w.pdf + i);
-    hn::StoreU(back.x, df, w.back0 + i);
-    hn::StoreU(back.y, df, w.back1 + i);
   }
 }
 

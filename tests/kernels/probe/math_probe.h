@@ -25,11 +25,10 @@ enum class WarpId { kDisk, kCosine, kUniformHemisphere, kInSphere };
 inline constexpr WarpId kWarpIds[] = {WarpId::kDisk, WarpId::kCosine,
                                       WarpId::kUniformHemisphere, WarpId::kInSphere};
 
-/// (back0, back1) is the inverse.
 struct WarpBatch {
   std::uint32_t n = 0;
   const float *u0, *u1;
-  float *x, *y, *z, *pdf, *back0, *back1;
+  float *x, *y, *z, *pdf;
 };
 
 /// z of a point of the disk is 0.

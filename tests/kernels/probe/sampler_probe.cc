@@ -1,6 +1,5 @@
 #include "kernels/simd/each_target-inl.h"
 
-#include "kernels/samplers/cmj-inl.h"
 #include "kernels/samplers/fill-inl.h"
 #include "kernels/samplers/halton-inl.h"
 #include "kernels/samplers/independent-inl.h"
@@ -98,12 +97,7 @@ HWY_EXPORT(ProbeRoundRobin);
 HWY_EXPORT(ProbePermuted);
 
 void ProbeSampler(SimdTarget target, const SamplerQuery& query, float* u0, float* u1) {
-  ProbeSampler(target, query, MakeSamplerParameters(query.sampler), u0, u1);
-}
-
-void ProbeSampler(SimdTarget target, const SamplerQuery& query,
-                  const SamplerParameters& parameters, float* u0, float* u1) {
-  LANELIGHT_ON(target, Probe)(query, parameters, u0, u1);
+  LANELIGHT_ON(target, Probe)(query, MakeSamplerParameters(query.sampler), u0, u1);
 }
 
 void ProbeNumbers(SimdTarget target, const SamplerQuery& query, float* u) {

@@ -1,4 +1,4 @@
-// Computes sample points of each policy outside a render, for tests and bench_points.
+// Computes sample points of each policy outside a render, for tests.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,6 @@ struct SamplerQuery {
 /// Writes `count` points of each pixel: those of the first sample for all pixels, of the
 /// second, and so on. u0 and u1 need room for a full vector more.
 void ProbeSampler(SimdTarget target, const SamplerQuery& query, float* u0, float* u1);
-/// Takes parameters instead of making them with MakeSamplerParameters(query.sampler).
-void ProbeSampler(SimdTarget target, const SamplerQuery& query,
-                  const SamplerParameters& parameters, float* u0, float* u1);
 
 /// Writes the numbers of a scalar dimension.
 void ProbeNumbers(SimdTarget target, const SamplerQuery& query, float* u);

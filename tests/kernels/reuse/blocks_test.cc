@@ -16,8 +16,7 @@ BlockOrder OrderOf(const BlockKey& key, BlockLayout layout, std::uint32_t paths)
   return order;
 }
 
-constexpr BlockLayout kLayouts[] = {BlockLayout::kRandom, BlockLayout::kCompact,
-                                    BlockLayout::kApart};
+constexpr BlockLayout kLayouts[] = {BlockLayout::kRandom, BlockLayout::kCompact};
 
 struct Point {
   int x, y;
@@ -76,18 +75,13 @@ TEST_CASE("blocks differ between samples, seeds and tiles", "[reuse]") {
   }
 }
 
-TEST_CASE("blocks consist of neighbours or of every second pixel", "[reuse]") {
+TEST_CASE("compact blocks consist of neighbours", "[reuse]") {
   const PixelRect tile = {16, 32, 32, 48};
   const std::vector<Point> compact = FirstBlock(tile, BlockLayout::kCompact);
   REQUIRE(compact.size() == 16);
   std::set<int> columns, rows;
   for (const Point& p : compact) columns.insert(p.x), rows.insert(p.y);
   CHECK((columns.size() == 4 && rows.size() == 4));
-  const std::vector<Point> apart = FirstBlock(tile, BlockLayout::kApart);
-  REQUIRE(apart.size() == 16);
-  for (const Point& p : apart) {
-    CHECK((p.x % 2 == apart[0].x % 2 && p.y % 2 == apart[0].y % 2));
-  }
 }
 
 TEST_CASE("any two pixels of a tile share a random block equally often", "[reuse]") {

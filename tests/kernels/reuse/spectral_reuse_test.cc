@@ -63,7 +63,7 @@ TEST_CASE("spectral reuse: path reuse is unbiased", "[reuse][spectral]") {
   CheckSame(room, "points=sobol", "reuse=block:16");
   CheckSame(room, "points=independent", "reuse=block:64");
   CheckSame(room, "points=halton,pairs=antithetic", "reuse=block:4:compact");
-  CheckSame(room, "points=sobol,light-candidates=resampled", "reuse=block:32:apart");
+  CheckSame(room, "points=sobol,light-candidates=resampled", "reuse=block:32:compact");
 }
 
 TEST_CASE("spectral reuse: glossy second vertices", "[reuse][spectral]") {

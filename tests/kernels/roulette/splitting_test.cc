@@ -8,15 +8,12 @@
 namespace lanelight::test {
 namespace {
 
-constexpr const char* kSplitting[] = {"adjoint", "efficiency"};
-
 Rendered RenderSplitting(const SceneDescription& scene, const std::string& strategy,
                          std::uint64_t spp, std::uint64_t seed = 1) {
   TestRender t;
   t.spp = spp;
   t.seed = seed;
   t.strategy = strategy;
-  t.keep_roulette = true;
   Rendered r = RenderDescription(scene, t);
   CHECK(r.result.health.Total() == 0);
   return r;
@@ -76,19 +73,14 @@ double BranchingRoom(std::mt19937_64& engine, double weight, double albedo, int 
 }  // namespace
 
 TEST_CASE("splitting is unbiased in a room", "[roulette]") {
-  for (const char* roulette : kSplitting) {
-    CheckSameMean(SmallRoom(12, 5), std::string("roulette=") + roulette, 3072, 0.06);
-  }
+  CheckSameMean(SmallRoom(12, 5), "roulette=adjoint", 3072, 0.06);
 }
 
 TEST_CASE("splitting is unbiased on a glossy plate and with every number paired",
           "[roulette]") {
-  for (const char* roulette : kSplitting) {
-    const std::string strategy = std::string("roulette=") + roulette;
-    CheckSameMean(Plate(RoughMetal()), strategy, 2048, 0.05);
-    CheckSameMean(SmallRoom(8, 5), strategy + ",pairs=antithetic,points=sobol", 4096,
-                  0.08);
-  }
+  CheckSameMean(Plate(RoughMetal()), "roulette=adjoint", 2048, 0.05);
+  CheckSameMean(SmallRoom(8, 5), "roulette=adjoint,pairs=antithetic,points=sobol", 4096,
+                0.08);
 }
 
 TEST_CASE("splitting is unbiased on coats, with independent random walks", "[roulette]") {
@@ -115,25 +107,20 @@ TEST_CASE("split paths that keep their parent's weight are rejected", "[roulette
 }
 
 TEST_CASE("images with splitting do not depend on threads or wavefronts", "[roulette]") {
-  for (const char* roulette : kSplitting) {
-    for (bool keep : {true, false}) {
-      TestRender base;
-      base.spp = 160;
-      base.threads = 1;
-      base.wavefront = 1000;
-      base.auxiliary = Auxiliary::kAov;
-      base.keep_roulette = keep;
-      base.strategy = std::string("pairs=antithetic,roulette=") + roulette;
-      const Rendered reference = RenderDescription(SmallRoom(16, 6), base);
-      for (const auto& [threads, wavefront] :
-           {std::pair{2, 1000u}, {1, 2u}, {2, 64u}, {1, 0u}}) {
-        TestRender other = base;
-        other.threads = threads;
-        other.wavefront = wavefront;
-        INFO(roulette << ", " << threads << " threads, wavefront " << wavefront);
-        CHECK(IdenticalImages(RenderDescription(SmallRoom(16, 6), other), reference));
-      }
-    }
+  TestRender base;
+  base.spp = 160;
+  base.threads = 1;
+  base.wavefront = 1000;
+  base.auxiliary = Auxiliary::kAov;
+  base.strategy = "pairs=antithetic,roulette=adjoint";
+  const Rendered reference = RenderDescription(SmallRoom(16, 6), base);
+  for (const auto& [threads, wavefront] :
+       {std::pair{2, 1000u}, {1, 2u}, {2, 64u}, {1, 0u}}) {
+    TestRender other = base;
+    other.threads = threads;
+    other.wavefront = wavefront;
+    INFO(threads << " threads, wavefront " << wavefront);
+    CHECK(IdenticalImages(RenderDescription(SmallRoom(16, 6), other), reference));
   }
 }
 
@@ -141,16 +128,13 @@ TEST_CASE("splitting leaves the auxiliary planes alone", "[roulette]") {
   TestRender t;
   t.spp = 64;
   t.auxiliary = Auxiliary::kAov;
-  t.keep_roulette = true;
   t.strategy = "roulette=none";
   const Rendered plain = RenderDescription(SmallRoom(16, 4), t);
-  for (const char* roulette : kSplitting) {
-    t.strategy = std::string("roulette=") + roulette;
-    const Rendered split = RenderDescription(SmallRoom(16, 4), t);
-    for (int p = 0; p < kAovPlanes; ++p) {
-      for (int i = 0; i < 16 * 16; ++i) {
-        CHECK(split.film.Aov(i % 16, i / 16, p) == plain.film.Aov(i % 16, i / 16, p));
-      }
+  t.strategy = "roulette=adjoint";
+  const Rendered split = RenderDescription(SmallRoom(16, 4), t);
+  for (int p = 0; p < kAovPlanes; ++p) {
+    for (int i = 0; i < 16 * 16; ++i) {
+      CHECK(split.film.Aov(i % 16, i / 16, p) == plain.film.Aov(i % 16, i / 16, p));
     }
   }
 }
@@ -159,18 +143,16 @@ TEST_CASE("splitting without light, at little depth, with few samples", "[roulet
   SceneBuilder dark(8, 8);
   dark.Depth(4).Perspective({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40);
   dark.AddPlane({0, 0, 0}, {0, 0, 1}, dark.AddDiffuse(Grey(0.5)));
-  for (const char* roulette : kSplitting) {
-    const std::string strategy = std::string("roulette=") + roulette;
-    CHECK(ImageMean(RenderSplitting(dark.Build(), strategy, 16).film) == Rgb{});
-    CheckSameMean(SmallRoom(8, 2), strategy, 4096, 0.1);
-    for (std::uint64_t spp : {1, 2}) {
-      CHECK(ImageMean(RenderSplitting(SmallRoom(8, 3), strategy, spp).film).y > 0);
-    }
-    // One event: nothing to decide, nothing that splits.
-    const Rendered shallow = RenderSplitting(SmallRoom(8, 1), strategy, 16);
-    CHECK_FALSE(shallow.plan.features.Has(Feature::kSplitting));
-    CHECK(shallow.result.training.samples == 0);
+  const std::string strategy = "roulette=adjoint";
+  CHECK(ImageMean(RenderSplitting(dark.Build(), strategy, 16).film) == Rgb{});
+  CheckSameMean(SmallRoom(8, 2), strategy, 4096, 0.1);
+  for (std::uint64_t spp : {1, 2}) {
+    CHECK(ImageMean(RenderSplitting(SmallRoom(8, 3), strategy, spp).film).y > 0);
   }
+  // One event: nothing to decide, nothing that splits.
+  const Rendered shallow = RenderSplitting(SmallRoom(8, 1), strategy, 16);
+  CHECK_FALSE(shallow.plan.features.Has(Feature::kSplitting));
+  CHECK(shallow.result.training.samples == 0);
 }
 
 TEST_CASE("plans without splitting have no stages for it", "[roulette]") {

@@ -85,10 +85,9 @@ void CheckSurvivors(StageOn stage, const FeatureSet& features, float floor,
 }
 
 // A cache of one cell whose paths are all worth `value` in a pixel of brightness 1.
-void SetValues(Paths& paths, float value, float split) {
+void SetValues(Paths& paths, float value) {
   PathValues& v = paths.tables.path_values;
   v.survive.assign(v.grid.cells(), value);
-  v.split.assign(v.grid.cells(), split);
   v.inverse_pixel.assign(kPaths * 3, 1 / std::sqrt(3.0f));
 }
 
@@ -102,44 +101,42 @@ TEST_CASE("survivors' weights are bounded", "[roulette]") {
 }
 
 TEST_CASE("splitting divides branch indices, budgets and throughput", "[roulette]") {
-  for (bool adjoint : {true, false}) {
-    Paths paths(1);
-    SetValues(paths, 2, 2);
-    paths.fixture.QueueAll(QueueId::kSurface, kPaths);
-    paths.fixture.Run(adjoint ? AdjointRouletteStage : EfficiencyRouletteStage, {});
-    const PathColumns& p = paths.fixture.wave.path;
-    const Queue& alive = paths.queue(QueueId::kSurface);
-    CHECK(alive.size > kPaths / 4);
-    CHECK(paths.queue(QueueId::kDone).size > 0);
-    std::vector<std::uint32_t> budget(kPaths), copies(kPaths), names(kPaths);
-    std::vector<float> gathered(kPaths);
-    std::set<std::uint32_t> slots;
-    for (std::uint32_t i = 0; i < alive.size; ++i) {
-      const std::uint32_t slot = alive.items[i], of = p.pixel[slot];
-      CHECK(slots.insert(slot).second);
-      CHECK(p.output[slot] == of * kMaxSplitPaths + p.branch[slot]);
-      CHECK(p.branch[slot] + p.budget[slot] <= kMaxSplitPaths);
-      for (std::uint32_t k = 0; k < p.budget[slot]; ++k) {
-        const std::uint32_t name = 1u << (p.branch[slot] + k);
-        CHECK((names[of] & name) == 0);
-        names[of] |= name;
-      }
-      budget[of] += p.budget[slot];
-      gathered[of] += p.l_g[slot];
-      ++copies[of];
-      // Weight 1 / r: bounded, and the same for all copies.
-      CHECK(p.beta_g[slot] <= paths.before[of].y * 20.001f);
-      CHECK(p.beta_g[slot] == p.beta_g[of]);
+  Paths paths(1);
+  SetValues(paths, 2);
+  paths.fixture.QueueAll(QueueId::kSurface, kPaths);
+  paths.fixture.Run(AdjointRouletteStage, {});
+  const PathColumns& p = paths.fixture.wave.path;
+  const Queue& alive = paths.queue(QueueId::kSurface);
+  CHECK(alive.size > kPaths / 4);
+  CHECK(paths.queue(QueueId::kDone).size > 0);
+  std::vector<std::uint32_t> budget(kPaths), copies(kPaths), names(kPaths);
+  std::vector<float> gathered(kPaths);
+  std::set<std::uint32_t> slots;
+  for (std::uint32_t i = 0; i < alive.size; ++i) {
+    const std::uint32_t slot = alive.items[i], of = p.pixel[slot];
+    CHECK(slots.insert(slot).second);
+    CHECK(p.output[slot] == of * kMaxSplitPaths + p.branch[slot]);
+    CHECK(p.branch[slot] + p.budget[slot] <= kMaxSplitPaths);
+    for (std::uint32_t k = 0; k < p.budget[slot]; ++k) {
+      const std::uint32_t name = 1u << (p.branch[slot] + k);
+      CHECK((names[of] & name) == 0);
+      names[of] |= name;
     }
-    for (std::uint32_t i = 0; i < kPaths; ++i) {
-      if (copies[i] == 0) continue;
-      CHECK(budget[i] == kMaxSplitPaths);
-      CHECK(gathered[i] == 5);
-      // k = floor(r + u), r = before / after.
-      const double r = double(paths.before[i].y) / p.beta_g[i];
-      CHECK(copies[i] >= std::floor(r - 1e-4));
-      CHECK(copies[i] <= std::ceil(r + 1e-4));
-    }
+    budget[of] += p.budget[slot];
+    gathered[of] += p.l_g[slot];
+    ++copies[of];
+    // Weight 1 / r: bounded, and the same for all copies.
+    CHECK(p.beta_g[slot] <= paths.before[of].y * 20.001f);
+    CHECK(p.beta_g[slot] == p.beta_g[of]);
+  }
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    if (copies[i] == 0) continue;
+    CHECK(budget[i] == kMaxSplitPaths);
+    CHECK(gathered[i] == 5);
+    // k = floor(r + u), r = before / after.
+    const double r = double(paths.before[i].y) / p.beta_g[i];
+    CHECK(copies[i] >= std::floor(r - 1e-4));
+    CHECK(copies[i] <= std::ceil(r + 1e-4));
   }
 }
 
@@ -150,7 +147,7 @@ TEST_CASE("the mean number of split paths is r", "[roulette]") {
     constexpr int kRuns = 64;
     for (int run = 0; run < kRuns; ++run) {
       Paths paths(3);
-      SetValues(paths, 1, 1);
+      SetValues(paths, 1);
       PathColumns& p = paths.fixture.wave.path;
       paths.fixture.run.seed = static_cast<std::uint32_t>(run);
       for (std::uint32_t i = 0; i < kPaths; ++i) {
@@ -171,16 +168,16 @@ TEST_CASE("the mean number of split paths is r", "[roulette]") {
 TEST_CASE("camera hits always survive, and unknown cells use throughput roulette",
           "[roulette]") {
   Paths first(0);
-  SetValues(first, 0, 0);
+  SetValues(first, 0);
   first.fixture.QueueAll(QueueId::kSurface, kPaths);
   first.fixture.Run(AdjointRouletteStage, {});
   CHECK(first.queue(QueueId::kSurface).size == kPaths);
 
   for (std::uint32_t depth : {1u, 2u}) {
     Paths unknown(depth);
-    SetValues(unknown, -1, 0);
+    SetValues(unknown, -1);
     unknown.fixture.QueueAll(QueueId::kSurface, kPaths);
-    unknown.fixture.Run(EfficiencyRouletteStage, {});
+    unknown.fixture.Run(AdjointRouletteStage, {});
     const Queue& alive = unknown.queue(QueueId::kSurface);
     CHECK((alive.size < kPaths) == (depth == 2));
     for (std::uint32_t i = 0; i < alive.size; ++i) {

@@ -133,12 +133,6 @@ TEST_CASE("scrambled nets converge nearly like N^-3/2", "[points]") {
   }
 }
 
-TEST_CASE("correlated multi-jittered points: order of sums and products", "[points]") {
-  CHECK(Slope(SampleSequence::kCmj, kSum) == Approx(-1).margin(kMargin));
-  CHECK(Slope(SampleSequence::kCmj, kProduct) == Approx(-0.75).margin(2 * kMargin));
-  CHECK(Slope(SampleSequence::kCmj, kWaves) == Approx(-0.75).margin(2 * kMargin));
-}
-
 TEST_CASE("Halton points and lattices converge like N^-1", "[points]") {
   for (const Integrand& f : {kProduct, kWaves, kSum}) {
     CHECK(Slope(SampleSequence::kHalton, f) == Approx(-1).margin(2 * kMargin));

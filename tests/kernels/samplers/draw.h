@@ -9,9 +9,8 @@
 namespace lanelight::test {
 
 inline constexpr SampleSequence kAllSequences[] = {
-    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kCmj,
-    SampleSequence::kPmj02,       SampleSequence::kSobol,      SampleSequence::kHalton,
-    SampleSequence::kLattice};
+    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kPmj02,
+    SampleSequence::kSobol,       SampleSequence::kHalton,     SampleSequence::kLattice};
 
 struct Drawn {
   std::vector<float> u0, u1;

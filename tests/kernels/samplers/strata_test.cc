@@ -155,18 +155,6 @@ TEST_CASE("stratified: one of any aligned 2^m points per stratum", "[points]") {
   });
 }
 
-TEST_CASE("cmj: each block is a complete pattern", "[points]") {
-  ForReplicates(SampleSequence::kCmj, 2048, [&](const SamplerQuery& q) {
-    const Drawn all = Draw(q);
-    for (std::size_t n = 1; n <= 1024; n *= 2) {
-      const Drawn d = Prefix(all, n, n);
-      REQUIRE(EvenCells(d, FloorRoot(n), n / FloorRoot(n)));
-      REQUIRE(EvenIntervals(d.u0, n));
-      REQUIRE(EvenIntervals(d.u1, n));
-    }
-  });
-}
-
 TEST_CASE("pmj02: every prefix of 2^k points is a net", "[points]") {
   ForReplicates(SampleSequence::kPmj02, 1024, [&](const SamplerQuery& q) {
     const Drawn d = Draw(q);
@@ -259,11 +247,9 @@ TEST_CASE("the order of strata is random", "[points]") {
 
 TEST_CASE("planted: a repeated index and random strata are detected", "[points]") {
   const auto of_64 = [](SampleSequence sampler) {
-    const std::uint32_t first = sampler == SampleSequence::kCmj ? 64 : 0;
-    return SamplerQuery{sampler, 1, 5, 0, kReplicates * first, 64, 1, kReplicates};
+    return SamplerQuery{sampler, 1, 5, 0, 0, 64, 1, kReplicates};
   };
-  for (SampleSequence sampler :
-       {SampleSequence::kStratified, SampleSequence::kCmj, SampleSequence::kPmj02}) {
+  for (SampleSequence sampler : {SampleSequence::kStratified, SampleSequence::kPmj02}) {
     Drawn d = Draw(of_64(sampler));
     REQUIRE(EvenCells(d, 8, 8));
     d.u0[11] = d.u0[12];

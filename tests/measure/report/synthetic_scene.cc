@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kPoints[] = {"sobol",   "pmj02", "halton",
-                               "lattice", "cmj",   "stratified"};
+const char* const kPoints[] = {"sobol",   "pmj02",      "halton",
+                               "lattice", "stratified", "independent"};
 const char* const kRoulettes[] = {"throughput", "adjoint", "none", "constant:0.25"};
 
 // Long names as people give them, and complete texts that are longer.

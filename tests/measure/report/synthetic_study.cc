@@ -27,8 +27,8 @@ std::vector<Recipe> Recipes() {
   return {{"paper-plain", "directions=bsdf,points=independent", 0, 1.0, -0.5, 0.011, 0},
           {"paper-uniform", "directions=uniform", 2, 1.6, -0.5, 0.0105, 0},
           {"paper-importance", "directions=mis:power", 3, 0.62, -0.5, 0.016, 0},
-          {"paper-stratified", "points=cmj", 4, 0.9, -0.63, 0.0115, 0},
-          {"paper-antithetic", "pairs=antithetic:all", 5, 0.88, -0.51, 0.0113, 0.12},
+          {"paper-stratified", "points=stratified", 4, 0.9, -0.63, 0.0115, 0},
+          {"paper-antithetic", "pairs=antithetic", 5, 0.88, -0.51, 0.0113, 0.12},
           {kHostileName, "points=sobol,control=none", 0, 0.6, -0.57, 0.0166, 0}};
 }
 

@@ -159,7 +159,7 @@ TEST_CASE("images of a large study are shrunk for the report", "[study]") {
 
 TEST_CASE("file names are derived from strategy names", "[study]") {
   CHECK(Slug("paper-plain") == "paper-plain");
-  CHECK(Slug("points=sobol,pairs=antithetic:all") == "points-sobol-pairs-antithetic-all");
+  CHECK(Slug("points=sobol,reuse=block:8:random") == "points-sobol-reuse-block-8-random");
   CHECK(Slug("../../etc") == "etc");
   CHECK(Slug("=") == "strategy");
   CHECK(Slug(std::string(200, 'x')).size() <= 60);

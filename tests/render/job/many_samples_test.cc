@@ -1,5 +1,5 @@
 // Renders with very many samples per pixel: all are taken and count, and memory does not
-// grow with them. Time per sample is for bench_samples.
+// grow with them.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>

@@ -164,7 +164,6 @@ class Checker {
     const Geometry& g = scene_.compiled->geometry;
     v.grid = MakeCellGrid(g.bounds_min, g.bounds_max, 10000);
     v.survive.assign(v.grid.cells(), 1.5f);
-    v.split.assign(v.grid.cells(), 1.5f);
     v.inverse_pixel.assign(std::size_t{run_.width} * run_.height * 3, 0.7f);
     if (!plan_.features.Has(Feature::kLearnedLights)) return;
     LearnedLights& lights = tables_.lights;
@@ -298,14 +297,12 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kAllStagesScene, "points=independent"},
       {kAllStagesScene, "points=sobol,light-selection=tree,light-points=solid-angle"},
       {kAllStagesScene, "points=halton,directions=uniform,pairs=antithetic"},
-      {kAllStagesScene, "points=cmj"},
       {kAllStagesScene, "points=pmj02,roulette=none"},
       {kAllStagesScene, "points=lattice,control=regression,roulette=constant"},
       {kAllStagesScene, "points=sobol,light-points=projected"},
       {kAllStagesScene, "points=stratified,directions=light"},
       {kAllStagesScene, "light-candidates=resampled"},
       {kAllStagesScene, "roulette=adjoint"},
-      {kAllStagesScene, "roulette=efficiency"},
       {kAllStagesScene, "points=sobol,reuse=block"},
       {kAllStagesScene, "points=sobol", true},
       {kAllStagesScene, "roulette=adjoint", true},

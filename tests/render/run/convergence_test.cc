@@ -95,7 +95,6 @@ TEST_CASE("wavefront: orders of convergence of the other samplers", "[convergenc
   for (const Convergence& c : {AreaLight(), Environment()}) {
     INFO(c.directions);
     CHECK(Slope(c, SampleSequence::kPmj02) <= -0.90);
-    CHECK(Slope(c, SampleSequence::kCmj) <= -0.70);
     CHECK(Slope(c, SampleSequence::kHalton) <= -0.70);
     CHECK(Slope(c, SampleSequence::kLattice) <= -0.70);
   }

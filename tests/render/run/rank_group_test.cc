@@ -65,7 +65,7 @@ TEST_CASE("ranks reach a target at the same sample count as a single process",
 
 TEST_CASE("checkpoints can be resumed by any number of ranks", "[ranks]") {
   for (const char* strategy :
-       {"points=independent,pairs=antithetic", "points=sobol,roulette=efficiency"}) {
+       {"points=independent,pairs=antithetic", "points=sobol,roulette=adjoint"}) {
     Request request;
     request.strategy = strategy;
     request.spp = 400;
@@ -127,7 +127,7 @@ TEST_CASE("trained tables of ranks arrive bit-identical", "[ranks]") {
   const double tiny = std::numeric_limits<double>::denorm_min();
   const RunTraining training = {
       true,
-      "roulette=efficiency",
+      "roulette=adjoint",
       {{"one", "meaning", {0.1, -0.0, tiny, INFINITY}}, {"none", "", {}}}};
   const RunTraining there = RunTrainingFromBytes(ToBytes(training));
   CHECK(there.trained);

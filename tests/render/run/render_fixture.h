@@ -25,7 +25,6 @@ struct TestRender {
   std::string strategy;  // on top of the scene's and `sampler`
   std::string chosen;    // on top of that, as a trial run changes the plan alone
   Auxiliary auxiliary = Auxiliary::kNone;
-  bool keep_roulette = false;         // RunOptions
   std::uint64_t planned_samples = 0;  // RunOptions
   CompileOptions compile;
 };
@@ -61,7 +60,6 @@ inline Rendered RenderDescription(const SceneDescription& description,
   RunOptions options;
   options.spp = t.spp;
   options.seed = t.seed;
-  options.keep_roulette = t.keep_roulette;
   options.planned_samples = t.planned_samples;
   out.result = Run(scene, plan, options, out.film);
   return out;

@@ -24,7 +24,6 @@ Rendered Render(const Request& request) {
   RunOptions options;
   options.spp = request.spp;
   options.seed = request.seed;
-  options.keep_roulette = request.keep_roulette;
   options.checkpointer = request.checkpointer;
   options.stop = request.stop;
   if (request.target > 0) {

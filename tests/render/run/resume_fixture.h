@@ -61,7 +61,6 @@ struct Request {
   Checkpointer* checkpointer = nullptr;
   const std::atomic<bool>* stop = nullptr;
   RankGroup* group = nullptr;  // of which this is a rank
-  bool keep_roulette = true;
 };
 
 /// A small scene: several tiles, whatever their size, and a few that are cut off.

@@ -86,28 +86,25 @@ TEST_CASE("planted: losing any part of the checkpoint changes the image", "[resu
 }
 
 TEST_CASE("a state whose tables do not fit the image is refused", "[resume]") {
-  for (const char* strategy : {"roulette=adjoint", "roulette=efficiency"}) {
-    Request request;
-    request.strategy = strategy;
-    request.spp = 21;
-    const Rest rest = HalfOf(request);
-    CHECK(ErrorOf(request, rest) == "");
-    int per_pixel = 0;
-    for (std::size_t i = 0; i < rest.tables.size(); ++i) {
-      if (rest.tables[i].values.empty()) continue;
-      INFO(strategy << ", " << rest.tables[i].name);
-      Rest damaged = rest;
-      damaged.tables[i].values.clear();
-      CHECK_THAT(ErrorOf(request, damaged), Contains("table"));
-      if (rest.tables[i].values.size() != kPerPixel) continue;
-      ++per_pixel;
-      damaged.tables[i].values.resize(kPerPixel - 3);
-      CHECK_THAT(
-          ErrorOf(request, damaged),
-          Contains("'" + rest.tables[i].name + "' has 7767 values; expected 7770:"));
-    }
-    CHECK(per_pixel == 1);
+  Request request;
+  request.strategy = "roulette=adjoint";
+  request.spp = 21;
+  const Rest rest = HalfOf(request);
+  CHECK(ErrorOf(request, rest) == "");
+  int per_pixel = 0;
+  for (std::size_t i = 0; i < rest.tables.size(); ++i) {
+    if (rest.tables[i].values.empty()) continue;
+    INFO(rest.tables[i].name);
+    Rest damaged = rest;
+    damaged.tables[i].values.clear();
+    CHECK_THAT(ErrorOf(request, damaged), Contains("table"));
+    if (rest.tables[i].values.size() != kPerPixel) continue;
+    ++per_pixel;
+    damaged.tables[i].values.resize(kPerPixel - 3);
+    CHECK_THAT(ErrorOf(request, damaged),
+               Contains("'" + rest.tables[i].name + "' has 7767 values; expected 7770:"));
   }
+  CHECK(per_pixel == 1);
 }
 
 }  // namespace lanelight::resume

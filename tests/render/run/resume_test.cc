@@ -11,15 +11,13 @@ const char* const kStrategies[] = {
     "points=independent",
     "points=sobol",
     "points=independent,pairs=antithetic",
-    "points=cmj,pairs=antithetic",
     "points=independent,control=regression",
     "points=stratified,control=regression,pairs=antithetic",
     "points=sobol,control=regression",
     "points=independent,control=regression,pairs=antithetic",
     "points=halton,roulette=adjoint",
-    "points=sobol,roulette=efficiency",
     "points=sobol,decide=pilot",
-    "points=cmj,pairs=antithetic",
+    "points=pmj02,pairs=antithetic",
     "points=sobol,reuse=block:16",
     "points=independent,pairs=antithetic,reuse=block:32:compact",
     "points=sobol,light-paths=splats:3",
@@ -58,7 +56,7 @@ TEST_CASE("a resumed render is bit-identical, also with a higher sample count",
 
 TEST_CASE("a resumed render may lower its error target", "[resume]") {
   for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
-                               "points=cmj,control=regression"}) {
+                               "points=pmj02,control=regression"}) {
     for (double finest : {0.0004, 0.002}) {
       INFO(strategy << ", " << finest);
       Request request;
@@ -84,21 +82,6 @@ TEST_CASE("a resumed render may lower its error target", "[resume]") {
       CHECK(Same(Render(request).result, whole.result));
     }
   }
-}
-
-TEST_CASE("the roulette chosen by training passes is kept on resume", "[resume]") {
-  Request request;
-  request.strategy = "points=sobol,roulette=efficiency";
-  request.keep_roulette = false;
-  request.spp = 12;
-  const Rendered whole = Render(request);
-  int pauses = 0;
-  Rest rest;
-  const Rendered parts = RenderInParts(request, {}, rest, pauses, 9);
-  CHECK(pauses > 0);
-  CHECK(Identical(parts.film, whole.film));
-  CHECK(Same(parts.result, whole.result));
-  CHECK(whole.result.training.samples > 0);
 }
 
 TEST_CASE("a resumed render keeps its decision", "[resume]") {

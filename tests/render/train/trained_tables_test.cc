@@ -22,14 +22,12 @@ StrategyTables SmallTables() {
   StrategyTables tables;
   PathValues& p = tables.path_values;
   p.grid.size[1] = 2;
-  p.scale = 0.75f;
   float next = 0.125f;
   const auto fill = [&next](AlignedVector<float>& values, std::size_t size) {
     values.resize(size);
     for (float& v : values) v = next += 0.5f;
   };
   fill(p.survive, p.grid.cells());
-  fill(p.split, p.grid.cells());
   fill(p.inverse_pixel, 3 * kPixels);
   return tables;
 }
@@ -139,9 +137,7 @@ TEST_CASE("trained tables round-trip bit-identically", "[state]") {
   StrategyTables back;
   ImportTraining(ExportTraining(tables), kPixels, back);
   CHECK(back.path_values.grid.size[1] == 2);
-  CHECK(back.path_values.scale == 0.75f);
   CHECK(back.path_values.survive == tables.path_values.survive);
-  CHECK(back.path_values.split == tables.path_values.split);
   CHECK(back.path_values.inverse_pixel == tables.path_values.inverse_pixel);
   // Nothing has been learned.
   CHECK(ErrorOf(ExportTraining(StrategyTables()), kPixels) == "");
@@ -149,7 +145,7 @@ TEST_CASE("trained tables round-trip bit-identically", "[state]") {
 
 TEST_CASE("a trained table of the wrong size is refused with both sizes", "[state]") {
   const std::vector<TrainedTable> good = ExportTraining(SmallTables());
-  REQUIRE(good.size() == 4);
+  REQUIRE(good.size() == 3);
   using Values = std::vector<double>;
   const std::function<void(Values&)> faults[] = {
       [](Values& v) { v.pop_back(); }, [](Values& v) { v.push_back(1); },
@@ -173,7 +169,7 @@ TEST_CASE("a trained table of the wrong size is refused with both sizes", "[stat
 
 TEST_CASE("an empty per-pixel table next to cells is refused", "[state]") {
   std::vector<TrainedTable> bad = ExportTraining(SmallTables());
-  bad[3].values.clear();
+  bad[2].values.clear();
   CHECK_THAT(ErrorOf(bad, kPixels),
              Contains("'path_values_inverse' has 0 values; expected 18: 3 for each of "
                       "the 6 pixels of the full image"));

@@ -145,12 +145,11 @@ TEST_CASE("only the roulette is compared for milder roulettes", "[decision]") {
   };
   CHECK(milder_roulette("", "roulette=throughput:0:2:4"));
   CHECK(milder_roulette("", "roulette=throughput:0.2"));
-  CHECK(milder_roulette("", "roulette=none"));
   CHECK_FALSE(milder_roulette("", "roulette=throughput:0:1"));
   CHECK_FALSE(milder_roulette("", "roulette=throughput:0:2:0.5"));
   CHECK_FALSE(milder_roulette("", "roulette=constant"));
   CHECK_FALSE(milder_roulette("", "roulette=adjoint"));
-  CHECK_FALSE(milder_roulette("", "roulette=none,directions=bsdf"));
+  CHECK_FALSE(milder_roulette("", "roulette=throughput:0:2:4,directions=bsdf"));
   CHECK_FALSE(milder_roulette("roulette=none", "roulette=throughput:0:2:4"));
 }
 

@@ -60,9 +60,9 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
     for (const char* strategy :
          {"points=sobol", "points=independent,light-selection=tree", "points=pmj02",
           "points=halton,directions=light,pairs=antithetic",
-          "points=cmj,control=regression",
+          "points=pmj02,control=regression",
           "points=lattice,roulette=none,control=regression", "points=stratified",
-          "roulette=efficiency"}) {
+          "roulette=adjoint"}) {
       INFO(strategy);
       TaskFixture task(scene, strategy, Auxiliary::kGbuffer);
       Plant(task.plan);

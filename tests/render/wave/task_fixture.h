@@ -88,7 +88,6 @@ class TaskFixture {
   void MakeTrainedTables() {
     TrainingOptions options;
     options.planned_samples = 100000;
-    options.keep_roulette = true;
     Train({scene_, plan, run_.seed, options, tables_});
   }
 

@@ -40,7 +40,7 @@ TEST_CASE("sequence lengths match the samplers' limits", "[points]") {
     CHECK(MakeSamplerParameters(sampler).group_shift == LogSequence(sampler));
     // Sample counts begin anew after whole turns.
     CHECK(kSamplesPerSeed % (std::uint64_t{kReplicates} << LogSequence(sampler)) == 0);
-    CHECK(LogSequence(sampler) < 24);  // PermuteOctaves, CmjSequence
+    CHECK(LogSequence(sampler) < 24);  // PermuteOctaves
   }
   CHECK(LogSequence(SampleSequence::kIndependent) == 0);
   CHECK(1u << LogSequence(SampleSequence::kPmj02) == kPmj02SequenceLength);
@@ -70,14 +70,13 @@ TEST_CASE("independent samples or pairs are observations, others by replicate",
 
 TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(SampleSequence::kIndependent, 7) == "independent");
-  CHECK(TextOf(SampleSequence::kIndependent, 7, true) ==
-        "independent, antithetic pairs (all)");
+  CHECK(TextOf(SampleSequence::kIndependent, 7, true) == "independent, antithetic pairs");
   CHECK(TextOf(SampleSequence::kStratified, 64) ==
         "stratified, 4 randomisations of 16 points");
   CHECK(TextOf(SampleSequence::kSobol, 8) == "sobol, 4 randomisations of 2 points");
   CHECK(TextOf(SampleSequence::kSobol, 0) == "sobol, 4 randomisations");
-  CHECK(TextOf(SampleSequence::kCmj, 7) ==
-        "cmj, not stratified (needs 8 samples per pixel), so the same as independent");
+  CHECK(TextOf(SampleSequence::kPmj02, 7) ==
+        "pmj02, not stratified (needs 8 samples per pixel), so the same as independent");
   CHECK(TextOf(SampleSequence::kSobol, 100) ==
         "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
   CHECK(TextOf(SampleSequence::kSobol, 9) ==
@@ -91,9 +90,9 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
   CHECK(TextOf(SampleSequence::kPmj02, 8193)
             .starts_with("pmj02, 12 randomisations of up to"));
   CHECK(TextOf(SampleSequence::kStratified, 128, true) ==
-        "stratified, 4 randomisations of 16 pairs, antithetic pairs (all)");
+        "stratified, 4 randomisations of 16 pairs, antithetic pairs");
   CHECK(TextOf(SampleSequence::kHalton, 15, true) ==
-        "halton, 4 randomisations of 2 pairs, antithetic pairs (all)");
+        "halton, 4 randomisations of 2 pairs, antithetic pairs");
   CHECK(TextOf(SampleSequence::kHalton, 14, true).find("needs 16 samples") !=
         std::string::npos);
 }

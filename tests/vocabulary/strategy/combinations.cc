@@ -17,11 +17,8 @@ namespace {
 const std::map<std::string, std::vector<std::string>>& Variants() {
   static const std::map<std::string, std::vector<std::string>> kVariants = {
       {"mis", {"mis:power", "mis:balance"}},
-      {"antithetic",
-       {"antithetic:all", "antithetic:pixel", "antithetic:light", "antithetic:bsdf",
-        "antithetic:first-bounce"}},
       {"regression", {"regression,c=1"}},
-      {"block", {"block:8", "block:64:compact", "block:16:apart"}},
+      {"block", {"block:8", "block:64:compact"}},
       {"splats", {"splats:2"}},
       {"constant", {"constant:0.2"}},
       {"throughput", {"throughput:0.1:1", "throughput:0:2:4"}}};

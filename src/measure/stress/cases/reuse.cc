@@ -12,7 +12,7 @@
 namespace lanelight::stress {
 namespace {
 
-const char* const kLayouts[] = {"block:64", "block:16:compact", "block:32:apart"};
+const char* const kLayouts[] = {"block:64", "block:16:compact"};
 
 constexpr int kSeeds = 32;
 

@@ -25,11 +25,6 @@ std::vector<std::string> Strategies() {
 // anything.
 constexpr double kMinExpectedHits = 40;
 
-// Its pilot, which has the default roulette, saw too little for a rule of its own.
-bool HitNoLight(const std::string& strategy, const RunResult& result) {
-  return HasTraining(strategy) && result.roulette == Roulette::kThroughput;
-}
-
 Point Measure(const StrategyScene& scene, const std::string& strategy,
               const Effort& effort) {
   const std::string omission_reason = scene.omission_reason(strategy);
@@ -47,9 +42,6 @@ Point Measure(const StrategyScene& scene, const std::string& strategy,
   }
   try {
     const JobRun rendered = RenderText(setup);
-    if (HitNoLight(strategy, rendered.result)) {
-      return NotMeasured(strategy, rendered.result.training.note);
-    }
     Point point = MeanOf(rendered);
     point.series = strategy;
     point.expected = scene.expected;
@@ -72,9 +64,7 @@ bool FindsLightsByChance(const std::string& strategy) {
   return strategy == "directions=uniform" || strategy == "directions=bsdf";
 }
 
-bool HasTraining(const std::string& strategy) {
-  return strategy == "roulette=adjoint" || strategy == "roulette=efficiency";
-}
+bool HasTraining(const std::string& strategy) { return strategy == "roulette=adjoint"; }
 
 std::vector<Point> MeasureAll(const StrategyScene& scene, const Effort& effort) {
   std::vector<Point> points;
