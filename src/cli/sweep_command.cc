@@ -10,13 +10,16 @@
 #include "src/cli/interrupt.h"
 #include "src/cli/options.h"
 #include "src/cli/progress.h"
+#include "src/measure/sweep/budget.h"
 #include "src/measure/sweep/runner.h"
+#include "src/render/job/setting.h"
 
 namespace lanelight {
 namespace {
 
 struct SweepCommandOptions {
-  std::string file, part;
+  std::string file, part, budget;
+  RenderSettings settings;  // its trees
   SweepOptions sweep;
   bool dry_run = false, quiet = false;
   int pilots = 24;
@@ -88,8 +91,19 @@ WorkStep StepOf(const SweepProgress& p) {
           ProgressPrinter::Describe({p.render, {}, {}}, kDescribeAll)};
 }
 
+// Gives the cells their times, and tells the user.
+void UseBudget(const SweepCommandOptions& options, Sweep& sweep) {
+  RenderSettings settings;
+  SettingNamed("time").read(settings, options.budget);
+  const double seconds = *settings.seconds;
+  const BudgetPlan plan =
+      PlanBudget(sweep, seconds, options.sweep.part, options.sweep.out);
+  if (!options.quiet) Print(BudgetText(plan, seconds) + "\n");
+}
+
 int RunSweepCommand(SweepCommandOptions& options) {
-  const Sweep sweep = ReadSweep(options.file);
+  Sweep sweep = ReadSweep(options.file);
+  if (!options.budget.empty()) UseBudget(options, sweep);
   if (options.dry_run) return PrintPlannedCells(sweep, options);
   WorkProgress progress(ChooseProgressStyle(options.quiet), "sweep: ");
   const InterruptGuard interrupt(
@@ -115,6 +129,9 @@ void AddSharingOptions(CLI::App& command, SweepCommandOptions& options) {
   command.add_flag(
       "--wait", options.sweep.wait,
       "Wait for cells of other processes, and render them if those processes die");
+  AddOption(command, "--budget TIME", options.budget,
+            "Give all cells the same time, so that one process takes TIME (7200, 2h); "
+            "default: the amounts of the grid");
   command.add_flag("--race", options.sweep.race,
                    "Render seed by seed; stop strategies that are clearly less efficient "
                    "than the best, "

@@ -73,6 +73,47 @@ TEST_CASE("sweep: a race stops a strategy that is clearly worse", "[sweep][cli]"
   CHECK(DoneCells(out).size() == 18);
 }
 
+TEST_CASE("sweep: a budget is a time for each cell", "[sweep][cli]") {
+  const TempDirectory directory;
+  const std::string scene = WriteSphereScene(directory);
+  const auto grid = [&](const std::string& more) {
+    return WriteText(directory / "budget.toml",
+                     "[grid]\nscene = \"sphere.pbrt\"\nresolution = \"32x24\"\n"
+                     "seed = [1, 2, 3, 4]\n" +
+                         more);
+  };
+  const std::string out = directory / "out";
+  const ProcessResult run = Sweep(grid(""), out, {"--budget", "1.2"});
+  INFO(run.out << run.err);
+  REQUIRE(run.exit_code == kExitGood);
+  CHECK_THAT(run.out,
+             Contains("budget 1.2 s: 4 cells of") && Contains("4 of 4 cells are done"));
+  const Json plan = ReadJson(out + "/budget.json");
+  CHECK(plan["cells"] == 4);
+  const double planned =
+      4 * plan["cell_seconds"].get<double>() + plan["load_seconds"].get<double>();
+  CHECK(planned == Approx(1.2 * 0.985));
+  double rendered = 0;
+  for (const std::string& cell : DoneCells(out)) {
+    const Json report = ReadJson(out + "/cells/" + cell + "/report.json");
+    CHECK(report["stop_reason"] == "time");
+    rendered += report["seconds"]["render"].get<double>();
+  }
+  CHECK(rendered > 0.9 * 4 * plan["cell_seconds"].get<double>());
+  // The plan stays; another one is refused.
+  CHECK_THAT(Sweep(grid(""), out, {"--budget", "1.2"}).out, Contains("0 of them by"));
+  CHECK_THAT(Sweep(grid(""), out, {"--budget", "1"}).err, Contains("use another --out"));
+  // A larger one keeps the finished cells, and their time.
+  const ProcessResult larger = Sweep(grid(""), out, {"--budget", "2.5"});
+  CHECK_THAT(larger.out, Contains("0 of them by") && Contains("are left: add seeds"));
+  CHECK(ReadJson(out + "/budget.json")["cell_seconds"] == plan["cell_seconds"]);
+  CHECK(ReadJson(out + "/budget.json")["budget_seconds"] == 2.5);
+  CHECK_THAT(Sweep(grid("spp = 4\n"), directory / "b", {"--budget", "2"}).err,
+             Contains("remove spp from the grid"));
+  CHECK_THAT(Sweep(grid(""), directory / "c", {"--budget", "0.1"}).err,
+             Contains("too short"));
+}
+
 TEST_CASE("sweep: the table", "[sweep][cli]") {
   const TempDirectory directory;
   const std::string file = WriteSweep(directory), out = directory / "out";
