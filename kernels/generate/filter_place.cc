@@ -31,14 +31,15 @@ void StoreFilterPlace(Wave& wave) {
 }
 
 Stage FilterPlaceStage() {
-  return {.name = "filter_place",
-          .meaning = "keeps where samples lie in the pixel filter",
-          .input = QueueId::kCamera,
-          .role = StageRole::kSampling,
-          .needs = {Feature::kSharedPixelSamples},
-          .reads = {Field::pixel, Field::sample, Field::u_film_0, Field::u_film_1},
-          .resolve = ByFeature<Feature::kFiltered, StoreFilterPlace<false>,
-                               StoreFilterPlace<true>>};
+  return {
+      .name = "filter_place",
+      .meaning = "keeps where samples lie in the pixel filter",
+      .input = QueueId::kCamera,
+      .role = StageRole::kSampling,
+      .needs = {Feature::kSharedPixelSamples},
+      .reads = {Field::pixel, Field::sample, Field::u_film_0, Field::u_film_1},
+      .resolve =
+          ByFeature<Feature::kFiltered, StoreFilterPlace<false>, StoreFilterPlace<true>>};
 }
 
 LANELIGHT_END_KERNELS

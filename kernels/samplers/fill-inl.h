@@ -87,21 +87,19 @@ LANELIGHT_INLINE void FillCameraBatches(Wave& wave) {
   const PathColumns p = wave.path;
   const RunParameters run = *wave.run;
   const bool by_tile = run.features.Has(Feature::kSharedPixelSamples);
-  ForEachBatch(wave, wave.queue(QueueId::kCamera),
-               [&](const StoreSlots& slots, MF) HWY_ATTR {
-                 const Drawer drawer = MakeDrawer<kPlain>(p, slots);
-                 Drawer film = drawer;
-                 if (by_tile) film.pixel = SplatU(wave.work.tile_pixel);
-                 Draw<Policy, kPlain, false>(run, film, Dimension::kFilm, p.u_film_0,
-                                             p.u_film_1);
-                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
-                                             p.u_lens_1);
-                 Draw<Policy, kPlain, true>(run, drawer, Dimension::kTime, p.time);
-                 Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium,
-                                             p.u_medium_0, p.u_medium_1);
-                 if (p.wavelength != nullptr)
-                   FillWavelength<Policy, kPlain>(run, drawer, p);
-               });
+  ForEachBatch(
+      wave, wave.queue(QueueId::kCamera), [&](const StoreSlots& slots, MF) HWY_ATTR {
+        const Drawer drawer = MakeDrawer<kPlain>(p, slots);
+        Drawer film = drawer;
+        if (by_tile) film.pixel = SplatU(wave.work.tile_pixel);
+        Draw<Policy, kPlain, false>(run, film, Dimension::kFilm, p.u_film_0, p.u_film_1);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kLens, p.u_lens_0,
+                                    p.u_lens_1);
+        Draw<Policy, kPlain, true>(run, drawer, Dimension::kTime, p.time);
+        Draw<Policy, kPlain, false>(run, drawer, Dimension::kCameraMedium, p.u_medium_0,
+                                    p.u_medium_1);
+        if (p.wavelength != nullptr) FillWavelength<Policy, kPlain>(run, drawer, p);
+      });
 }
 
 template <class Policy, bool kPlain>

@@ -78,9 +78,8 @@ void MakeFilms(const StateFile& file, MergedRender& merged) {
     merged.film->UseSplats(merged.head.at("splat_unit"));
   }
   const Json& reach = merged.head.at("filter_reach");
-  merged.film->set_dependents(
-      DependentsOf(strategy, {reach.at("splats"), reach.at("shared"),
-                              reach.at("shared_variance")}));
+  merged.film->set_dependents(DependentsOf(
+      strategy, {reach.at("splats"), reach.at("shared"), reach.at("shared_variance")}));
   merged.films = std::make_unique<Films>(SamplePlanes(features),
                                          strategy.coefficient.value_or(1), *merged.film);
   merged.film->set_chance_of_light(merged.head.value("chance_of_light", 1.0));

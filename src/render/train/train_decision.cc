@@ -51,9 +51,9 @@ constexpr std::uint64_t kMinComparedSamples = 256;
 constexpr double kStandardErrors = 0.5;
 
 // Samples of a tile lie at the same places in their pixels, so what few of them miss of a
-// gradient is an error of all pixels. With 32 samples per pixel that is 1 to 14 percent of
-// the error after a filter of 8 x 8 pixels (cornell-box, blinds, coffee), with 128 at most
-// 3.
+// gradient is an error of all pixels. With 32 samples per pixel that is 1 to 14 percent
+// of the error after a filter of 8 x 8 pixels (cornell-box, blinds, coffee), with 128 at
+// most 3.
 constexpr std::uint64_t kMinSharedSpp = 64;
 
 // Logarithms of gains have no limit where a trial sees no noise.
@@ -188,9 +188,9 @@ class Decider {
     const TrainingOutcome out =
         trial_.TrainStrategy(chosen, training_.planned_samples, tables_);
     outcome_.changes = changes;
-    outcome_.note =
-        fmt::format("rendered with {}; {}{}{}",
-                    rendered.empty() ? "the strategy as given" : rendered, note_, out.note.empty() ? "" : "; ", out.note);
+    outcome_.note = fmt::format("rendered with {}; {}{}{}",
+                                rendered.empty() ? "the strategy as given" : rendered,
+                                note_, out.note.empty() ? "" : "; ", out.note);
   }
 
   const PreparedScene& scene_;

@@ -164,7 +164,11 @@ std::vector<double> SampleSharing::Axis::Covariances() const {
 }
 
 FilterReach SampleSharing::Reach() const {
+  // What all samples of a tile miss of an edge or a gradient, since they lie at the same
+  // places, is common too: with 64 samples the sum is up to 1.8 times as large (blinds;
+  // 0.8 to 1 in cornell-box, 1.4 in coffee).
   FilterReach reach;
+  reach.shared = x_.reach + y_.reach > 0 ? 2 : 1;
   for (const Axis* axis : {&x_, &y_}) {
     const std::vector<double> covariances = axis->Covariances();
     double sum = 1;

@@ -68,7 +68,8 @@ class SampleSharing {
     /// Writes the weights of pixels of which [low, high], relative to that of the sample,
     /// are in the tile: out[k * step] is that of pixel k - reach.
     void WeightsAt(float place, int low, int high, std::size_t step, float* out) const;
-    /// Returns the covariances of pixels 0, 1, ... 2 reach apart, of samples of variance 1.
+    /// Returns the covariances of pixels 0, 1, ... 2 reach apart, of samples of
+    /// variance 1.
     std::vector<double> Covariances() const;
 
     std::array<float, CompiledFilter::kSize> mass{};  // signed

@@ -117,8 +117,8 @@ void AddTo(const TilePlanes& planes, std::size_t at,
            const std::array<double, kColorPlanes>& light) {
   for (std::size_t c = 0; c < kColorPlanes; ++c) {
     float& value = planes.values[c * planes.stride + at];
-    value = float(
-        std::clamp(double(value) + light[c], -double(kLargest), double(kLargest)));
+    value =
+        float(std::clamp(double(value) + light[c], -double(kLargest), double(kLargest)));
   }
 }
 
@@ -185,8 +185,9 @@ void VisibleLightEdges::FindIn(const PixelRect& rect, VisibleLightRays& rays,
   std::vector<std::uint32_t>& pixels = rays.pixels;
   TilePixels(all, scene_.view->film.width, &pixels);
   const std::size_t rows = pixels.size() * kFindRays;
-  rays.Trace({pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, pixels.front(), true},
-             clock, rays.others);
+  rays.Trace(
+      {pixels.data(), pixels.size(), kFindSeed, 0, kFindRays, pixels.front(), true},
+      clock, rays.others);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     ranges.Add(pixels[p], rays.others.data() + p * kFindRays, rows, kFindRays);
   }
@@ -228,8 +229,7 @@ bool VisibleLightEdges::RemoveOwn(const VisibleLightTask& task, VisibleLightRays
                clock, rays.own);
     for (std::size_t c = 0; c < kColorPlanes; ++c) {
       for (std::size_t p = 0; p < places.count; ++p) {
-        const float* const own =
-            rays.own.data() + (c * places.count + p) * planes.count;
+        const float* const own = rays.own.data() + (c * places.count + p) * planes.count;
         float* const values =
             planes.values + c * planes.stride + std::size_t{places.at[p]} * planes.count;
         for (std::size_t i = 0; i < planes.count; ++i) {
@@ -272,7 +272,8 @@ void VisibleLightEdges::AddStream(const Stream& stream, const Places& places,
       samples_.ForEach(i, [&](std::uint64_t s) {
         const auto ray = std::size_t(s - stream.first);
         const auto light = found.At(p * stream.count + ray);
-        for (std::size_t c = 0; c < kColorPlanes; ++c) mean[c] += double(light[c]) * share;
+        for (std::size_t c = 0; c < kColorPlanes; ++c)
+          mean[c] += double(light[c]) * share;
         if (sharing == nullptr) return;
         const float* const place = rays.filter_places.data() + ray;
         sharing->Add(planes, {places.at[p], at}, place[0], place[stream.count], mean);

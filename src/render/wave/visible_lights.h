@@ -40,7 +40,7 @@ class VisibleLightRays {
     std::uint64_t first = 0;
     std::uint32_t count = 0;
     std::uint32_t tile_pixel = 0;  // TileWork::tile_pixel
-    bool finds_edges = false;  // by PhaseId::kFindEdges, if the plan has it
+    bool finds_edges = false;      // by PhaseId::kFindEdges, if the plan has it
   };
 
   /// `plan` has PhaseId::kVisibleLights. Refers to all of these.

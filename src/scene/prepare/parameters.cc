@@ -16,7 +16,7 @@ namespace {
 // radius of 0.5 to 1.5.
 constexpr double kPixelsOfLightPath = 3;
 // Of a Gaussian of radius 1.5 and sigma 0.5, where the filter is not known.
-constexpr FilterReach kUsualReach = {1, 1.6, 1. / 3};
+constexpr FilterReach kUsualReach = {1, 3.2, 1. / 3};
 
 // Errors of two pixels have no more in common than the share of samples in which they are
 // in one block: (N - 1) / 255 of a tile's pixels by chance. Rectangles hold the same

@@ -7,8 +7,8 @@
 namespace lanelight::test {
 
 /// Returns the mean over all pixels of the sum of the squared correlations of a pixel
-/// with all of them; renders[i][p]: pixel p of render i. Over renders, the variance of the
-/// mean of squared z-scores of n normal pixels is 2 / n times that.
+/// with all of them; renders[i][p]: pixel p of render i. Over renders, the variance of
+/// the mean of squared z-scores of n normal pixels is 2 / n times that.
 inline double SquaredCorrelations(const std::vector<std::vector<double>>& renders) {
   const double n = double(renders.size()), pixels = double(renders[0].size());
   std::vector<double> squares(renders.size());
