@@ -1,6 +1,5 @@
 # lanelight_kernel_groups(TARGET FILES ALONE...): adds kernel files to a target, those of a
-# folder some at a time in one file, except those to be compiled alone. Folders of one file
-# count as one folder. Highway's headers,
+# folder some at a time in one file, except those to be compiled alone. Highway's headers,
 # which every kernel file includes once per SIMD target, are most of what a small kernel
 # costs to compile. CMake's own unity builds cannot do that: what includes itself for each
 # target has to be the whole group. Names in the namespace of a target must differ within a
@@ -29,16 +28,6 @@ function(lanelight_kernel_groups target files)
     list(APPEND of_${folder} ${file})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  foreach(folder ${folders})
-    list(LENGTH of_${folder} count)
-    if(count EQUAL 1)
-      list(APPEND of_single ${of_${folder}})
-      list(REMOVE_ITEM folders ${folder})
-    endif()
-  endforeach()
-  if(of_single)
-    list(APPEND folders single)
-  endif()
   foreach(folder ${folders})
     list(LENGTH of_${folder} count)
     math(EXPR parts "(${count} + ${group_size} - 1) / ${group_size}")
