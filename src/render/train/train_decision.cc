@@ -54,7 +54,8 @@ constexpr double kStandardErrors = 0.5;
 // gradient is an error of all pixels. With 32 samples per pixel that is 1 to 14 percent
 // of the error after a filter of 8 x 8 pixels (cornell-box, blinds, coffee), with 128 at
 // most 3.
-constexpr std::uint64_t kMinSharedSpp = 64;
+// Planned samples count (DecidedBy), so that a render may go on.
+constexpr std::uint64_t kMinSharedSpp = 16;
 
 // Logarithms of gains have no limit where a trial sees no noise.
 double LimitedGain(double log) { return std::exp(std::clamp(log, -7.0, 7.0)); }
