@@ -1,5 +1,5 @@
-// What an interruption leaves behind: an image that exists is replaced by one of the same
-// render with more samples, or not at all.
+// An interrupted render replaces an image only by one of the same render with more
+// samples.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>

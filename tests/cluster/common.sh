@@ -4,7 +4,7 @@ export LC_ALL=C
 lanelight=$(readlink -f "$1")
 root=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
 scripts=$root/docs/cluster scene=$root/scenes/cornell-box.pbrt
-folder=$(mktemp -d /tmp/lanelight-cluster-XXXXXX)
+folder=$(mktemp -d -t lanelight-cluster-XXXXXX)
 failed=0
 export PATH=$folder/bin:$PATH:/usr/sbin
 mkdir "$folder/bin"

@@ -15,7 +15,7 @@ namespace {
 // The least sum of light subpaths: it is 1.0 to 1.4 in five scenes, whose filters have a
 // radius of 0.5 to 1.5.
 constexpr double kPixelsOfLightPath = 3;
-// Of a Gaussian of radius 1.5 and sigma 0.5, where the filter is not known.
+// These are of a Gaussian of radius 1.5 and sigma 0.5, where the filter is not known.
 constexpr FilterReach kUsualReach = {1, 3.2, 1. / 3};
 
 // Errors of two pixels have no more in common than the share of samples in which they are

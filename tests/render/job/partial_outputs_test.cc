@@ -64,7 +64,7 @@ TEST_CASE("a PNG or a report without its image is not replaced", "[render]") {
   CHECK(FreePartialNumber(targets, image, 0) == 0);
   targets.json = WriteText(directory / "x.json", "{}");
   CHECK(FreePartialNumber(targets, image, 0) == 1);
-  // Those of the image that is replaced are replaced with it.
+  // PNG and report of an image that is replaced are replaced with it.
   Write(targets.exr, ImageOf("1", 2));
   CHECK(FreePartialNumber(targets, image, 0) == 0);
 }
