@@ -114,8 +114,8 @@ TEST_CASE("bench lists stored results, alone and beside a measured one", "[cli]"
 
 TEST_CASE("bench refuses a time that is too short for its work", "[cli]") {
   const TempDirectory directory;
-  const ProcessResult r =
-      Bench(directory, {"--time", "0.01", "--json", directory / "b.json"});
+  const ProcessResult r = Bench(directory, {"--time", "0.01", "--resolution", "512x512",
+                                            "--json", directory / "b.json"});
   CHECK(r.exit_code == kExitUsage);
   CHECK_THAT(r.err,
              Contains("6 renders of each row take about ") && Contains("; use --time "));
