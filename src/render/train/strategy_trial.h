@@ -117,7 +117,8 @@ struct TriedOnTiles {
   /// square of each.
   double LogJointGain() const;
   /// Sets `has_gain_per_pixel` if the gain by pixels is more than `must_gain` and clear,
-  /// also without any one tile; and `is_efficient` if nothing is lost by squares either.
+  /// also without any one tile; and `is_efficient` if nothing is clearly lost by squares
+  /// either.
   void Judge(double must_gain);
 };
 

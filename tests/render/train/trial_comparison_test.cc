@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "src/render/train/path_records.h"
 #include "src/render/train/strategy_trial.h"
@@ -20,7 +22,46 @@ TrialMeasure MeasureOf(double cost, double variance, unsigned seed = 1) {
   return m;
 }
 
+TrialGain GainOfFactor(double factor, double standard_error) {
+  return {std::log(factor), standard_error, std::log(factor)};
+}
+
+// A change on tiles that gains so much by pixels and after a filter.
+TriedOnTiles Judged(const char* changes, double per_pixel, double filtered,
+                    double standard_error) {
+  TriedOnTiles tried;
+  tried.candidate = {changes, 1};
+  tried.per_pixel = GainOfFactor(per_pixel, 0.05);
+  tried.filtered = GainOfFactor(filtered, standard_error);
+  tried.Judge(1);
+  return tried;
+}
+
 }  // namespace
+
+TEST_CASE("a loss after a filter counts if it is clear", "[decision]") {
+  CHECK(Judged("reuse=block", 4.7, 0.92, 0.14).is_efficient);
+  CHECK_FALSE(Judged("reuse=block", 4.7, 0.92, 0.02).is_efficient);
+  CHECK_FALSE(Judged("reuse=block", 4.7, 0.67, 0.14).is_efficient);
+  CHECK(Judged("reuse=block", 4.7, 0.96, 0).is_efficient);
+  // Without a clear gain by pixels there is nothing to lose for.
+  CHECK_FALSE(Judged("reuse=block", 1.02, 1.5, 0.1).is_efficient);
+}
+
+TEST_CASE("of path reuse, smaller blocks are used if they are slightly better",
+          "[decision]") {
+  const auto best = [](std::vector<TriedOnTiles> tried) {
+    const TriedOnTiles* const found = BestOf(tried);
+    return std::string(found == nullptr ? "" : found->candidate.changes);
+  };
+  const TriedOnTiles large = Judged("reuse=block", 4.7, 0.9, 0.2);
+  CHECK(best({large, Judged("reuse=block:32", 4.6, 1.25, 0.2)}) == "reuse=block:32");
+  CHECK(best({large, Judged("reuse=block:32", 4.6, 1, 0.2)}) == "reuse=block");
+  // Another kind must be clearly better.
+  CHECK(best({large, Judged("light-paths=splats", 4.6, 1.25, 0.2)}) == "reuse=block");
+  CHECK(best({large, Judged("light-paths=splats", 6, 2, 0.2)}) == "light-paths=splats");
+  CHECK(best({Judged("reuse=block", 1, 1, 0.2)}).empty());
+}
 
 TEST_CASE("one strategy is clearly better only by variance times cost", "[decision]") {
   const TrialMeasure baseline = MeasureOf(3, 1);
