@@ -14,6 +14,18 @@ struct Interface {
   VF bend;   // eta cos_t - c: how far the normal pulls the refracted direction
 };
 
+/// Returns c^2 + add, rounded about once: the sum may be much smaller than either.
+LANELIGHT_INLINE VF SquarePlus(VF c, VF add) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(c, c, add);
+#else
+  // The square of the upper 12 bits is exact (Dekker 1971).
+  const VF high = hn::And(c, hn::BitCast(DF(), hn::Set(DU(), 0xfffff000u)));
+  const VF low = hn::Sub(c, high);
+  return hn::Add(hn::Add(hn::Mul(high, high), add), hn::Mul(low, hn::Add(high, c)));
+#endif
+}
+
 /// Interface with relative index eta (transmitted over incident, > 0), c in [0, 1].
 /// With g = eta cos_t = sqrt(eta^2 - 1 + c^2) the perpendicular amplitude is
 /// (g - c) / (g + c) = (eta^2 - 1) / (g + c)^2, and the parallel one is that times
@@ -22,7 +34,7 @@ struct Interface {
 LANELIGHT_INLINE Interface DielectricInterface(VF c, VF eta) {
   const VF one = Splat(1.0f), zero = hn::Zero(DF());
   const VF contrast = hn::Mul(hn::Sub(eta, one), hn::Add(eta, one));
-  const VF g2 = hn::MulAdd(c, c, contrast);
+  const VF g2 = SquarePlus(c, contrast);
   const MF total = hn::Lt(g2, zero);
   const VF g = hn::Sqrt(hn::Max(g2, zero));
   const VF sum = hn::Max(hn::Add(g, c), Splat(1e-18f));
