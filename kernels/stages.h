@@ -17,10 +17,8 @@ namespace lanelight {
   X(Generate)                                  \
   X(IndependentCamera)                         \
   X(StratifiedCamera)                          \
-  X(Pmj02Camera)                               \
   X(SobolCamera)                               \
   X(HaltonCamera)                              \
-  X(LatticeCamera)                             \
   X(AntitheticCamera)                          \
   X(FirstFilm)                                 \
   X(FilterPlace)                               \
@@ -74,10 +72,8 @@ namespace lanelight {
   X(SinglePathAfter)                           \
   X(IndependentBounce)                         \
   X(StratifiedBounce)                          \
-  X(Pmj02Bounce)                               \
   X(SobolBounce)                               \
   X(HaltonBounce)                              \
-  X(LatticeBounce)                             \
   X(AntitheticBounce)                          \
   X(FirstBounce)                               \
   X(SecondVertices)                            \

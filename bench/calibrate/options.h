@@ -19,7 +19,7 @@ inline constexpr double kMaxOwnError = 0.1;
 struct CalibrateOptions {
   std::vector<std::string> scenes;  // empty: all that there are
   std::vector<std::string> strategies = {
-      "points=independent", "points=sobol", "points=pmj02",
+      "points=independent", "points=sobol", "points=halton",
       "pairs=antithetic,points=independent", "roulette=adjoint"};
   std::vector<std::string> resolutions = {"48x48", "96x96"};
   std::vector<std::uint64_t> spp = {16, 64, 256, 1024};

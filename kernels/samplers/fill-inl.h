@@ -2,12 +2,12 @@
 //
 // A policy is a struct with
 //   static GroupIndex Group(const SamplerParameters&, VU sample)   (group-inl.h)
-//   static void Point(const SamplerParameters&, const PointKey&, VF* u0, VF* u1)
+//   static void Point(const PointKey&, VF* u0, VF* u1)
 // giving a point in [0,1)^2 for a dimension key (src/vocabulary/path/dimensions.h). The
 // two coordinates of one key are stratified against each other where the policy
 // stratifies; different keys are independent of each other. A scalar dimension takes u0;
 // a policy whose u0 alone is less well stratified than one dimension can be has also
-//   static VF Number(const SamplerParameters&, const PointKey&)
+//   static VF Number(const PointKey&)
 #ifndef LANELIGHT_SAMPLERS_FILL_INL_H_
 #define LANELIGHT_SAMPLERS_FILL_INL_H_
 
@@ -18,9 +18,7 @@
 LANELIGHT_BEGIN_KERNELS
 
 template <class Policy>
-concept HasNumber = requires(const SamplerParameters& points, PointKey of) {
-  Policy::Number(points, of);
-};
+concept HasNumber = requires(PointKey of) { Policy::Number(of); };
 
 /// One batch of paths that draw numbers.
 struct Drawer {
@@ -60,9 +58,9 @@ LANELIGHT_INLINE void Draw(const RunParameters& run, const Drawer& drawer,
   const PointKey of = {drawer.pixel, at, key, SplatU(run.seed)};
   VF u0, u1;
   if constexpr (kScalar && HasNumber<Policy>) {
-    u0 = Policy::Number(run.sampler, of);
+    u0 = Policy::Number(of);
   } else {
-    Policy::Point(run.sampler, of, &u0, &u1);
+    Policy::Point(of, &u0, &u1);
   }
   Scatter(u0, out0, drawer.slots);
   if constexpr (!kScalar) Scatter(u1, out1, drawer.slots);

@@ -58,8 +58,7 @@ LANELIGHT_INLINE VU ScrambledInverse3(VU i, VU key) {
 }
 
 struct HaltonSequence : RoundRobinPoints {
-  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
-                                     VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointKey& of, VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU i = PermuteOctaves(at.index, h.x);

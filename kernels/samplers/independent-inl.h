@@ -13,8 +13,7 @@ struct IndependentSequence {
   static LANELIGHT_INLINE GroupIndex Group(const SamplerParameters&, VU sample) {
     return {sample, hn::Zero(DU())};
   }
-  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
-                                     VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointKey& of, VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 r = Pcg4d({pixel, at.group, key, seed});
     *u0 = ToUnit(r.x);

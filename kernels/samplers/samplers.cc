@@ -4,8 +4,6 @@
 #include "kernels/samplers/fill-inl.h"
 #include "kernels/samplers/halton-inl.h"
 #include "kernels/samplers/independent-inl.h"
-#include "kernels/samplers/lattice-inl.h"
-#include "kernels/samplers/pmj02-inl.h"
 #include "kernels/samplers/sobol-inl.h"
 #include "kernels/samplers/stratified-inl.h"
 
@@ -58,15 +56,6 @@ Stage StratifiedBounceStage() {
                                                 Feature::kStratifiedSampleSequence);
 }
 
-Stage Pmj02CameraStage() {
-  return SamplerCameraStage<Pmj02Sequence>("points_camera_pmj02",
-                                           Feature::kPmj02SampleSequence);
-}
-Stage Pmj02BounceStage() {
-  return SamplerBounceStage<Pmj02Sequence>("points_bounce_pmj02",
-                                           Feature::kPmj02SampleSequence);
-}
-
 Stage SobolCameraStage() {
   return SamplerCameraStage<SobolSequence>("points_camera_sobol",
                                            Feature::kSobolSampleSequence);
@@ -83,15 +72,6 @@ Stage HaltonCameraStage() {
 Stage HaltonBounceStage() {
   return SamplerBounceStage<HaltonSequence>("points_bounce_halton",
                                             Feature::kHaltonSampleSequence);
-}
-
-Stage LatticeCameraStage() {
-  return SamplerCameraStage<LatticeSequence>("points_camera_lattice",
-                                             Feature::kLatticeSampleSequence);
-}
-Stage LatticeBounceStage() {
-  return SamplerBounceStage<LatticeSequence>("points_bounce_lattice",
-                                             Feature::kLatticeSampleSequence);
 }
 
 LANELIGHT_END_KERNELS

@@ -38,8 +38,7 @@ LANELIGHT_INLINE VU ReversedSobol1(VU i) {
 }
 
 struct SobolSequence : RoundRobinPoints {
-  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
-                                     VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointKey& of, VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU shuffled = ReverseBits32(LaineKarras(ReverseBits32(at.index), h.x));

@@ -36,8 +36,7 @@ struct StratifiedSequence : RoundRobinPoints {
     return ReverseBits32(LaineKarras(shuffled, h.y));
   }
 
-  static LANELIGHT_INLINE void Point(const SamplerParameters&, const PointKey& of, VF* u0,
-                                     VF* u1) {
+  static LANELIGHT_INLINE void Point(const PointKey& of, VF* u0, VF* u1) {
     const auto& [pixel, at, key, seed] = of;
     const U4 h = Pcg4d({pixel, at.group, key, seed});
     const VU along = Along(at, h);
@@ -51,7 +50,7 @@ struct StratifiedSequence : RoundRobinPoints {
     *u1 = ToUnit(y);
   }
 
-  static LANELIGHT_INLINE VF Number(const SamplerParameters&, const PointKey& of) {
+  static LANELIGHT_INLINE VF Number(const PointKey& of) {
     const auto& [pixel, at, key, seed] = of;
     return ToUnit(Along(at, Pcg4d({pixel, at.group, key, seed})));
   }

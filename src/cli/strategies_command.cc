@@ -66,7 +66,7 @@ void AddStrategiesCommand(CLI::App& root, Command& chosen) {
   command->footer(
       "\nExamples:\n"
       "  lanelight render scene.pbrt -o out.exr --strategy "
-      "points=pmj02,roulette=none\n"
+      "points=halton,roulette=none\n"
       "  lanelight render scene.pbrt -o out.exr --strategy paper-roulette,points=sobol");
   command->callback([json, &chosen] {
     chosen = [json] {

@@ -158,7 +158,7 @@ void AddStudyCommand(CLI::App& root, Command& chosen) {
       "Ctrl-C reports what is finished; --resume continues from there.\n"
       "\nExamples:\n"
       "  lanelight study box.pbrt --out box --resolution 200x200\n"
-      "  lanelight study a.pbrt b.pbrt --out ab --strategies 'default;points=pmj02'\n"
+      "  lanelight study a.pbrt b.pbrt --out ab --strategies 'default;points=halton'\n"
       "  lanelight study a.pbrt --out a --all --budget 2 --reference a1.exr");
   command->callback(
       [options, &chosen] { chosen = [options] { return RunStudyCommand(*options); }; });

@@ -302,7 +302,7 @@ TEST_CASE("strategies agree on moving objects", "[agreement][motion]") {
   for (const char* strategy :
        {"roulette=adjoint", "light-candidates=resampled", "directions=uniform",
         "pairs=antithetic", "control=regression", "light-selection=tree",
-        "seen-lights=paths", "points=halton", "points=lattice"}) {
+        "seen-lights=paths", "points=halton", "points=stratified"}) {
     stat::CheckSame(stat::CompareMeans(RenderWavefront(scene, 4096, strategy), plain,
                                        {4, 1e-6, 1e-3, 1e-7}),
                     strategy);

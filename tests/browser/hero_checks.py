@@ -114,9 +114,9 @@ def many_curves_fade_and_filter(page):
     leading = pressed()
     require(4 <= len(leading) <= 8, "curves in colour:", leading)
     first = page.ink(plot(page, "spp"))
-    pick(page, '[data-control="filter"]', "pmj02")
+    pick(page, '[data-control="filter"]', "halton")
     found = [scene(page, CROWD)["strategies"][int(i)]["name"] for i in pressed()]
-    require(len(found) == 4 and all("pmj02" in name for name in found), found)
+    require(len(found) == 6 and all("halton" in name for name in found), found)
     require(page.ink(plot(page, "spp"))["hash"] != first["hash"], "the plot is as before")
     pick(page, '[data-control="filter"]', "")
     require(pressed() == leading, "not as before", pressed())

@@ -126,7 +126,7 @@ def minutes_of_use_leave_no_memory(page):
     program = live_program.THE_ONE[0]
 
     def use():
-        for name in ("paper-plain", "default", "points=halton", "points=pmj02"):
+        for name in ("paper-plain", "default", "points=halton", "points=stratified"):
             page.js("page.cards[0].choose(arguments[0])", name)
             for i in range(5):
                 page.js("page.onEye({...page.eye, fov: 40 + arguments[0]})", i)

@@ -47,7 +47,7 @@ def choices_of_an_axis_are_rows(page):
     show(page, "efficiency")
     page.show("#plots")
     text = page.find('[data-plot="panel-0"]').text
-    for name in ("default", "sobol", "independent", "lattice"):
+    for name in ("default", "sobol", "independent", "halton"):
         require(name in text, name, "is not in", text)
     require("[" in text, "no intervals:", text)
     page.reset()

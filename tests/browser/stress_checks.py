@@ -15,7 +15,7 @@ def choose(page, name):
     page.settle()
 
 
-SERIES = ("points=pmj02", "points=sobol", "roulette=none")
+SERIES = ("points=halton", "points=sobol", "roulette=none")
 
 
 def points(page, name, target="AVX3", series=None, drawn_only=False):

@@ -51,7 +51,7 @@ def require_lines(drawn, lines, what):
 
 
 SPP = [{"spp": n} for n in ("1", "4", "16", "64")]
-STRATEGIES = [{"strategy": s} for s in ("default", "points=pmj02")]
+STRATEGIES = [{"strategy": s} for s in ("default", "points=halton")]
 THREADS = [{"threads": n} for n in ("1", "2", "4")]
 
 
@@ -101,8 +101,8 @@ def any_two_axes_can_be_chosen(page):
     show(page, "samples_per_second")
     choose(page, "along", "threads")
     choose(page, "lines", "spp")
-    choose(page, "strategy", "points=pmj02")
-    fixed = {"scene": "box", "strategy": "points=pmj02"}
+    choose(page, "strategy", "points=halton")
+    fixed = {"scene": "box", "strategy": "points=halton"}
     lines = expected(page, THREADS, SPP, fixed,
                      lambda cells: float(cells[0]["measured"]["used_threads"]),
                      lambda cells: mean(cells, "samples_per_second"))

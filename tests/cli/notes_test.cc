@@ -104,7 +104,7 @@ TEST_CASE("a study and a sweep report deviations from the scene file", "[cli]") 
   TempDirectory directory;
   const std::string scene = MotionScene(directory), out = directory / "study";
   const ProcessResult study =
-      RunLanelight({"study", scene, "--out", out, "--strategies", "default;points=pmj02",
+      RunLanelight({"study", scene, "--out", out, "--strategies", "default;points=halton",
                     "--spp", "1", "--repetitions", "2", "--skip-unsupported"});
   INFO(study.out << study.err);
   CHECK(study.exit_code == kExitGood);
@@ -140,7 +140,7 @@ TEST_CASE("a study keeps the notes of compiling", "[cli]") {
   const std::string out = directory / "study";
   const ProcessResult r =
       RunLanelight({"study", BrokenMeshes(directory), "--out", out, "--strategies",
-                    "default;points=pmj02", "--spp", "1", "--repetitions", "2"});
+                    "default;points=halton", "--spp", "1", "--repetitions", "2"});
   INFO(r.err);
   REQUIRE(r.exit_code == kExitGood);
   std::ifstream in(out + "/study.json");

@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 std::vector<std::string> StudyOf(const std::string& scene, const std::string& out) {
   return {"study",         scene,
           "--out",         out,
-          "--strategies",  "paper-plain; default ;;points=pmj02",
+          "--strategies",  "paper-plain; default ;;points=halton",
           "--spp",         "1,4,16",
           "--repetitions", "4",
           "--resolution",  "48x36",

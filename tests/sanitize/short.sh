@@ -47,8 +47,8 @@ done
 
 # Every kind of sample points, choice of directions, control variate, roulette.
 for strategy in points=stratified,pairs=antithetic,directions=light \
-  points=pmj02,light-selection=uniform \
-  points=halton,roulette=constant points=lattice,roulette=none \
+  points=independent,light-selection=uniform \
+  points=halton,roulette=constant \
   directions=bsdf,roulette=none directions=uniform,light-selection=power \
   control=regression,c=optimal; do
   render cornell-box.pbrt --resolution 81x61 --spp 16 --strategy "$strategy"
@@ -105,7 +105,7 @@ expect 0 plan glass.pbrt
 expect 0 profile cornell-box.pbrt --resolution 40x30 --spp 4 --trace "$out/trace.json" \
   --threads 4 --quiet
 expect 0 study cornell-box.pbrt --out "$out/study" --resolution 24x18 --spp 4,8 \
-  --strategies 'default;points=pmj02' --repetitions 3 --quiet
+  --strategies 'default;points=halton' --repetitions 3 --quiet
 expect 0 plot "$out/study/study.json" --figure 8 -o "$out/plot.csv"
 # States are written beside the render; parts, and what they are merged into.
 render cornell-box.pbrt --resolution 40x30 --spp 256 --checkpoint "$out/whole.state" \
@@ -121,7 +121,7 @@ expect 1 merge "$out/part-1.state" -o "$out/image.exr" --quiet
 cat >"$out/sweep.toml" <<END
 [grid]
 scene = "$PWD/cornell-box.pbrt"
-strategy = ["default", "points=pmj02", "roulette=throughput:{0.1, 0.5}"]
+strategy = ["default", "points=halton", "roulette=throughput:{0.1, 0.5}"]
 spp = [4, 16]
 resolution = "24x18"
 END

@@ -65,7 +65,7 @@ std::map<std::string, std::vector<StrategyPlace>> PlacesOf(
 std::vector<SweepCell> ExpandGrid(const std::vector<SubGrid>& grids,
                                   const std::vector<SubGrid>& exclude);
 
-/// Returns e.g. "box_64x48_points=pmj02_16spp_seed1-83a1c09b52".
+/// Returns e.g. "box_64x48_points=halton_16spp_seed1-83a1c09b52".
 std::string CellName(const AxisValues& values);
 
 /// [settings]: settings of all cells.

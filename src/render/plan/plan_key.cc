@@ -35,9 +35,8 @@ std::string ParametersText(const Strategy& s, const FeatureSet& features) {
   const MisParameters mis = MakeMisParameters(s);
   const SampleGroups groups = GroupsOf(s);
   std::string text =
-      fmt::format("points {} {} groups {} {} mis {} {} {}", sampler.group_shift,
-                  sampler.pmj02 != nullptr, groups.unit, groups.replicates, mis.square,
-                  mis.linear, mis.hits);
+      fmt::format("points {} groups {} {} mis {} {} {}", sampler.group_shift, groups.unit,
+                  groups.replicates, mis.square, mis.linear, mis.hits);
   if (features.Has(Feature::kReuse)) {
     text += fmt::format(" reuse {} {}", s.reused_paths, Name(s.block_layout));
   }

@@ -36,8 +36,8 @@ inline constexpr double kMinChangeGain = 1.05;
 // Left out: directions=bsdf and light, which differ from combining both most in rare
 // bright samples that a trial does not see, and gain 1.3 at most (Veach and Guibas 1995:
 // combining is never much worse than either, one alone can be), and what has never won:
-// control variates (0.35 to 0.98), points=pmj02 (0.85 to 0.98), uniform directions,
-// antithetic pairs, which undo what strata gain, a constant roulette.
+// control variates (0.35 to 0.98), uniform directions, antithetic pairs, which undo what
+// strata gain, a constant roulette.
 inline constexpr DecisionCandidate kRouletteCandidates[] = {
     {"roulette=adjoint", 1.17},
     {"roulette=throughput:0:2:4", 1.0},

@@ -59,9 +59,12 @@ void InterpretSampler(ParseState& state, const std::string& type, ParamSet& para
       {"paddedsobol", SampleSequence::kSobol},
       {"sobol", SampleSequence::kSobol},
       {"halton", SampleSequence::kHalton},
-      {"pmj02bn", SampleSequence::kPmj02},
+      {"pmj02bn", SampleSequence::kSobol},
       {"stratified", SampleSequence::kStratified}};
   const SampleSequence sequence = Lookup(kSamplers, type, params.where(), "sampler");
+  if (type == "pmj02bn") {
+    state.AddNote(params.where(), "sampler \"pmj02bn\" is replaced by \"sobol\"");
+  }
   Sampler sampler = state.scene.sampler;
   if (type == "stratified") {
     constexpr int kMaxStrata = 32768;

@@ -6,8 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "src/scene/prepare/pmj02.h"
-
 namespace lanelight {
 
 namespace {
@@ -70,7 +68,6 @@ double DependentsOf(const Strategy& strategy, const FilterReach& reach) {
 SamplerParameters MakeSamplerParameters(SampleSequence sampler) {
   SamplerParameters p;
   p.group_shift = LogSequence(sampler);
-  if (sampler == SampleSequence::kPmj02) p.pmj02 = Pmj02Table().data();
   return p;
 }
 
@@ -93,13 +90,10 @@ std::uint32_t LogSequence(SampleSequence sampler) {
   switch (sampler) {
     case SampleSequence::kIndependent:
       return 0;
-    case SampleSequence::kPmj02:
-      return std::bit_width(kPmj02SequenceLength) - 1;
     case SampleSequence::kHalton:
       return 12;                       // below 3^8: see kernels/samplers/halton-inl.h
     case SampleSequence::kStratified:  // beyond, floats have no room for more strata
     case SampleSequence::kSobol:
-    case SampleSequence::kLattice:
       return 20;
   }
   return 0;

@@ -78,8 +78,7 @@ class SamplePlanes {
 /// a pixel share as src/vocabulary/path/replicates.h says.
 struct SamplerParameters {
   std::uint32_t group_shift = 0;
-  const std::uint32_t* pmj02 = nullptr;  // table of pmj02.h (pmj02)
-  bool by_tile = false;                  // pixels of a tile share their wavelengths
+  bool by_tile = false;  // pixels of a tile share their wavelengths
 };
 
 /// Weight of a technique of density p against one of density q, with r = q / p:

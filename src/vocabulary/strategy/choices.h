@@ -45,14 +45,10 @@ inline constexpr std::uint32_t kDefaultLightPathSamples = LANELIGHT_LIGHT_PATH_S
     "variance sigma^2 / N", "Jarzynski and Olano 2020 (hash)")                            \
   X(T, K, Stratified, STAGE, ({}), "stratified", "", "one jittered sample in each of a x b strata per pair of dimensions", \
     "u = ((i mod a + xi) / a, (i div a + eta) / b)", "paper 3.5.3; Cook 1986")            \
-  X(T, K, Pmj02, STAGE, ({}), "pmj02", "", "progressive multi-jittered (0,2) sequence", \
-    "one sample in every elementary interval of base 2", "Christensen, Kensler and Kilpatrick 2018") \
   X(T, K, Sobol, STAGE, ({}), "sobol", "", "Owen-scrambled Sobol' points, padded pairs (default)", \
     "variance up to N^-3 for smooth f", "Owen 1997; Burley 2020")                         \
   X(T, K, Halton, STAGE, ({}), "halton", "", "Owen-scrambled Halton points in bases 2 and 3, padded pairs", \
-    "u = (radical inverse of i in base 2, in base 3)", "Halton 1964; Owen 2017")          \
-  X(T, K, Lattice, STAGE, ({}), "lattice", "", "rank-1 lattice with a random shift, padded pairs", \
-    "u = frac(i (1, z) / N + shift)", "Cranley and Patterson 1976; Sloan and Joe 1994")
+    "u = (radical inverse of i in base 2, in base 3)", "Halton 1964; Owen 2017")
 
 #define LANELIGHT_PAIRS(X, T, K)                                                                \
   X(T, K, None, PLAIN, ({}), "none", "", "no antithetic samples (default)", "1/N sum f(u)", "") \

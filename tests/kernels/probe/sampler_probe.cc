@@ -3,8 +3,6 @@
 #include "kernels/samplers/fill-inl.h"
 #include "kernels/samplers/halton-inl.h"
 #include "kernels/samplers/independent-inl.h"
-#include "kernels/samplers/lattice-inl.h"
-#include "kernels/samplers/pmj02-inl.h"
 #include "kernels/samplers/sobol-inl.h"
 #include "kernels/samplers/stratified-inl.h"
 #include "tests/kernels/probe/sampler_probe.h"
@@ -41,11 +39,11 @@ void ProbePolicy(const SamplerQuery& q, const SamplerParameters& sampler, float*
     VF a, b;
     if constexpr (HasNumber<Policy>) {
       if (u1 == nullptr) {
-        a = Policy::Number(sampler, of);
+        a = Policy::Number(of);
         return hn::StoreU(a, DF(), u0 + i);
       }
     }
-    Policy::Point(sampler, of, &a, &b);
+    Policy::Point(of, &a, &b);
     hn::StoreU(a, DF(), u0 + i);
     if (u1 != nullptr) hn::StoreU(b, DF(), u1 + i);
   });

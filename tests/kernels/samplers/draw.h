@@ -9,8 +9,8 @@
 namespace lanelight::test {
 
 inline constexpr SampleSequence kAllSequences[] = {
-    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kPmj02,
-    SampleSequence::kSobol,       SampleSequence::kHalton,     SampleSequence::kLattice};
+    SampleSequence::kIndependent, SampleSequence::kStratified, SampleSequence::kSobol,
+    SampleSequence::kHalton};
 
 struct Drawn {
   std::vector<float> u0, u1;

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "src/base/stat/hypothesis.h"
-#include "src/scene/prepare/lattice.h"
 #include "src/scene/prepare/parameters.h"
 #include "tests/base/stat/chi2.h"
 #include "tests/kernels/samplers/draw.h"
@@ -125,23 +124,6 @@ bool HasHaltonCounts(const Drawn& p) {
   return true;
 }
 
-// The points are i / n, frac(i z / n) in some order, shifted.
-bool IsShiftedLattice(const Drawn& p, std::uint32_t z) {
-  const std::size_t n = p.u0.size();
-  std::vector<int> seen(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = (double(p.u0[i]) - double(p.u0[0])) * double(n);
-    const double y = (double(p.u1[i]) - double(p.u1[0])) * double(n);
-    const double index = std::round(x), own = std::fmod(index * double(z % n), double(n));
-    if (std::abs(x - index) > 2 * kGrid * double(n)) return false;
-    if (std::abs(std::remainder(y - own, double(n))) > 2 * kGrid * double(n)) {
-      return false;
-    }
-    ++seen[static_cast<std::size_t>(index + double(n)) % n];
-  }
-  return std::all_of(seen.begin(), seen.end(), [](int s) { return s == 1; });
-}
-
 }  // namespace
 
 TEST_CASE("stratified: one of any aligned 2^m points per stratum", "[points]") {
@@ -152,13 +134,6 @@ TEST_CASE("stratified: one of any aligned 2^m points per stratum", "[points]") {
       REQUIRE(EvenCells(Prefix(d, first, n), n / FloorRoot(n), FloorRoot(n)));
       REQUIRE(EvenIntervals(Prefix({numbers, numbers}, first, n).u0, n));
     });
-  });
-}
-
-TEST_CASE("pmj02: every prefix of 2^k points is a net", "[points]") {
-  ForReplicates(SampleSequence::kPmj02, 1024, [&](const SamplerQuery& q) {
-    const Drawn d = Draw(q);
-    for (std::size_t n = 1; n <= 1024; n *= 2) REQUIRE(IsNet(Prefix(d, 0, n)));
   });
 }
 
@@ -178,15 +153,6 @@ TEST_CASE("halton: a prefix of 2^m points fills boxes as Halton's do", "[points]
       REQUIRE(EvenIntervals(Prefix(d, 0, n).u0, n));
       REQUIRE(HasHaltonCounts(Prefix(d, 0, n)));
     }
-  });
-}
-
-TEST_CASE("lattice: any aligned 2^m points are a shifted lattice", "[points]") {
-  ForReplicates(SampleSequence::kLattice, 1024, [&](const SamplerQuery& q) {
-    const Drawn d = Draw(q);
-    ForBlocks(1024, [&](std::size_t first, std::size_t n) {
-      REQUIRE(IsShiftedLattice(Prefix(d, first, n), kLatticeGenerator));
-    });
   });
 }
 
@@ -236,7 +202,7 @@ double OrderP(SampleSequence sampler, bool numbers, bool sorted = false) {
 }  // namespace
 
 TEST_CASE("the order of strata is random", "[points]") {
-  const double level = stat::SidakLevel(1e-6, 14);
+  const double level = stat::SidakLevel(1e-6, 2 * std::size(kAllSequences));
   for (SampleSequence sampler : kAllSequences) {
     INFO(Name(sampler));
     CHECK(OrderP(sampler, false) > level);
@@ -249,7 +215,7 @@ TEST_CASE("planted: a repeated index and random strata are detected", "[points]"
   const auto of_64 = [](SampleSequence sampler) {
     return SamplerQuery{sampler, 1, 5, 0, 0, 64, 1, kReplicates};
   };
-  for (SampleSequence sampler : {SampleSequence::kStratified, SampleSequence::kPmj02}) {
+  for (SampleSequence sampler : {SampleSequence::kStratified, SampleSequence::kSobol}) {
     Drawn d = Draw(of_64(sampler));
     REQUIRE(EvenCells(d, 8, 8));
     d.u0[11] = d.u0[12];
@@ -259,16 +225,12 @@ TEST_CASE("planted: a repeated index and random strata are detected", "[points]"
   CHECK_FALSE(EvenCells(Draw(of_64(SampleSequence::kIndependent)), 8, 8));
   // Right in two dimensions, not in one.
   CHECK_FALSE(EvenIntervals(Draw(of_64(SampleSequence::kStratified)).u0, 64));
-  // A lattice is no net, a Halton prefix no net of base 2, nor a net one of Halton's.
-  const Drawn lattice = Draw(of_64(SampleSequence::kLattice)),
-              halton = Draw(of_64(SampleSequence::kHalton));
-  CHECK_FALSE(IsNet(lattice));
+  // Strata are no net, a Halton prefix no net of base 2, nor a net one of Halton's.
+  const Drawn halton = Draw(of_64(SampleSequence::kHalton));
+  CHECK_FALSE(IsNet(Draw(of_64(SampleSequence::kStratified))));
   CHECK_FALSE(IsNet(halton));
   CHECK(HasHaltonCounts(halton));
   CHECK_FALSE(HasHaltonCounts(Draw(of_64(SampleSequence::kSobol))));
-  CHECK(IsShiftedLattice(lattice, kLatticeGenerator));
-  CHECK_FALSE(IsShiftedLattice(lattice, kLatticeGenerator + 2));
-  CHECK_FALSE(IsShiftedLattice(halton, kLatticeGenerator));
 }
 
 }  // namespace lanelight::test

@@ -10,18 +10,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-const char* const kPoints[] = {"sobol",   "pmj02",      "halton",
-                               "lattice", "stratified", "independent"};
-const char* const kRoulettes[] = {"throughput", "adjoint", "none", "constant:0.25"};
+const char* const kPoints[] = {"sobol", "halton", "stratified", "independent"};
+const char* const kRoulettes[] = {"throughput",       "adjoint",       "none",
+                                  "throughput:0:2:4", "constant:0.25", "constant:0.5"};
 
 // Long names as people give them, and complete texts that are longer.
 Recipe RecipeOf(int i) {
   Recipe recipe{};
   recipe.name = i == 0 ? "default"
-                       : std::string("points=") + kPoints[i % 6] +
-                             ",roulette=" + kRoulettes[i / 6] + ",directions=mis:balance";
-  recipe.text = "directions=mis:power,points=" + std::string(kPoints[i % 6]) +
-                ",pairs=none,control=none,roulette=" + kRoulettes[i / 6] +
+                       : std::string("points=") + kPoints[i % 4] +
+                             ",roulette=" + kRoulettes[i / 4] + ",directions=mis:balance";
+  recipe.text = "directions=mis:power,points=" + std::string(kPoints[i % 4]) +
+                ",pairs=none,control=none,roulette=" + kRoulettes[i / 4] +
                 ",light-selection=power";
   recipe.noise = 0.5 + 0.07 * ((i * 7) % kCrowd);
   recipe.order = -0.5 - 0.01 * (i % 6);

@@ -96,7 +96,7 @@ TEST_CASE("stress: strategies are compared with the default", "[stress]") {
     CHECK(ratio.has_value() == (point.refused.empty() && point.not_measured.empty()));
     if (!ratio || point.series == "points=sobol") continue;
     const double x = point.parameter;
-    const int kind = point.series == "points=pmj02" ? 0 : 2;
+    const int kind = point.series == "points=halton" ? 0 : 2;
     CHECK(ratio->value ==
           Approx(SwingingPoint("", x, 1).seconds / SwingingPoint("", x, kind).seconds));
     // Two variances with 190 degrees of freedom each: F of 97.5 % is 1.330.

@@ -27,7 +27,7 @@ Case Strategies() {
     if (x < 1e-3) throw InputError("<b>x</b> of 1e-4 is below \"1e-3\"");
     std::vector<Point> points;
     int kind = 0;
-    for (const char* name : {"points=pmj02", "points=sobol", "roulette=none"}) {
+    for (const char* name : {"points=halton", "points=sobol", "roulette=none"}) {
       points.push_back(SwingingPoint(name, x, kind++));
     }
     if (x == 1e-2) points[2].not_measured = "its light is too <i>rare</i>";

@@ -40,7 +40,7 @@ AttributeEnd
 StudyOptions TinyStudy(const TemporaryFolder& folder, const std::string& out) {
   StudyOptions options;
   options.scenes = {folder.Write("tiny.pbrt", kStudyScene)};
-  options.strategies = {"paper-plain", "default", "points=pmj02"};
+  options.strategies = {"paper-plain", "default", "points=halton"};
   options.spp = {1, 4, 16};
   options.repetitions = 3;
   options.out = folder.File(out);
@@ -154,7 +154,7 @@ TEST_CASE("a study can be extended but not mixed with another", "[study]") {
   CHECK_THROWS_WITH(Study(options, {}), Contains("--resume"));
   options.resume = true;
   options.repetitions = 2;
-  options.strategies.push_back("points=halton");
+  options.strategies.push_back("points=stratified");
   const auto studies = Study(options, {});
   REQUIRE(studies[0].analysis.strategies.size() == 4);
   CHECK(studies[0].analysis.strategies[3].AtLevel().repetitions == 2);
@@ -379,7 +379,7 @@ TEST_CASE("lists of strategies", "[study]") {
   REQUIRE(defaults.size() == 9);
   CHECK(defaults[8].strategy == defaults[7].strategy);  // the scene's own is the default
   Strategy own;
-  own.sampler = SampleSequence::kLattice;
+  own.sampler = SampleSequence::kHalton;
   const auto named = StudyStrategies(options, own);
   REQUIRE(named.size() == 9);
   CHECK(named[7].strategy == Strategy{});

@@ -16,7 +16,7 @@ Sweep SmallSweep(const std::string& lines) {
   folder.Write("a.pbrt", "");
   return ParseSweep(folder.File("s.toml"), R"([grid]
 scene = "a.pbrt"
-strategy = ["points=pmj02", "points=halton"]
+strategy = ["points=stratified", "points=halton"]
 )" + lines);
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("sweep: one seed has no interval", "[sweep][report]") {
   const Sweep sweep = SmallSweep("spp = 16");
   const Json json =
       SweepJsonOf(sweep, [](Json& cell, std::size_t) { SetCost(cell, 1, 1); });
-  CHECK(json["baseline"] == "points=pmj02");
+  CHECK(json["baseline"] == "points=stratified");
   REQUIRE(json["groups"].size() == 2);
   CHECK_FALSE(json["groups"][1].contains("measured"));
   CHECK(json["groups"][1]["efficiency"]["value"].is_number());
@@ -81,7 +81,7 @@ TEST_CASE("sweep: a race that the baseline wins names the runner-up", "[sweep][r
   });
   CHECK_THAT(
       AnswerText(json["leaders"]),
-      Catch::Contains("points=pmj02, the baseline, is the most efficient; the next, "
+      Catch::Contains("points=stratified, the baseline, is the most efficient; the next, "
                       "points=halton, has 0.5 [0.5, 0.5] times its efficiency; 1 "
                       "stopped early (5 seeds)"));
 }
@@ -95,22 +95,23 @@ TEST_CASE(
     SetCost(cell, i < 5 ? scatter[i] : 0.99 * scatter[9 - i], 1);
   });
   const Json& leader = full["leaders"][0];
-  CHECK(leader["undecided"] == Json({"points=halton", "points=pmj02"}));
+  CHECK(leader["undecided"] == Json({"points=halton", "points=stratified"}));
   CHECK(leader["within"] ==
         Approx(leader["efficiency"]["high"].get<double>() - 1).epsilon(1e-6));
-  CHECK_THAT(
-      AnswerText(full["leaders"]),
-      Catch::Contains("not decided between points=halton and points=pmj02 (within ") &&
-          Catch::Contains(" %) (5 seeds)"));
+  CHECK_THAT(AnswerText(full["leaders"]),
+             Catch::Contains(
+                 "not decided between points=halton and points=stratified (within ") &&
+                 Catch::Contains(" %) (5 seeds)"));
 
   // Two seeds are enough for a race that ends undecided, and its own limit is printed.
   const Json race = SweepJsonOf(sweep, [&](Json& cell, std::size_t i) {
     SetCost(cell, scatter[i % 5], 1);
     if (i % 5 >= 2) Stop(cell)["within"] = 0.213;
   });
-  CHECK(AnswerText(race["leaders"]) ==
-        "a, spp 16: not decided between points=pmj02 and points=halton (within 21 %) "
-        "(2 seeds)\n");
+  CHECK(
+      AnswerText(race["leaders"]) ==
+      "a, spp 16: not decided between points=stratified and points=halton (within 21 %) "
+      "(2 seeds)\n");
 }
 
 }  // namespace lanelight

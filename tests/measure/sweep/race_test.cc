@@ -227,7 +227,7 @@ TEST_CASE("race: cells are stopped by strategy, seed and the other axes", "[swee
   folder.Write("a.pbrt", "");
   const Sweep sweep = ParseSweep(folder.File("s.toml"), R"([grid]
 scene = "a.pbrt"
-strategy = ["default", "points=pmj02", "points=halton"]
+strategy = ["default", "points=stratified", "points=halton"]
 spp = [4, 16]
 seed = [5, 6, 7, 8]
 )");
@@ -238,7 +238,8 @@ seed = [5, 6, 7, 8]
     const bool bad = Get(cell.values, Axis::kStrategy) == "points=halton" &&
                      Get(cell.values, Axis::kSpp) == "16";
     const double seed = double(race.Round(cell.index));
-    const double own = Get(cell.values, Axis::kStrategy) == "points=pmj02" ? 1.01 : 1;
+    const double own =
+        Get(cell.values, Axis::kStrategy) == "points=stratified" ? 1.01 : 1;
     const double error = (bad ? 1 : 0.01) * (1 + 0.1 * seed) * std::pow(own, seed);
     race.Enter(cell.index, WithoutBounds(error), 2);
   }

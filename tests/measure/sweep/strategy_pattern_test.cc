@@ -30,11 +30,12 @@ Sweep SweepOf(const std::string& strategies, const std::string& more = "") {
 TEST_CASE("strategy pattern: every value in braces", "[sweep]") {
   CHECK(TextsOf("roulette=throughput:{0.01, 0.2}") ==
         "roulette=throughput:0.01 roulette=throughput:0.2 ");
-  CHECK(TextsOf("points={pmj02,halton},roulette=constant:{0.1,0.5}:2") ==
-        "points=pmj02,roulette=constant:0.1:2 points=pmj02,roulette=constant:0.5:2 "
+  CHECK(TextsOf("points={stratified,halton},roulette=constant:{0.1,0.5}:2") ==
+        "points=stratified,roulette=constant:0.1:2 "
+        "points=stratified,roulette=constant:0.5:2 "
         "points=halton,roulette=constant:0.1:2 points=halton,roulette=constant:0.5:2 ");
-  const auto all = ExpandStrategy("points=pmj02,roulette=constant:{0.1}:2", {});
-  CHECK(all[0].place.family == "points=pmj02,roulette=constant:*:2");
+  const auto all = ExpandStrategy("points=stratified,roulette=constant:{0.1}:2", {});
+  CHECK(all[0].place.family == "points=stratified,roulette=constant:*:2");
   CHECK(all[0].place.parameters ==
         std::map<std::string, std::string>{{"roulette=constant", "0.1"}});
 }
@@ -47,19 +48,19 @@ TEST_CASE("strategy pattern: a star is all choices", "[sweep]") {
 }
 
 TEST_CASE("strategy pattern: without alternatives it is the strategy itself", "[sweep]") {
-  const auto all = ExpandStrategy("points=pmj02", {});
+  const auto all = ExpandStrategy("points=stratified", {});
   REQUIRE(all.size() == 1);
-  CHECK(all[0].text == "points=pmj02");
-  CHECK(all[0].place == StrategyPlace{"points=pmj02", {}});
+  CHECK(all[0].text == "points=stratified");
+  CHECK(all[0].place == StrategyPlace{"points=stratified", {}});
 }
 
 TEST_CASE("strategy pattern: mistakes are reported", "[sweep]") {
   const auto [text, message] = GENERATE(table<std::string, std::string>(
-      {{"points={pmj02", "'{' without"},
-       {"points=pmj02}", "'}' without"},
-       {"points={pmj02,,halton}", "is empty"},
+      {{"points={stratified", "'{' without"},
+       {"points=stratified}", "'}' without"},
+       {"points={stratified,,halton}", "is empty"},
        {"points={}", "is empty"},
-       {"{pmj02,halton}", "needs a key"},
+       {"{stratified,halton}", "needs a key"},
        {"roulette=throughput:*", "numbers are listed"},
        {"*", "numbers are listed"},
        {"point=*", "did you mean \"points\"?"},
@@ -70,15 +71,16 @@ TEST_CASE("strategy pattern: mistakes are reported", "[sweep]") {
 }
 
 TEST_CASE("strategy pattern: values are strategies of the grid", "[sweep]") {
-  const Sweep sweep = SweepOf("\"default\", \"points={sobol,pmj02}\"");
+  const Sweep sweep = SweepOf("\"default\", \"points={sobol,stratified}\"");
   REQUIRE(sweep.cells.size() == 2);  // Sobol' is the default
   CHECK(sweep.places.at("default").size() == 2);
-  CHECK(sweep.places.at("points=pmj02").size() == 1);
-  CHECK(SweepOf("\"points=*\"", "[[exclude]]\nstrategy = \"points={pmj02,halton}\"\n")
-            .cells.size() == kNumSampleSequences - 2);
+  CHECK(sweep.places.at("points=stratified").size() == 1);
+  CHECK(
+      SweepOf("\"points=*\"", "[[exclude]]\nstrategy = \"points={stratified,halton}\"\n")
+          .cells.size() == kNumSampleSequences - 2);
   CHECK_THROWS_WITH(SweepOf("\"roulette=constant:{0.5, 0.50}\""),
                     Contains("is a duplicate"));
-  CHECK_THROWS_WITH(SweepOf("\"points=*\", \"points=pmj02\""),
+  CHECK_THROWS_WITH(SweepOf("\"points=*\", \"points=stratified\""),
                     Contains("is a duplicate"));
   CHECK_THROWS_WITH(SweepOf("\"roulette=constant:{0.5, 2}\""),
                     Contains("3:13") && Contains("0.001 to 0.999"));

@@ -44,7 +44,7 @@ TEST_CASE("sweep: a grid has every combination, the last axis fastest", "[sweep]
 [grid]
 seed = [3, 1]
 scene = ["b.pbrt", "a.pbrt"]
-strategy = ["default", "points=pmj02"]
+strategy = ["default", "points=stratified"]
 spp = 16
 )");
   REQUIRE(sweep.cells.size() == 8);
@@ -65,13 +65,13 @@ TEST_CASE("sweep: exclusions and further grids", "[sweep]") {
   const Sweep sweep = Parse(R"(
 [grid]
 scene = ["a.pbrt", "b.pbrt"]
-strategy = ["default", "points=pmj02", "points=halton"]
+strategy = ["default", "points=stratified", "points=halton"]
 spp = [1, 4, 16]
 [[exclude]]
 scene = "b.pbrt"
 spp = [4, 16]
 [[exclude]]
-strategy = "points=pmj02"
+strategy = "points=stratified"
 spp = 1
 [[include]]
 scene = "a.pbrt"
@@ -82,7 +82,7 @@ scene = "a.pbrt"
 strategy = "default"
 spp = [16, 64]
 )");
-  // 18, less 6 of b and 2 of pmj02; 2 times; 64 is new and 16 is not.
+  // 18, less 6 of b and 2 of stratified; 2 times; 64 is new and 16 is not.
   CHECK(sweep.cells.size() == 18 - 6 - 2 + 2 + 1);
   CHECK(sweep.excluded == 8);
   std::set<std::string> names;
@@ -102,10 +102,11 @@ TEST_CASE("sweep: cell names depend on the values only", "[sweep]") {
   CHECK(a.name == c.name);
   CHECK(a.name != b.name);  // another text for the scene
   const SweepCell d = first(
-      "[grid]\nscene = 'a.pbrt'\nstrategy = 'points=pmj02,roulette=constant:0.5'\n"
+      "[grid]\nscene = 'a.pbrt'\nstrategy = 'points=stratified,roulette=constant:0.5'\n"
       "simd = 'avx2'\nresolution = '064x48'\ntarget-relmse = 1e-3");
-  CHECK_THAT(d.name, Catch::StartsWith(
-                         "a_64x48_AVX2_points=pmj02-roulette=constant-0.5_relmse0.001-"));
+  CHECK_THAT(d.name,
+             Catch::StartsWith(
+                 "a_64x48_AVX2_points=stratified-roulette=constant-0.5_relmse0.001-"));
 }
 
 TEST_CASE("sweep: scenes of equal file names are named by their folder", "[sweep]") {

@@ -22,12 +22,12 @@ inline std::string WriteSweep(const TempDirectory& directory) {
   return WriteText(directory / "sweep.toml", R"([grid]
 scene = ["sphere.pbrt", "other.pbrt"]
 resolution = "48x36"
-strategy = ["default", "points=independent", "points=pmj02"]
+strategy = ["default", "points=independent", "points=stratified"]
 spp = [4, 64]
 seed = [1, 2]
 [[exclude]]
 scene = "other.pbrt"
-strategy = "points=pmj02"
+strategy = "points=stratified"
 spp = 64
 )");
 }

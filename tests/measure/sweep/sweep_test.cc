@@ -57,7 +57,7 @@ TEST_CASE("sweep: a race stops a strategy that is clearly worse", "[sweep][cli]"
                 "[grid]\nscene = \"" LANELIGHT_SOURCE_DIR
                 "/scenes/cornell-box.pbrt\"\n"
                 "resolution = \"48x36\"\nspp = 32\nseed = [1, 2, 3, 4, 5, 6]\n"
-                "strategy = [\"points=pmj02\", \"directions=bsdf\", \"reuse=block\"]\n");
+                "strategy = [\"points=halton\", \"directions=bsdf\", \"reuse=block\"]\n");
   const std::string out = directory / "out";
   const ProcessResult race = Sweep(file, out, {"--race"});
   INFO(race.out << race.err);

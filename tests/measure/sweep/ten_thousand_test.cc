@@ -64,7 +64,7 @@ TEST_CASE("sweep: ten thousand cells", "[sweep]") {
   const Sweep sweep = ParseSweep(
       directory / "sweep.toml",
       "[grid]\nscene = 'sphere.pbrt'\nresolution = '8x6'\nmax-depth = [1, 2, 3, 4]\n"
-      "strategy = ['default', 'points=stratified', 'points=halton', 'points=pmj02', "
+      "strategy = ['default', 'points=stratified', 'points=halton', 'directions=bsdf', "
       "'points=independent']\nspp = " +
           Numbers(5) + "\nseed = " + Numbers(101) + "\n[[exclude]]\nseed = 101\n");
   REQUIRE(sweep.cells.size() == 10000);

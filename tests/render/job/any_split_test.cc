@@ -84,7 +84,7 @@ void CheckCuts(const CheckpointedRender& whole, std::vector<int> counts) {
 TEST_CASE("any split: bit-identical for every kind of film and training", "[cuts]") {
   for (const char* strategy :
        {"points=independent", "points=sobol", "pairs=antithetic",
-        "points=independent,pairs=antithetic", "roulette=adjoint", "points=pmj02",
+        "points=independent,pairs=antithetic", "roulette=adjoint", "points=stratified",
         "points=halton", "decide=pilot", "reuse=block:16",
         "points=independent,reuse=block:64:compact", "light-paths=splats:3",
         "pixel-samples=shared"}) {

@@ -236,7 +236,7 @@ TEST_CASE("checkpoints of other renders are refused", "[merge]") {
   refused(seed, "seed: the state has 0, this render 2");
   size.settings.resolution = {16, 24};
   refused(size, "resolution");
-  strategy.settings.strategy = ParseStrategy("points=pmj02", {});
+  strategy.settings.strategy = ParseStrategy("points=halton", {});
   refused(strategy, "strategy");
   aov.settings.aov = true;
   refused(aov, "aov");

@@ -26,7 +26,7 @@ std::map<std::string, std::string> OtherTexts() {
           {"aov", "true"},
           {"gbuffer", "world"},
           {"strategy", "roulette=none,reuse=none"},
-          {"sampler", "pmj02"},
+          {"sampler", "halton"},
           {"transport", "spectral"},
           {"max-depth", "0"},
           {"scattering", "insphere"},
@@ -93,7 +93,7 @@ TEST_CASE("settings are numbers, lists and names in JSON", "[render]") {
   CHECK(json.at("crop") == Json{1, 2, 30, 40});
   CHECK(json.at("resolution") == Json{64, 48});
   CHECK(json.at("aov") == true);
-  CHECK(json.at("sampler") == "pmj02");
+  CHECK(json.at("sampler") == "halton");
   CHECK(json.at("spp") == nullptr);
   CHECK_FALSE(json.contains("skip_unsupported"));
 }

@@ -126,9 +126,9 @@ TEST_CASE("long renders choose a strategy by a trial run, unless one is given",
   CHECK(DecisionOf(towards) == Decide::kPilot);
   // Any word about the strategy.
   RenderSettings explicit_settings = Samples(1024);
-  explicit_settings.strategy = ParseStrategy("points=pmj02", {});
+  explicit_settings.strategy = ParseStrategy("points=halton", {});
   CHECK(DecisionOf(explicit_settings) == Decide::kNone);
-  explicit_settings.strategy = ParseStrategy("points=pmj02,decide=pilot", {});
+  explicit_settings.strategy = ParseStrategy("points=halton,decide=pilot", {});
   CHECK(DecisionOf(explicit_settings) == Decide::kPilot);
   CHECK(DecisionOf(Samples(1024), "roulette=none") == Decide::kNone);
 }
@@ -157,7 +157,7 @@ TEST_CASE("integrators that start at lights select light subpaths where these wo
   CHECK(splats(job_of("bdpt", lamp, "")));
   CHECK(splats(job_of("lightpath", lamp, "")));
   CHECK_FALSE(splats(job_of("path", lamp, "")));
-  CHECK_FALSE(splats(job_of("bdpt", lamp, "points=pmj02")));
+  CHECK_FALSE(splats(job_of("bdpt", lamp, "points=halton")));
   const Job hazy = job_of("bdpt", lamp + fog, "");
   CHECK_FALSE(splats(hazy));
   CHECK(hazy.scene.strategy.light_paths == LightPaths::kNone);

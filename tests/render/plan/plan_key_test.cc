@@ -75,7 +75,7 @@ TEST_CASE("choices with an effect change the plan key", "[plan]") {
   for (const char* other :
        {"light-selection=uniform", "light-selection=tree", "roulette=none",
         "roulette=throughput:0.2", "roulette=throughput:0:3", "roulette=adjoint",
-        "points=pmj02", "points=independent", "pairs=antithetic",
+        "points=halton", "points=independent", "pairs=antithetic",
         "directions=mis:balance", "directions=light", "control=regression",
         "control=regression,c=0.5"}) {
     INFO(other);

@@ -88,15 +88,7 @@ TEST_CASE("wavefront: orders of convergence of smooth integrands", "[convergence
     CHECK(Slope(c, SampleSequence::kIndependent) == Approx(-0.5).margin(0.05));
     CHECK(Slope(c, SampleSequence::kStratified) <= -0.70);
     CHECK(Slope(c, SampleSequence::kSobol) <= -0.90);
-  }
-}
-
-TEST_CASE("wavefront: orders of convergence of the other samplers", "[convergence]") {
-  for (const Convergence& c : {AreaLight(), Environment()}) {
-    INFO(c.directions);
-    CHECK(Slope(c, SampleSequence::kPmj02) <= -0.90);
     CHECK(Slope(c, SampleSequence::kHalton) <= -0.70);
-    CHECK(Slope(c, SampleSequence::kLattice) <= -0.70);
   }
 }
 

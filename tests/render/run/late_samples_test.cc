@@ -58,8 +58,8 @@ double Difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 TEST_CASE("samples beyond 32-bit indices continue under another seed", "[resume]") {
   const std::uint64_t end = kSamplesPerSeed;
-  for (const char* strategy : {"points=sobol", "points=pmj02", "points=independent",
-                               "points=lattice,pairs=antithetic"}) {
+  for (const char* strategy : {"points=sobol", "points=halton", "points=independent",
+                               "points=stratified,pairs=antithetic"}) {
     INFO(strategy);
     const std::vector<double> before = SumsOf(strategy, end - 8, end);
     const std::vector<double> after = SumsOf(strategy, end, end + 8);

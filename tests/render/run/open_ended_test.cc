@@ -58,7 +58,7 @@ Rendered Render(const OpenEnded& o) {
 
 TEST_CASE("a render stops once its error is below the target", "[open_ended]") {
   for (const char* strategy :
-       {"points=independent", "points=sobol", "points=pmj02,pairs=antithetic",
+       {"points=independent", "points=sobol", "points=stratified,pairs=antithetic",
         "points=halton,control=regression", "points=sobol,control=regression"}) {
     INFO(strategy);
     OpenEnded o;
@@ -189,7 +189,7 @@ TEST_CASE("stopping at the target keeps the image unbiased", "[open_ended]") {
   t.seed = 99;
   const Rendered truth = RenderText(LampScene(37, 29, 3), t);
   const Rgb mean = ImageMean(truth.film), error = ImageStandardError(truth.film);
-  for (const char* strategy : {"points=sobol", "points=pmj02", "points=lattice"}) {
+  for (const char* strategy : {"points=sobol", "points=stratified", "points=halton"}) {
     Rgb sum, square;
     constexpr int kRenders = 16;
     for (int i = 0; i < kRenders; ++i) {

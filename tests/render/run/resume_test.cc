@@ -17,7 +17,7 @@ const char* const kStrategies[] = {
     "points=independent,control=regression,pairs=antithetic",
     "points=halton,roulette=adjoint",
     "points=sobol,decide=pilot",
-    "points=pmj02,pairs=antithetic",
+    "points=halton,pairs=antithetic",
     "points=sobol,reuse=block:16",
     "points=independent,pairs=antithetic,reuse=block:32:compact",
     "points=sobol,light-paths=splats:3",
@@ -56,7 +56,7 @@ TEST_CASE("a resumed render is bit-identical, also with a higher sample count",
 
 TEST_CASE("a resumed render may lower its error target", "[resume]") {
   for (const char* strategy : {"points=sobol", "points=independent,pairs=antithetic",
-                               "points=pmj02,control=regression"}) {
+                               "points=halton,control=regression"}) {
     for (double finest : {0.0004, 0.002}) {
       INFO(strategy << ", " << finest);
       Request request;

@@ -162,7 +162,7 @@ TEST_CASE("the trial run keeps the strategy where no change is more efficient",
   // After one event on the plane paths leave.
   SceneDescription plane = PolygonLight(32);
   plane.integrator.max_depth = 6;
-  for (const char* strategy : {"", "roulette=throughput:0.05:5,", "points=pmj02,"}) {
+  for (const char* strategy : {"", "roulette=throughput:0.05:5,", "points=halton,"}) {
     const std::string text = strategy;
     const Rendered r = Decide(plane, text + "decide=pilot");
     INFO(text << ": " << r.result.training.note);

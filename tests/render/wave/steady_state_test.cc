@@ -58,10 +58,10 @@ TEST_CASE("wavefronts neither allocate nor lock", "[steady]") {
   if (Skip()) return;
   for (const std::string& scene : {std::string(kAllStagesScene), MeshScene()}) {
     for (const char* strategy :
-         {"points=sobol", "points=independent,light-selection=tree", "points=pmj02",
+         {"points=sobol", "points=independent,light-selection=tree",
           "points=halton,directions=light,pairs=antithetic",
-          "points=pmj02,control=regression",
-          "points=lattice,roulette=none,control=regression", "points=stratified",
+          "points=sobol,control=regression",
+          "points=halton,roulette=none,control=regression", "points=stratified",
           "roulette=adjoint"}) {
       INFO(strategy);
       TaskFixture task(scene, strategy, Auxiliary::kGbuffer);

@@ -73,7 +73,7 @@ TEST_CASE("rays of a light's edge are assigned once, to their own replicate",
 TEST_CASE("pixels at a light's edge contain its covered fraction", "[seen-lights]") {
   // Area of the lamp within the film, in pixels: the edge leans about its middle.
   const double exact = kRadiance * kSize * kSize * (1 + kEdge) / 2;
-  for (const char* points : {"independent", "sobol", "pmj02", "halton"}) {
+  for (const char* points : {"independent", "sobol", "stratified", "halton"}) {
     for (const char* pairs : {"none", "antithetic"}) {
       for (std::uint64_t spp : {7, 64}) {
         const std::string rest = std::string(",points=") + points + ",pairs=" + pairs;

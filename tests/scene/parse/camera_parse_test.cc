@@ -144,6 +144,10 @@ TEST_CASE("samplers", "[parse]") {
   CHECK(seeded.sampler.seed == 5);
   CHECK(seeded.strategy.sampler == SampleSequence::kHalton);
   CHECK(seeded.notes.empty());
+  const auto pmj02 = ParseOptionsBlock("Sampler \"pmj02bn\" \"integer pixelsamples\" 8");
+  CHECK(pmj02.strategy.sampler == SampleSequence::kSobol);
+  CHECK(pmj02.sampler.spp == 8);
+  CHECK(HasNote(pmj02, "sampler \"pmj02bn\" is replaced by \"sobol\""));
 }
 
 TEST_CASE("integrators", "[parse]") {

@@ -60,7 +60,7 @@ const std::map<std::string, Values> kValues = {
     {"string randomization", {"\"none\""}},
     {"bool jitter", {"false"}},
     {"string lightsampler", {"\"uniform\"", "\"power\""}},
-    {"string strategy", {"\"points=pmj02\""}},
+    {"string strategy", {"\"points=halton\""}},
     {"string transport", {"\"spectral\""}},
     {"string function", {"\"step\""}},
     {"string splitmethod", {"\"middle\""}},

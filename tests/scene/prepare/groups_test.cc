@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include "src/render/run/run.h"
-#include "src/scene/prepare/pmj02.h"
 #include "tests/kernels/samplers/draw.h"
 
 namespace lanelight::test {
@@ -43,7 +42,6 @@ TEST_CASE("sequence lengths match the samplers' limits", "[points]") {
     CHECK(LogSequence(sampler) < 24);  // PermuteOctaves
   }
   CHECK(LogSequence(SampleSequence::kIndependent) == 0);
-  CHECK(1u << LogSequence(SampleSequence::kPmj02) == kPmj02SequenceLength);
   CHECK(1u << LogSequence(SampleSequence::kHalton) < 6561);
   CHECK(LogSequence(SampleSequence::kSobol) == 20);
 }
@@ -75,20 +73,21 @@ TEST_CASE("the efficient sample counts are reported", "[points]") {
         "stratified, 4 randomisations of 16 points");
   CHECK(TextOf(SampleSequence::kSobol, 8) == "sobol, 4 randomisations of 2 points");
   CHECK(TextOf(SampleSequence::kSobol, 0) == "sobol, 4 randomisations");
-  CHECK(TextOf(SampleSequence::kPmj02, 7) ==
-        "pmj02, not stratified (needs 8 samples per pixel), so the same as independent");
+  CHECK(TextOf(SampleSequence::kHalton, 7) ==
+        "halton, not stratified (needs 8 samples per pixel), so the same as independent");
   CHECK(TextOf(SampleSequence::kSobol, 100) ==
         "sobol, 4 randomisations of 25 points (64 or 128 samples are better stratified)");
   CHECK(TextOf(SampleSequence::kSobol, 9) ==
         "sobol, 4 randomisations of 2 or 3 points (8 or 16 samples are better "
         "stratified)");
-  CHECK(TextOf(SampleSequence::kPmj02, 4096) == "pmj02, 4 randomisations of 1024 points");
-  for (std::uint64_t spp : {4097, 5000, 8192}) {
-    CHECK(TextOf(SampleSequence::kPmj02, spp) ==
-          "pmj02, 8 randomisations of up to 1024 points, the most that it stratifies");
+  CHECK(TextOf(SampleSequence::kHalton, 16384) ==
+        "halton, 4 randomisations of 4096 points");
+  for (std::uint64_t spp : {16385, 20000, 32768}) {
+    CHECK(TextOf(SampleSequence::kHalton, spp) ==
+          "halton, 8 randomisations of up to 4096 points, the most that it stratifies");
   }
-  CHECK(TextOf(SampleSequence::kPmj02, 8193)
-            .starts_with("pmj02, 12 randomisations of up to"));
+  CHECK(TextOf(SampleSequence::kHalton, 32769)
+            .starts_with("halton, 12 randomisations of up to"));
   CHECK(TextOf(SampleSequence::kStratified, 128, true) ==
         "stratified, 4 randomisations of 16 pairs, antithetic pairs");
   CHECK(TextOf(SampleSequence::kHalton, 15, true) ==

@@ -48,7 +48,7 @@ function swatch(style) {
 const LONGEST_NAME = 38;
 
 // What tells a strategy from others in little room: of a long list of changes the values
-// only, "mis · pmj02 · antithetic", cut where even that is long.
+// only, "mis · halton · antithetic", cut where even that is long.
 function shortName(name) {
   if (name.length <= LONGEST_NAME) return name;
   const values = name
