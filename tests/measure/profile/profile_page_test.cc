@@ -1,6 +1,7 @@
 // The page of a profile: what it holds besides the JSON.
 #include "src/measure/profile/profile_page.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
@@ -77,10 +78,15 @@ TEST_CASE("The page of a profile can be written", "[profile][report]") {
   CHECK(data.at("page").at("changes").size() == comparison.changes.size());
   const Json& queues = data.at("page").at("queues");
   REQUIRE(queues.at("lines").size() == 6);
+  // Calls may find no path for them; on a busy machine any stage may be among the lines.
   for (const Json& line : queues.at("lines")) {
+    double most = 0;
     for (const Json& paths : line.at("paths")) {
-      if (!paths.is_null()) CHECK(paths > 0);
+      if (!paths.is_null()) most = std::max(most, paths.get<double>());
     }
+    INFO(line.at("name"));
+    CHECK(most > 0);
+    CHECK(most <= m.job.plan.wavefront);
   }
   for (const char* name : {"\"image\"", "\"cost\""}) {
     INFO(name);
