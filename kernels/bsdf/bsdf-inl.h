@@ -97,6 +97,7 @@ struct PlainBsdf {
   static constexpr bool kEvenSides = false;  // f for wi is the same for all wo on a side
   static constexpr bool kTransmits = false;  // not all directions are on wo's side
   static constexpr bool kFibre = false;      // Load reads the column uv_v
+  static constexpr bool kPhase = false;      // of points in a medium
   static constexpr bool kByWavelength = false;  // Load looks at the path's wavelengths
 };
 

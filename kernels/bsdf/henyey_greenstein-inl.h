@@ -10,6 +10,7 @@ LANELIGHT_BEGIN_KERNELS
 
 struct HenyeyGreensteinBsdf : PlainBsdf {
   static constexpr bool kTransmits = true;
+  static constexpr bool kPhase = true;
 
   struct Params {
     VF g;  // -1 < g < 1; > 0 scatters forward

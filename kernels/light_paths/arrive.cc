@@ -7,13 +7,28 @@
 
 LANELIGHT_BEGIN_KERNELS
 
+constexpr float kMinDistance = 1e-6f;  // of points in media, in scene units
+
+// Returns the distance from the vertex before. That of points in media, whose column t is
+// negative, is that to the point.
+HWY_INLINE VF DistanceTo(const PathColumns& p, const Slots& slots, V3 d) {
+  const VF t = HitDistance(p, slots);
+  if (p.medium == nullptr) return t;
+  const MF in_medium = hn::Lt(Gather(p.t, slots), hn::Zero(DF()));
+  const V3 at = Gather3(p.p_x, p.p_y, p.p_z, slots);
+  // The difference of rounded points may be 0, by which densities are divided.
+  const VF apart = Dot(at - ScatteredFrom(p, slots), d);
+  return hn::IfThenElse(in_medium, hn::Max(apart, Splat(kMinDistance)), t);
+}
+
 // Continues the chain with the distance to this vertex. `from_far`: subpaths may come
-// from lights at infinity, with parallel rays.
+// from lights at infinity, with parallel rays. The normal of points in media looks back
+// along the ray.
 HWY_INLINE void UpdateChain(const PathColumns& p, const StoreSlots& slots,
                             bool from_far) {
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
   const V3 ng = Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
-  const VF t = Gather(p.t, slots);
+  const VF t = DistanceTo(p, slots, d);
   VF pdf = Gather(p.lp_pdf, slots), t2 = hn::Mul(t, t);
   if (from_far) {
     t2 = hn::IfThenElse(hn::Lt(pdf, hn::Zero(DF())), Splat(1.0f), t2);
@@ -71,9 +86,9 @@ Stage LightPathArriveStage() {
           .input = QueueId::kVertex,
           .role = StageRole::kRecord,
           .needs = {Feature::kLightPaths, Feature::kScatters},
-          .reads = kRay | kNormal |
+          .reads = kRay | kNormal | kPoint |
                    FieldSet{Field::t, Field::material, Field::lp_pdf, Field::lp_chain,
-                            Field::lp_vertex},
+                            Field::lp_vertex, Field::passed},
           .writes = chain,
           .resolve = ByFeature<Feature::kLightSubpath, ArriveLight, ArriveCamera>};
 }

@@ -17,10 +17,14 @@
 //
 //   lp_chain * pdf_back * lp_inverse * cosine.
 //
-// For specular vertices both densities are 1. The weights are those of the balance
-// heuristic between T and (E + N), of which the latter share theirs as without T. There N
-// is taken as if it chose lights and points as T does (starts-inl.h), whatever it does:
-// the weights of a path sum to 1 for any such choice.
+// For specular vertices both densities are 1. Densities of points in a medium are by
+// volume and have no cosine. Transmittances and the density of scattering are left out of
+// all three techniques: weights may be any function of the path.
+//
+// The weights are those of the balance heuristic between T and (E + N), of which the
+// latter share theirs as without T. There N is taken as if it chose lights and points as
+// T does (starts-inl.h), whatever it does: the weights of a path sum to 1 for any such
+// choice.
 #ifndef LANELIGHT_LIGHT_PATHS_CHAIN_INL_H_
 #define LANELIGHT_LIGHT_PATHS_CHAIN_INL_H_
 
@@ -93,13 +97,19 @@ struct ChainVertex {
     const PathColumns& p = reader.wave.path;
     return Gather3(p.ng_x, p.ng_y, p.ng_z, slots);
   }
+  /// Returns the cosine of the density by area in direction d; 1 for points in a medium,
+  /// whose density is by volume.
+  HWY_INLINE VF Cosine(V3 d) const {
+    if constexpr (Bsdf::kPhase) return Splat(1.0f);
+    return hn::Abs(Dot(ng, d));
+  }
 };
 
 /// Calls body.operator()<Bsdf>(queue) for each kind of material that has paths.
 template <class Body>
 HWY_INLINE void ForEachShaded(Wave& wave, Body&& body){
 #define X(name, traits, meaning)                                     \
-  if constexpr (((traits) & (kInMedium | kWalks)) == 0) {            \
+  if constexpr (((traits) & kWalks) == 0) {                          \
     Queue& queue = wave.queue(ShadeQueue(ShadeKind::k##name));       \
     if (queue.size > 0) body.template operator()<name##Bsdf>(queue); \
   }

@@ -14,11 +14,12 @@ LANELIGHT_BEGIN_KERNELS
 // The start of a light subpath.
 struct Start {
   V3 o, d;
-  V3 light;                     // radiance, intensity or irradiance of the light
-  VF scale;                     // factor that makes it the estimate; 0: no subpath starts
-  VF chain;                     // column lp_chain
-  VF density;                   // column lp_pdf
-  VI cell = hn::Set(DI(), -1);  // of EmissionGuide, of lights at infinity
+  V3 light;    // radiance, intensity or irradiance of the light
+  VF scale;    // factor that makes it the estimate; 0: no subpath starts
+  VF chain;    // column lp_chain
+  VF density;  // column lp_pdf
+  MF behind = hn::FirstN(DF(), 0);  // starts on the inside of a shape
+  VI cell = hn::Set(DI(), -1);      // of EmissionGuide, of lights at infinity
 
   HWY_INLINE void Take(MF mask, const Start& s) {
     o = IfThenElse(mask, s.o, o);
@@ -27,6 +28,7 @@ struct Start {
     scale = hn::IfThenElse(mask, s.scale, scale);
     chain = hn::IfThenElse(mask, s.chain, chain);
     density = hn::IfThenElse(mask, s.density, density);
+    behind = hn::Or(hn::And(mask, s.behind), hn::AndNot(mask, behind));
     cell = hn::IfThenElse(hn::RebindMask(DI(), mask), s.cell, cell);
   }
 };
@@ -88,7 +90,8 @@ HWY_INLINE Start StartAtShape(const Wave& wave, const Lights& light, VI index,
           radiance,
           hn::Div(area, per_cosine),
           hn::Mul(local.z, area),
-          hn::Mul(local.z, per_cosine)};
+          hn::Mul(local.z, per_cosine),
+          second};
 }
 
 // Multiplies the light by the share of it that leaves in direction d.
@@ -184,7 +187,8 @@ HWY_INLINE Start FromDisk(const Wave& wave, const FarLight& far, const StartNumb
   const VI none = hn::Set(DI(), -1);
   const VI cell =
       hn::IfThenElse(hn::RebindMask(DI(), square.HasCells()), square.CellOf(place), none);
-  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(density), cell};
+  const MF nowhere = hn::FirstN(DF(), 0);
+  return {o, -toward, light, scale, hn::Zero(DF()), hn::Neg(density), nowhere, cell};
 }
 
 // Takes the starts of infinite lights, one image after the other.
@@ -257,6 +261,16 @@ HWY_INLINE void StoreStart(const Wave& wave, const StoreSlots& slots, VI index, 
           Gather(wave.path.output, slots));
 }
 
+// Stores the medium around the light, where not all of them are in the camera's.
+HWY_INLINE void StoreMedium(const Wave& wave, const StoreSlots& slots, VI index,
+                            MF behind) {
+  const AlignedVector<int32_t>& media = wave.chances->emission.media;
+  if (wave.path.medium == nullptr || media.empty()) return;
+  const VI second = hn::ShiftLeft<1>(index), first = hn::Add(second, hn::Set(DI(), 1));
+  const VI side = hn::IfThenElse(hn::RebindMask(DI(), behind), second, first);
+  Scatter(Gather(media.data(), side), wave.path.medium, slots);
+}
+
 void EmitLightPath(Wave& wave) {
   const PathColumns& p = wave.path;
   ForEachBatch(wave, wave.queue(QueueId::kCamera),
@@ -279,6 +293,7 @@ void EmitLightPath(Wave& wave) {
                  Scatter(start.density, p.lp_pdf, slots);
                  Scatter(light.Primitive(), p.prim, slots);
                  StoreStart(wave, slots, index, start.cell);
+                 StoreMedium(wave, slots, index, start.behind);
                  Push(wave.queue(QueueId::kActive), slots, hn::And(valid, starts));
                  Push(wave.queue(QueueId::kDone), slots, hn::AndNot(starts, valid));
                });

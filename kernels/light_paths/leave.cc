@@ -29,6 +29,14 @@ HWY_INLINE MF BeginsDeltaCaustic(const Wave& wave, VI number, MF specular, VF ch
   return hn::And(hn::And(specular, IsNumber(number, 1)), hn::Eq(chain, zero));
 }
 
+// Returns the correction of importance for the shading normal; 1 in a medium.
+template <class Bsdf>
+HWY_INLINE VF ShadingCorrection(const ChainVertex<Bsdf>& vertex, V3 in, V3 d, V3 wi) {
+  if constexpr (Bsdf::kPhase) return Splat(1.0f);
+  const VF shading = hn::Mul(hn::Abs(vertex.wo.z), vertex.Cosine(d));
+  return hn::Div(shading, hn::Mul(vertex.Cosine(in), hn::Abs(wi.z)));
+}
+
 template <class Bsdf, bool kLight>
 HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
   const PathColumns& p = wave.path;
@@ -44,15 +52,14 @@ HWY_NOINLINE void LeaveKind(Wave& wave, const Queue& queue) {
     if constexpr (!Bsdf::kSpecular) back = Bsdf::Eval(vertex.material, wi, vertex.wo).pdf;
     const VI number = Gather(p.lp_vertex, slots);
     const VF chain = Gather(p.lp_chain, slots);
-    const VF cosine = hn::Abs(Dot(vertex.ng, d));
     const VF through = ChainThrough<kLight>(chain, back, specular, number);
-    const VF next = hn::Mul(hn::Mul(through, Gather(p.lp_inverse, slots)), cosine);
+    const VF next =
+        hn::Mul(hn::Mul(through, Gather(p.lp_inverse, slots)), vertex.Cosine(d));
     if constexpr (kLight) {
       Scatter(next, p.lp_chain, slots);
       const V3 in = Gather3(p.lp_in_x, p.lp_in_y, p.lp_in_z, slots);
-      const VF shading = hn::Mul(hn::Abs(vertex.wo.z), cosine);
-      const VF geometric = hn::Mul(hn::Abs(Dot(vertex.ng, in)), hn::Abs(wi.z));
-      const VF factor = hn::Mul(hn::Div(shading, geometric), Gather(p.eta_scale, slots));
+      const VF factor =
+          hn::Mul(ShadingCorrection(vertex, in, d, wi), Gather(p.eta_scale, slots));
       const V3 beta = Gather3(p.beta_r, p.beta_g, p.beta_b, slots);
       const MF kept = hn::Not(BeginsDeltaCaustic(wave, number, specular, chain));
       Scatter3(IfThenElseZero(kept, Mul(beta, factor)), p.beta_r, p.beta_g, p.beta_b,

@@ -84,7 +84,7 @@ HWY_NOINLINE void WeighSamplesOf(Wave& wave, const Queue& queue) {
     const LastStep step = StepToSample(wave, slots);
     const VF chain = hn::IfThenElse(IsNumber(number, 1), Splat(1.0f),
                                     hn::Mul(Gather(p.lp_chain, slots), pdf.back));
-    const VF cosine = hn::Abs(Dot(vertex.ng, to_light));
+    const VF cosine = vertex.Cosine(to_light);
     const VF ratio = hn::Mul(hn::Mul(hn::Mul(chain, Gather(p.lp_inverse, slots)), cosine),
                              step.subpath);
     const VF found = hn::Add(hn::IfThenElseZero(step.can_hit, pdf.forward), step.sample);
@@ -111,7 +111,7 @@ HWY_NOINLINE void WeighSplatsOf(Wave& wave, const Queue& queue) {
     const VF through = hn::IfThenElse(IsNumber(Gather(p.lp_vertex, slots), 1),
                                       hn::Add(chain, Splat(1.0f)), chain);
     const VF distance = Gather(p.ls_distance, slots);
-    const VF cosine = hn::Abs(Dot(vertex.ng, to_camera));
+    const VF cosine = vertex.Cosine(to_camera);
     const VF density =
         hn::Div(hn::Mul(view.Density(-to_camera), cosine), hn::Mul(distance, distance));
     const VF others = hn::Mul(hn::Mul(density, Gather(p.lp_inverse, slots)), through);
@@ -151,7 +151,7 @@ HWY_INLINE void WeighHit(const Wave& wave, const StoreSlots& slots, VI index, V3
   const V3 d = Gather3(p.d_x, p.d_y, p.d_z, slots);
   const Lights light(wave, index);
   WeighFound(wave, slots,
-             StepToShape(wave, light, index, Gather(p.t, slots), hn::Abs(Dot(n, d))));
+             StepToShape(wave, light, index, HitDistance(p, slots), hn::Abs(Dot(n, d))));
 }
 
 template <LightShape kShape>
@@ -219,9 +219,9 @@ Stage WeighHitsStage() {
           .input = QueueId::kHit,
           .role = StageRole::kRecord,
           .needs = {Feature::kLightPaths, Feature::kAreaLights},
-          .reads =
-              fields::kRay | fields::kHit |
-              FieldSet{Field::lp_chain, Field::lp_pdf, Field::lp_vertex, Field::bsdf_pdf},
+          .reads = fields::kRay | fields::kHit |
+                   FieldSet{Field::lp_chain, Field::lp_pdf, Field::lp_vertex,
+                            Field::bsdf_pdf, Field::passed},
           .writes = {Field::hit_weight},
           .resolve = Always<WeighHits>};
 }

@@ -183,6 +183,7 @@ StageFn ResolveShade(const FeatureSet& features) {
   static_assert(HasTrait(kKind, kWalks) == Bsdf::kStochastic);
   static_assert(HasTrait(kKind, kEvenSides) == Bsdf::kEvenSides);
   static_assert(HasTrait(kKind, kFibre) == Bsdf::kFibre);
+  static_assert(HasTrait(kKind, kInMedium) == Bsdf::kPhase);
   if (features.Has(Feature::kMis)) {
     return ShadeKernel<Bsdf, kKind, MaterialProposal, true>;
   }

@@ -72,6 +72,9 @@ constexpr Vec3<To> VecCast(Vec3<T> a) {
   return {static_cast<To>(a.x), static_cast<To>(a.y), static_cast<To>(a.z)};
 }
 
+/// Reads three floats.
+inline Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
+
 /// Linear sRGB (Rec. 709 primaries, D65), scene-referred.
 using Rgb = Vec3<double>;
 

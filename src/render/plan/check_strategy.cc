@@ -62,8 +62,7 @@ struct Unsupported {
 };
 
 const Unsupported kWithoutLightPaths[] = {
-    {{Feature::kMedia, Feature::kInterfaces, Feature::kSubsurface},
-     "participating media, and materials with an inside"},
+    {{Feature::kSubsurface}, "materials with an inside"},
     {{Feature::kMotion, Feature::kMovingInstances, Feature::kMovingCamera},
      "shapes or cameras that move"},
     {{Feature::kOrthographic, Feature::kSphericalCamera, Feature::kRealisticCamera},

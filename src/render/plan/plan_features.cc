@@ -146,7 +146,7 @@ FeatureSet LightPathFeatures(FeatureSet f) {
             Feature::kLightCandidates, Feature::kLightTable, Feature::kLightTree,
             Feature::kLearnedLights, Feature::kSampledHittableLights,
             Feature::kAreaLights, Feature::kInfiniteLights, Feature::kEmissionImages,
-            Feature::kPortals});
+            Feature::kPortals, Feature::kMediumEmission, Feature::kEquiangularDistances});
   for (int i = 0; i < int(LightShape::kCount); ++i) {
     f.Remove(LightFeature(static_cast<LightShape>(i)));
   }

@@ -32,10 +32,11 @@ bool SamplesOfLightDiffer(const FeatureSet& features);
 /// Returns whether directly visible lights are integrated apart.
 bool RendersLightsSeparately(const PreparedScene& scene);
 
+/// Returns the features of light subpaths, for a plan with kLightPaths.
+FeatureSet LightPathFeatures(FeatureSet features);
+
 /// Returns the features of camera rays that end at the light they see: a subset of
 /// PlanFeatures(), with the same sample points.
-/// Features of light subpaths, for a plan with kLightPaths.
-FeatureSet LightPathFeatures(FeatureSet features);
 FeatureSet VisibleLightFeatures(const PreparedScene& scene, const PlanOptions& options);
 
 /// Throws InputError for a strategy that cannot work on this scene, saying what would.

@@ -14,9 +14,6 @@
 namespace lanelight {
 namespace {
 
-Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
-Vec3d ToVec(Vec3f v) { return {v.x, v.y, v.z}; }
-
 struct Ball {
   Vec3d center;
   double radius = 0;
@@ -60,22 +57,22 @@ class Projector {
  public:
   explicit Projector(const CompiledCamera& camera)
       : camera_(camera),
-        right_(ToVec(camera.right)),
-        up_(ToVec(camera.up)),
-        forward_(ToVec(camera.forward)) {}
+        right_(VecCast<double>(camera.right)),
+        up_(VecCast<double>(camera.up)),
+        forward_(VecCast<double>(camera.forward)) {}
 
   std::optional<Picture> Project(const Ball& ball) const {
     if (!HasPlane()) return std::nullopt;
     const bool perspective = camera_.kind == CameraKind::kPerspective;
-    Vec3d p = Local(ball.center - ToVec(camera_.origin));
+    Vec3d p = Local(ball.center - VecCast<double>(camera_.origin));
     // Shapes at the camera have no picture of finite size.
     if (perspective && !(p.z > 2 * ball.radius)) return std::nullopt;
     const double depth = p.z, shrink = perspective ? 1 / depth : 1;
     const double lens = camera_.lens_radius;
     const double blur = lens * std::abs(1 - depth / camera_.focal_distance);
-    p = shrink * p - ToVec(camera_.base);
+    p = shrink * p - VecCast<double>(camera_.base);
     // In the plane of the film: p = x dx + y dy.
-    const Vec3d dx = ToVec(camera_.dx), dy = ToVec(camera_.dy);
+    const Vec3d dx = VecCast<double>(camera_.dx), dy = VecCast<double>(camera_.dy);
     const double area = dx.x * dy.y - dx.y * dy.x;
     const double pixel = std::min(Length(dx), Length(dy));
     if (area == 0 || !(pixel > 0)) return std::nullopt;

@@ -17,7 +17,6 @@ using Point = std::array<float, 3>;
 using Edge = std::array<Point, 2>;  // its ends in order, whichever way it is run through
 
 Point PointOf(const float* p) { return {p[0], p[1], p[2]}; }
-Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
 
 double Largest(const TriangleRecord& t) {
   double largest = 0;

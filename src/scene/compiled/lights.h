@@ -159,6 +159,9 @@ struct LightEmission : LightStarts {
   /// Subpaths from lights without extent may begin with a mirror: caustics that camera
   /// paths never find.
   bool delta_caustics = true;
+  /// Two for each light: the media behind its surface and before it. Empty: all start in
+  /// the camera's.
+  AlignedVector<std::int32_t> media;
 
   bool empty() const { return pmf.empty(); }
   bool Has(LightShape shape) const {

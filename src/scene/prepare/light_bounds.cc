@@ -25,8 +25,6 @@ Cone Union(const Cone& a, const Cone& b) {
   return {std::cos(turn) * wide.axis + std::sin(turn) * side, angle};
 }
 
-Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
 
 void LightBounds::Add(Vec3d p) {

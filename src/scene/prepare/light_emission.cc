@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/base/core/alias_table.h"
+#include "src/scene/prepare/light_media.h"
 
 namespace lanelight {
 namespace {
@@ -80,6 +81,11 @@ LightEmission MakeLightEmission(const CompiledScene& scene) {
     const LightRecord& light = table.lights[i];
     if (!StartsSubpaths(table, has_disk, light)) continue;
     weights[i] = table.power[i] * ShareOfPower(scene, light);
+  }
+  if (!scene.media.media.empty()) emission.media = FindLightMedia(scene, weights);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const LightRecord& light = table.lights[i];
+    if (weights[i] == 0) continue;
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;
   }

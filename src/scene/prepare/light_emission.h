@@ -1,4 +1,4 @@
-// Lights at which light subpaths start (light-paths=splats).
+// Finds lights at which light subpaths start (light-paths=splats).
 #pragma once
 
 #include "src/scene/compiled/scene.h"
@@ -7,7 +7,7 @@ namespace lanelight {
 
 /// Returns the table of lights that start light subpaths; an empty one if there are none.
 /// Excluded: portals, and infinite lights beside one; distant and infinite lights in
-/// scenes with alpha on an infinite plane.
+/// scenes with alpha on an infinite plane; lights that FindLightMedia excludes.
 LightEmission MakeLightEmission(const CompiledScene& scene);
 
 }  // namespace lanelight

@@ -12,8 +12,9 @@ namespace lanelight {
 inline constexpr std::uint32_t kMaxLightVertices = 8;
 /// Column lp_vertex: no light subpath can have found this path.
 inline constexpr std::uint32_t kNotFromLight = 0xffu;
-/// The kinds of materials whose vertices connect to the camera.
-inline constexpr std::uint32_t kSplattingKinds = kEvenSidedKinds | kGlossyKinds;
+/// The kinds of materials, and phase functions, whose vertices connect to the camera.
+inline constexpr std::uint32_t kSplattingKinds =
+    kEvenSidedKinds | kGlossyKinds | KindBits(kInMedium);
 
 /// Light that reaches the camera through one point of the film, by light subpath and
 /// vertex: entry `path * kMaxLightVertices + number - 1`.

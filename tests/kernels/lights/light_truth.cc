@@ -9,8 +9,6 @@
 namespace lanelight::test {
 namespace {
 
-Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
-
 const Environment& EnvironmentOf(const CompiledScene& scene, const LightRecord& light) {
   return scene.lights.environments[static_cast<std::size_t>(light.environment)];
 }

@@ -67,6 +67,37 @@ Translate 0 0.7 0
 Shape "sphere" "float radius" 0.7
 )";
 
+// Lights in and beside smoke that varies, and glass with a medium in it.
+constexpr char kSmokyLampsScene[] = R"(
+LookAt 0 2 -6  0 0.8 0  0 1 0
+Camera "perspective" "float fov" 40
+Film "rgb" "integer xresolution" 24 "integer yresolution" 18
+Integrator "path" "integer maxdepth" 5
+MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 2 "integer ny" 1
+  "integer nz" 2 "float density" [ 1 0.2 0.4 2 ] "rgb sigma_s" [ 1 2 3 ]
+  "point3 p0" [ -1 0 -1 ] "point3 p1" [ 1 2 1 ] "float Lescale" 1 "rgb Le" [ 0.1 0 0 ]
+MakeNamedMedium "milk" "string type" "homogeneous" "rgb sigma_s" [ 2 1 1 ]
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.2 0.3 0.5 ]
+LightSource "point" "point3 from" [ 0 1 0 ]
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [ 6 5 4 ] "bool twosided" true
+  Shape "trianglemesh" "point3 P" [ 1 3 1  2 3 1  2 3 2 ] "integer indices" [ 0 1 2 ]
+AttributeEnd
+Shape "trianglemesh" "point3 P" [ -3 0 -2  3 0 -2  3 0 3  -3 0 3 ]
+  "integer indices" [ 0 1 2 0 2 3 ]
+AttributeBegin
+  MediumInterface "smoke" ""
+  Material "interface"
+  Translate 0 1 0
+  Shape "sphere" "float radius" 0.9
+AttributeEnd
+MediumInterface "milk" ""
+Material "dielectric" "float eta" 1.5
+Translate 1.6 0.7 0
+Shape "sphere" "float radius" 0.6
+)";
+
 class Checker {
  public:
   Checker(const DeclaredCase& c, const std::string& folder)
@@ -311,6 +342,8 @@ TEST_CASE("stages touch the columns that they declare", "[plan]") {
       {kMediaScene, "points=sobol"},
       {kMediaScene, "light-candidates=resampled,pairs=antithetic"},
       {kFogScene, "points=sobol"},
+      {kFogScene, "light-paths=splats"},
+      {kSmokyLampsScene, "points=sobol,light-paths=splats"},
       {kInsideScene, "points=sobol"},
       {kInsideScene, "roulette=adjoint"},
       {kMeasuredScene, "points=sobol"},

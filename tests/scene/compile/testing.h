@@ -105,6 +105,5 @@ inline Vec3d Vertex(const TriangleRecord& t, int k) {
 inline Vec3d FaceNormal(const TriangleRecord& t) {
   return Normalize(Cross(Vertex(t, 1) - Vertex(t, 0), Vertex(t, 2) - Vertex(t, 0)));
 }
-inline Vec3d ToVec(const float* v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace lanelight
