@@ -74,6 +74,7 @@ HWY_INLINE VI SelectStart(const LightStarts& table, const StartNumbers& u) {
 HWY_INLINE Start StartAtShape(const Wave& wave, const Lights& light, VI index,
                               const StartNumbers& u) {
   EmittedFrom from = PointOf(wave, light, u.place);
+  const V3 share = ShareAtStart(wave, light, from);
   const MF second = hn::And(light.TwoSided(), hn::Lt(u.side, Splat(0.5f)));
   from.n = IfThenElse(second, -from.n, from.n);
   const V3 local = SampleCosineHemisphere(u.direction.x, u.direction.y);
@@ -81,13 +82,9 @@ HWY_INLINE Start StartAtShape(const Wave& wave, const Lights& light, VI index,
   const VF density = AreaDensity(wave, light, index), per_cosine = PerCosine(light);
   const VF area =
       hn::IfThenElseZero(hn::Gt(density, hn::Zero(DF())), hn::Div(Splat(1.0f), density));
-  V3 radiance = light.Radiance();
-  if (wave.chances->emission.has_images) {
-    radiance = Mul(radiance, ImageAtStart(wave, light, from.at));
-  }
   return {MulAdd(from.n, clearance, from.at),
           Renormalize(FrameFromNormal(from.n).FromLocal(local)),
-          radiance,
+          Mul(light.Radiance(), share),
           hn::Div(area, per_cosine),
           hn::Mul(local.z, area),
           hn::Mul(local.z, per_cosine),

@@ -1,10 +1,13 @@
-// Points of emitting shapes at which light subpaths start, uniform over the area, and the
-// image of the light there.
+// Points of emitting shapes at which light subpaths start, uniform over the area, and
+// what the light's image and the shape's alpha leave of its radiance there.
 #ifndef LANELIGHT_LIGHT_PATHS_SHAPE_POINTS_INL_H_
 #define LANELIGHT_LIGHT_PATHS_SHAPE_POINTS_INL_H_
 
 #include "kernels/lights/light_points-inl.h"
 #include "kernels/light_paths/starts-inl.h"
+#include "kernels/texture/mapping-inl.h"
+#include "kernels/texture/texture-inl.h"
+#include "src/scene/compiled/texture_table.h"
 
 LANELIGHT_BEGIN_KERNELS
 
@@ -65,8 +68,8 @@ HWY_INLINE EmittedFrom PointOf(const Wave& wave, const Lights& light, V2 u) {
   return from;
 }
 
-/// Returns the image of shapes at points `at`; 1 for lights without one.
-HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
+/// Returns the surface coordinates of shapes at points `at`.
+HWY_INLINE LightUv UvAtStart(const Wave& wave, const Lights& light, V3 at) {
   const SceneParts& scene = wave;
   LightUv uv = {Splat(0), Splat(0)};
   const auto take = [&](LightShape shape, uint32_t any, auto&& uv_of) HWY_ATTR {
@@ -90,10 +93,38 @@ HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, V3 at) {
     const LightDisk disk(scene, prim);
     return DiskUv(scene, prim, disk, at - disk.center);
   });
+  return uv;
+}
+
+/// Returns the image of shapes at points; 1 for lights without one.
+HWY_INLINE V3 ImageAtStart(const Wave& wave, const Lights& light, LightUv uv) {
   const MF has_image = hn::Gt(light.Area(), hn::Zero(DF()));
   const VI image = hn::IfThenElseZero(hn::RebindMask(DI(), has_image),
                                       light.I(offsetof(LightRecord, image)));
-  return LightImages(*scene.lights, image).Bilinear(uv.u, hn::Sub(Splat(1.0f), uv.v));
+  return LightImages(*wave.lights, image).Bilinear(uv.u, hn::Sub(Splat(1.0f), uv.v));
+}
+
+/// Returns the alpha of shapes at points: the share that rays meet.
+HWY_INLINE VF AlphaAtStart(const Wave& wave, const Lights& light, LightUv uv,
+                           const EmittedFrom& from) {
+  const MF is_shape = hn::Gt(light.Area(), hn::Zero(DF()));
+  const VI prim = hn::IfThenElseZero(hn::RebindMask(DI(), is_shape), light.Primitive());
+  const PlacedPoint at = {uv.u, uv.v, from.at, from.n};
+  const VF alpha = EvalFloats(*wave.textures, Gather(wave.alpha->texture.data(), prim),
+                              at, Gather(wave.alpha->constant.data(), prim));
+  return hn::Min(hn::Max(alpha, Splat(0)), Splat(1.0f));
+}
+
+/// Returns the share of a light's radiance that its shape sends at a point.
+HWY_INLINE V3 ShareAtStart(const Wave& wave, const Lights& light,
+                           const EmittedFrom& from) {
+  const LightEmission& emission = wave.chances->emission;
+  V3 share = Splat3(1, 1, 1);
+  if (!emission.has_images && !emission.has_cuts) return share;
+  const LightUv uv = UvAtStart(wave, light, from.at);
+  if (emission.has_images) share = ImageAtStart(wave, light, uv);
+  if (emission.has_cuts) share = Mul(share, AlphaAtStart(wave, light, uv, from));
+  return share;
 }
 
 LANELIGHT_END_KERNELS

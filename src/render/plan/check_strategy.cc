@@ -70,7 +70,6 @@ const Unsupported kWithoutLightPaths[] = {
     {{Feature::kSpectralFilm}, "Film \"spectral\""},
     {{Feature::kHair, Feature::kCurves}, "hair and curves"},
     {{Feature::kRegularizes}, "\"bool regularize\""},
-    {{Feature::kEmissionCuts}, "emitting shapes with \"alpha\""},
     {KindsWith(kWalks), "coats over rough conductors, and coats with a medium"},
 };
 

@@ -156,6 +156,7 @@ struct LightStarts {
 struct LightEmission : LightStarts {
   std::uint32_t shapes = 0;  // of those lights: a bit for each LightShape
   bool has_images = false;   // emitting shapes with an image
+  bool has_cuts = false;     // emitting shapes with alpha
   /// Subpaths from lights without extent may begin with a mirror: caustics that camera
   /// paths never find.
   bool delta_caustics = true;

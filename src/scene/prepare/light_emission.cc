@@ -79,7 +79,7 @@ LightEmission MakeLightEmission(const CompiledScene& scene) {
   std::vector<double> weights(table.lights.size(), 0.0);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const LightRecord& light = table.lights[i];
-    if (!StartsSubpaths(table, has_disk, light)) continue;
+    if (!StartsSubpaths(table, has_disk, light) || IsUnseen(scene, light)) continue;
     weights[i] = table.power[i] * ShareOfPower(scene, light);
   }
   if (!scene.media.media.empty()) emission.media = FindLightMedia(scene, weights);
@@ -88,6 +88,7 @@ LightEmission MakeLightEmission(const CompiledScene& scene) {
     if (weights[i] == 0) continue;
     emission.shapes |= 1u << light.shape;
     if (light.area > 0 && light.image != 0) emission.has_images = true;
+    if (IsCut(scene, light)) emission.has_cuts = true;
   }
   if (emission.shapes == 0) return emission;
   AliasTable chances = BuildAliasTable(weights);

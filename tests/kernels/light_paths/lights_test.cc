@@ -267,6 +267,28 @@ TEST_CASE("splats: shapes with an image", "[light_paths]") {
   CheckSame(scene);
 }
 
+// A lamp of alpha 0 shines as if it were whole, but no ray meets it.
+TEST_CASE("splats: emitting shapes with alpha", "[light_paths]") {
+  SceneBuilder b = Corner();
+  Texture holes;
+  holes.kind = TextureKind::kCheckerboard;
+  holes.is_float = true;
+  holes.mapping.su = holes.mapping.sv = 2;
+  holes.tex1.constant = Grey(1);
+  holes.tex2.constant = Grey(0.1);
+  b.scene().textures = {holes};
+  const Index black = b.AddDiffuse(Grey(0));
+  const auto lamp = [&](Rgb color) { return b.AddEmission(color, true); };
+  b.AddQuad({-0.9, 0.6, 0.9}, {0.8, 0, 0}, {0, 0, 0.8}, black, lamp({9, 7, 5}))
+      .alpha.texture = 0;
+  b.AddDisk({0.8, -0.6, 1.2}, {1, 1, 0.3}, 0.3, black, lamp({5, 7, 9})).alpha.texture = 0;
+  b.AddSphere({-0.7, -0.4, 0.4}, 0.2, black, lamp({9, 5, 9})).alpha.constant = 0.4;
+  b.AddQuad({0, 0.5, 1.6}, {0.3, 0, 0}, {0, 0.3, 0}, black, lamp({2, 2, 1}))
+      .alpha.constant = 0;
+  ReuseScene scene = Lit(b);
+  CheckSame(scene, "points=sobol", "light-paths=splats:1");
+}
+
 // Both kinds of paths see textures through the footprint of a pixel.
 TEST_CASE("splats: bump maps and filtered textures", "[light_paths]") {
   SceneBuilder b = Corner();
