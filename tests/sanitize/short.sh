@@ -62,6 +62,7 @@ render cornell-box.pbrt --resolution 41x33 --spp 4 --transport spectral \
 sed 's/^Film "rgb"/Film "spectral"/' prism.pbrt > "$out/spectra.pbrt"
 render "$out/spectra.pbrt" --resolution 41x33 --spp 4
 # Media with what else there is to paths.
+render media.pbrt --resolution 40x30 --spp 4 --strategy light-paths=splats
 render media.pbrt --resolution 40x30 --spp 4 --strategy roulette=adjoint,pairs=antithetic
 # Path reuse: tiles that are cut off, all kinds of materials.
 for layout in random compact; do
